@@ -1,4 +1,4 @@
-//! What the command line takes, for programs that offer the same verbs: every subcommand with its arguments.
+//! The arguments of every subcommand, for programs that offer the same verbs.
 
 use clap::{Arg, ArgAction, Command};
 use serde::Serialize;
@@ -8,21 +8,21 @@ use std::path::PathBuf;
 /// A verb, or a group of verbs such as `measure`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Subcommand {
-    /// Its word on the command line.
+    /// Word on the command line.
     pub name: String,
-    /// What it does, a sentence.
+    /// Description, one sentence.
     pub help: String,
-    /// What it takes; empty for a group.
+    /// Arguments; empty for a group.
     pub arguments: Vec<Argument>,
-    /// The verbs of a group.
+    /// Verbs of a group.
     pub verbs: Vec<Subcommand>,
 }
 
-/// What values of an argument are.
+/// Kind of an argument's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// Given or not.
+    /// A switch without a value.
     Switch,
     /// A whole number.
     Integer,
@@ -30,32 +30,32 @@ pub enum Kind {
     Number,
     /// A path.
     Path,
-    /// A text, or numbers that are written as one: `1,2`, `0..10`.
+    /// A text, or numbers written as one: `1,2`, `0..10`.
     Text,
 }
 
 /// An argument of a verb.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Argument {
-    /// The option without its dashes; of a value without an option its own name, in small letters.
+    /// The option without its dashes; for a positional value its own name, in lower case.
     pub name: String,
-    /// Whether it is a value without an option, in its place.
+    /// True for a positional value.
     pub positional: bool,
-    /// Whether it must be given.
+    /// True if it is required.
     pub required: bool,
-    /// Whether it may be given more than once.
+    /// True if it may be given more than once.
     pub many: bool,
-    /// Whether values that are given together are written with commas between them.
+    /// True if several values are separated by commas.
     pub listed: bool,
-    /// What its values are.
+    /// Kind of its values.
     pub kind: Kind,
-    /// What stands for its value in the help, such as `X,Y,W,H`.
+    /// Placeholder of its value in the help, such as `X,Y,W,H`.
     pub value: String,
-    /// The only words that are allowed; empty: any.
+    /// The allowed words; empty if any value is allowed.
     pub words: Vec<String>,
-    /// What stands where it is not given, as typed; `None`: the help says.
+    /// Default value, as typed; `None` if it is only described in the help.
     pub default: Option<String>,
-    /// What it means, with its unit.
+    /// Meaning, with unit.
     pub help: String,
 }
 
@@ -82,7 +82,7 @@ fn subcommands(command: &Command) -> Vec<Subcommand> {
         .collect()
 }
 
-/// Help, version, and options of the program as a whole.
+/// True for help, version, and options of the whole program.
 fn is_everywhere(argument: &Arg) -> bool {
     ["help", "version"].contains(&argument.get_id().as_str()) || argument.is_global_set()
 }

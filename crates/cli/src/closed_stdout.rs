@@ -1,8 +1,8 @@
 //! Detects a program that was started without a standard output (`>&-`).
 //!
-//! Before `main` the runtime of Rust opens `/dev/null` in the place of standard streams that are closed, so that results would be lost without an error. The only
-//! moment to look is before it: functions that the loader calls first are listed in a section of the program (ELF `.init_array`, Mach-O `__mod_init_func`).
-//! Without such a list (Windows) a closed output counts as an open one.
+//! Before `main` the Rust runtime opens `/dev/null` for closed standard streams, so that results would be lost without an error. The check must run
+//! earlier: functions that the loader calls first are listed in a section of the program (ELF `.init_array`, Mach-O `__mod_init_func`). Without such
+//! a list (Windows) a closed output counts as an open one.
 
 #[cfg(any(target_os = "linux", target_vendor = "apple"))]
 use core::ffi::c_int;
@@ -10,14 +10,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static IS_CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Returns true where there was no standard output when the program was started.
+/// Returns true if there was no standard output when the program was started.
 pub(crate) fn is_closed() -> bool {
     IS_CLOSED.load(Ordering::Relaxed)
 }
 
 #[cfg(any(target_os = "linux", target_vendor = "apple"))]
 const STDOUT: c_int = 1;
-/// Of POSIX: asks for the flags of a descriptor, -1 where there is none of that number. It is 1 on all systems of the list.
+/// POSIX command that reads the flags of a descriptor, -1 if there is none of that number. It is 1 on all systems of the list.
 #[cfg(any(target_os = "linux", target_vendor = "apple"))]
 const F_GETFD: c_int = 1;
 
@@ -31,12 +31,12 @@ unsafe extern "C" {
 #[cfg(any(target_os = "linux", target_vendor = "apple"))]
 #[allow(unsafe_code)]
 extern "C" fn look() {
-    // SAFETY: `fcntl` with F_GETFD takes no further argument, touches no memory of the program and is allowed for every number.
+    // SAFETY: `fcntl` with F_GETFD takes no further argument, accesses no memory of the program and is allowed for every number.
     let flags = unsafe { fcntl(STDOUT, F_GETFD) };
     IS_CLOSED.store(flags == -1, Ordering::Relaxed);
 }
 
-// SAFETY: the section is a list of functions of this type, which take nothing that they need.
+// SAFETY: the section is a list of functions of this type; their arguments may be ignored.
 #[cfg(any(target_os = "linux", target_vendor = "apple"))]
 #[allow(unsafe_code)]
 #[used]

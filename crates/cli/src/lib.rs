@@ -1,7 +1,7 @@
-//! The command line of Étendue as a library: the program `etendue` is [`main`]; [`call`] runs a verb for another program, which takes its answer.
-//! What verbs do is the library `etendue`.
+//! The command line of Étendue as a library: the program `etendue` is [`main`]; [`call`] runs a verb for another program, which receives its answer.
+//! The verbs call the library `etendue`.
 
-// Of the modules nothing is exported but what stands here: `pub` in them means `for the other modules`.
+// Modules export nothing except the items here: `pub` in them means `for the other modules`.
 #![allow(unreachable_pub)]
 
 mod args;
@@ -32,16 +32,16 @@ use spelling::{SpelledConsole, Spelling};
 use std::ffi::OsString;
 use verbs::Verb;
 
-/// Spectral path tracing joined to a physical camera: from a scene file to the picture that camera would have taken.
+/// Spectral path tracing joined to a physical camera: from a scene file to the image that camera would capture.
 #[derive(Debug, Parser)]
 #[command(name = "etendue", version, max_term_width = 110)]
 #[command(after_help = "Exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.\n\
     Results go to stdout, everything else to stderr. Start with: etendue render scenes/street/street.toml -o out/street")]
 struct Arguments {
-    /// What to do.
+    /// The verb.
     #[command(subcommand)]
     verb: Verb,
-    /// Move a limit on what files may cost, e.g. picture-mib=4096; docs/limits.md lists them
+    /// Raise a limit on input files, e.g. picture-mib=4096; docs/limits.md lists them
     #[arg(id = "limit", long = "limit", value_name = "NAME=N", global = true)]
     limits: Vec<String>,
 }
@@ -61,7 +61,7 @@ pub fn command() -> clap::Command {
     Arguments::command()
 }
 
-/// The program: `arguments` begin with its name. Answers with its exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.
+/// Runs the program: `arguments` begin with its name. Returns its exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     panics::quieten_decoders();
     let (arguments, spelling) = match parsed(arguments, Spelling::flags) {
@@ -79,7 +79,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// The arguments, and how the verb that they call spells their names.
+/// Parses the arguments; also returns the spelling of their names for the called verb.
 fn parsed(
     arguments: impl IntoIterator<Item = OsString>,
     spelling: fn(&clap::Command, &clap::ArgMatches) -> Spelling,
@@ -90,7 +90,7 @@ fn parsed(
     Ok((arguments, spelling(&command, &matches)))
 }
 
-/// The code of what is wrong with the arguments.
+/// Error code of wrong arguments.
 fn code_of(told: &clap::Error) -> ErrorCode {
     match told.kind() {
         ErrorKind::UnknownArgument | ErrorKind::InvalidSubcommand => ErrorCode::UnknownArgument,
@@ -100,7 +100,7 @@ fn code_of(told: &clap::Error) -> ErrorCode {
     }
 }
 
-/// Prints help, or what is wrong with the arguments, which are shown as all other text is.
+/// Prints help, or the error of the arguments, which are escaped as all other text.
 fn usage(told: &clap::Error) -> u8 {
     if told.use_stderr() {
         let code = code_of(told);
@@ -116,7 +116,7 @@ fn usage(told: &clap::Error) -> u8 {
     }
 }
 
-/// Refuses to run without a standard output, before any work, and answers with the exit status.
+/// Refuses to run without a standard output, before any work; returns the exit status.
 #[must_use]
 pub fn refuse_closed_stdout() -> u8 {
     output::print_message(
@@ -125,19 +125,19 @@ pub fn refuse_closed_stdout() -> u8 {
     2
 }
 
-/// Moves a limit on what files may cost for all of the process, `NAME=N`, as `--limit`.
+/// Changes a limit on input files for the whole process, `NAME=N`, as `--limit`.
 ///
 /// # Errors
-/// Where there is no such limit, or the number is not from 1 to its highest.
+/// There is no such limit, or the number is not from 1 to its highest value.
 pub fn set_limit(limit: &str) -> Result<(), Error> {
     limits::set(limit).map_err(|told| Error::argument("limit", format!("`limit` {limit}: {told}")))
 }
 
-/// Runs a verb: `arguments` are those after the program's name. Its answer is printed on the console. What is told names arguments as parameters: flags without
-/// dashes, in backticks.
+/// Runs a verb: `arguments` are those after the program's name. Its answer is printed on the console. Messages name arguments as parameters: flags
+/// without dashes, in backticks.
 ///
 /// # Errors
-/// Where the arguments cannot be used, and what the verb answers.
+/// The arguments cannot be used, or the verb fails.
 pub fn call(arguments: &[OsString], console: &dyn Console) -> Result<(), Error> {
     let program = OsString::from("etendue");
     let arguments = std::iter::once(&program).chain(arguments).cloned();
@@ -149,7 +149,7 @@ pub fn call(arguments: &[OsString], console: &dyn Console) -> Result<(), Error> 
     arguments.run(&SpelledConsole { console, spelling: &spelling }).map_err(|error| spelling.error(error))
 }
 
-/// 2 for unusable input or arguments, 1 where a comparison or run failed.
+/// Exit status: 2 for unusable input or arguments, 1 for a failed comparison or run.
 fn status(error: &Error) -> u8 {
     match error {
         Error::Input(_) => 2,

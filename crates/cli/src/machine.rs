@@ -1,19 +1,19 @@
-//! The machine's threads and instruction sets. They change how long a result takes, not the result.
+//! The machine's threads and instruction sets. They change the duration of a run, not the result.
 
 use crate::console::{Console, print_paths};
 use etendue::{Error, ErrorCode, Simd};
 use std::path::PathBuf;
 
-/// The variable that chooses the accelerator's instruction set: `auto` (default) or `scalar`.
+/// The environment variable that selects the accelerator's instruction set: `auto` (default) or `scalar`.
 const SIMD_VARIABLE: &str = "ETENDUE_SIMD";
 
-/// A pool of worker threads; `None` for one a processor.
+/// A pool of worker threads; `None` for one per processor.
 pub fn pool(threads: Option<u32>) -> Result<rayon::ThreadPool, Error> {
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize);
     builder.build().map_err(|error| Error::Run(format!("the worker threads cannot be started: {error}")))
 }
 
-/// Runs a task on a thread a processor, and prints the files that it wrote.
+/// Runs a task with one thread per processor, and prints the files that it wrote.
 pub fn print_written(
     console: &dyn Console,
     task: impl FnOnce() -> Result<Vec<PathBuf>, Error> + Send,
@@ -22,7 +22,7 @@ pub fn print_written(
     Ok(())
 }
 
-/// The instruction set that the environment asks for.
+/// The instruction set requested by the environment.
 pub fn simd() -> Result<Simd, Error> {
     match std::env::var(SIMD_VARIABLE).as_deref() {
         Err(_) | Ok("" | "auto") => Ok(Simd::Auto),
@@ -33,16 +33,16 @@ pub fn simd() -> Result<Simd, Error> {
     }
 }
 
-/// Processor time of all threads of this process, s; `None` where the system does not tell it.
+/// Processor time of all threads of this process, s; `None` if the system does not state it.
 pub fn processor_seconds() -> Option<f64> {
     let by_ticks = by_ticks()?;
-    // Threads that have ended are among the ticks alone, of which two may be missing.
+    // Only the ticks include threads that have ended; they may lack two ticks.
     Some(by_nanoseconds().map_or(by_ticks, |seconds| seconds.max(by_ticks - 0.02)))
 }
 
-/// By what the scheduler tells of each thread.
+/// Processor time from the scheduler's account of each thread.
 fn by_nanoseconds() -> Option<f64> {
-    // The kernel brings a thread's account up to date when it yields, otherwise only at its tick.
+    // The kernel updates a thread's account when it yields, otherwise only at its tick.
     std::thread::yield_now();
     let tasks = std::fs::read_dir("/proc/self/task").ok()?;
     let of = |task: std::io::Result<std::fs::DirEntry>| {

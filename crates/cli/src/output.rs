@@ -3,17 +3,17 @@
 use etendue::{terminal_json, terminal_text};
 use std::io::{self, Write as _};
 
-/// Results go to stdout, as text.
+/// Prints results to stdout, as text.
 pub fn print(text: &str) {
     write_results(&terminal_text(text));
 }
 
-/// Results that are one JSON document.
+/// Prints results that are one JSON document.
 pub fn print_json(document: &str) {
     write_results(&terminal_json(document));
 }
 
-/// Results that cannot be written end the program as an error, whoever is to blame: a full disk, or a reader that went away before it had all.
+/// Prints results. A failed write ends the program as an error, whatever the cause: a full disk, or a reader that closed too early.
 fn write_results(text: &str) {
     let mut out = io::stdout().lock();
     if let Err(cause) = out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -29,8 +29,8 @@ pub fn unwritten(cause: &io::Error) -> String {
     )
 }
 
-/// Everything that is no result goes to stderr.
+/// Prints everything that is no result to stderr.
 pub fn print_message(text: &str) {
-    // There is nowhere left to report a failing stderr to.
+    // There is no other place to report a failing stderr.
     let _ = io::stderr().lock().write_all(terminal_text(text).as_bytes());
 }

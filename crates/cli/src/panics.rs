@@ -1,15 +1,15 @@
-//! Faults of the program itself: a panic, on whatever thread, ends the run as an error.
+//! Internal errors of the program: a panic, on any thread, ends the run as an error.
 //!
-//! On its way a panic drops what the run holds: files that have no final name yet are removed, and the run tells what it keeps.
+//! A panic drops the objects of the run: files without a final name are removed, and the run reports the files that remain.
 
 use etendue::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What the user is told after a panic.
+/// Message after a panic.
 const FAULT: &str = "error: a fault in the program ended this run, where the lines above say; files that have their final names are whole. \
     Please report those lines with the job";
 
-/// Panics print their message, but for those of decoders, which become errors of the file.
+/// Prints the messages of panics, except those of decoders, which become errors of the file.
 pub fn quieten_decoders() {
     let print = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
@@ -19,7 +19,7 @@ pub fn quieten_decoders() {
     }));
 }
 
-/// What `run` answers; an error where it panics.
+/// Returns the result of `run`; an error if it panics.
 pub fn caught(run: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err(Error::Run(FAULT.to_owned())))
 }

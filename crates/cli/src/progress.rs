@@ -1,4 +1,4 @@
-//! Progress and messages while a task runs: bars on a terminal, elsewhere a line a minute. Ctrl-C stops by the operating system's own way.
+//! Progress and messages while a task runs: bars on a terminal, elsewhere one line per minute. Ctrl-C stops by the operating system's default.
 
 use crate::console::Console;
 use crate::output::{print, print_json, print_message};
@@ -8,11 +8,11 @@ use std::io::IsTerminal as _;
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// Draws a bar of each task on stderr where that is a terminal, or prints a line a minute; prints messages there.
+/// Draws a bar for each task on stderr if that is a terminal, or prints one line per minute; prints messages there.
 pub struct Terminal {
     bar: Mutex<Option<Bar>>,
     lines: Mutex<Lines>,
-    /// What its clock counts from.
+    /// Start of its clock.
     start: Instant,
 }
 
@@ -68,7 +68,7 @@ fn unit(unit: Unit) -> &'static str {
     }
 }
 
-/// What is worked on: "left, frame 12 (3/20)".
+/// Heading of the current work: "left, frame 12 (3/20)".
 fn heading(progress: Progress<'_>) -> String {
     let heading = terminal_text(progress.heading);
     match progress.frame {
@@ -77,19 +77,19 @@ fn heading(progress: Progress<'_>) -> String {
     }
 }
 
-/// Time from one line of progress to the next where stderr is no terminal, s.
+/// Interval between lines of progress where stderr is no terminal, s.
 const LINE_EVERY_S: f64 = 60.0;
 
-/// When lines of progress are due.
+/// Schedule of lines of progress.
 #[derive(Default)]
 struct Lines {
-    /// Total of the task, and when it began.
+    /// Total of the task, and its start.
     task: Option<(usize, f64)>,
     last_s: f64,
 }
 
 impl Lines {
-    /// The line of this progress, where one is due.
+    /// Returns the line of this progress, if one is due.
     fn due(&mut self, progress: Progress<'_>, now_s: f64) -> Option<String> {
         let (total, began_s) =
             self.task.filter(|(total, _)| *total == progress.total).unwrap_or((progress.total, now_s));
@@ -133,7 +133,7 @@ impl Observer for Terminal {
             line.iter().for_each(|line| print_message(line));
             return;
         }
-        // A thread that panicked while it drew leaves nothing half-done here.
+        // A thread that panicked while drawing leaves no inconsistent state here.
         let mut task = self.bar.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if task.as_ref().is_some_and(|task| task.total != progress.total) {
             task.take().iter().for_each(|task| task.bar.finish_and_clear());

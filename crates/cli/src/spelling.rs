@@ -1,5 +1,5 @@
-//! Spelling of the names of arguments in messages and reports: the library writes a field of a request in backticks, `` `time_s` ``; the program writes
-//! the flag, `--time`, a program that calls a verb its parameter, `` `time` ``.
+//! Spelling of the names of arguments in messages and reports: the library writes a field of a request in backticks, `` `time_s` ``; the program
+//! writes the flag, `--time`, a program that calls a verb its parameter, `` `time` ``.
 
 use crate::console::Console;
 use clap::{ArgMatches, Command};
@@ -11,17 +11,17 @@ use std::collections::BTreeMap;
 pub(crate) struct Spelling(BTreeMap<String, String>);
 
 impl Spelling {
-    /// As flags of the command line.
+    /// Spells arguments as flags of the command line.
     pub(crate) fn flags(command: &Command, matches: &ArgMatches) -> Self {
         Self::new(command, matches, &|flag| format!("--{flag}"))
     }
 
-    /// As parameters of functions, in backticks.
+    /// Spells arguments as parameters of functions, in backticks.
     pub(crate) fn parameters(command: &Command, matches: &ArgMatches) -> Self {
         Self::new(command, matches, &|flag| format!("`{}`", flag.replace('-', "_")))
     }
 
-    /// Arguments of the verb that was called go before those of others.
+    /// Creates the spelling. Arguments of the called verb take precedence over those of others.
     fn new(command: &Command, matches: &ArgMatches, written: &dyn Fn(&str) -> String) -> Self {
         let mut spelling = Self(BTreeMap::new());
         spelling.add_all(command, written);
@@ -47,7 +47,7 @@ impl Spelling {
         }
     }
 
-    /// A text with the names of arguments spelled.
+    /// Returns a text with the names of arguments spelled.
     pub(crate) fn text<'a>(&self, text: &'a str) -> Cow<'a, str> {
         if !text.contains('`') {
             return Cow::Borrowed(text);
@@ -73,7 +73,7 @@ impl Spelling {
         Cow::Owned(spelled)
     }
 
-    /// An error with the names of arguments spelled; its fields are the names alone.
+    /// Returns an error with the names of arguments spelled; its fields are only the names.
     pub(crate) fn error(&self, error: Error) -> Error {
         let field = |field: String| match self.0.get(&field) {
             Some(written) => written.trim_matches('`').to_owned(),
@@ -93,7 +93,7 @@ impl Spelling {
     }
 }
 
-/// A console whose messages have the names of arguments spelled, and which spells them in texts of the library.
+/// A console that spells the names of arguments in its messages and in texts of the library.
 pub(crate) struct SpelledConsole<'a> {
     pub(crate) console: &'a dyn Console,
     pub(crate) spelling: &'a Spelling,

@@ -1,7 +1,7 @@
 //! Closed lists of subcommands.
 
-/// A closed list of subcommands, each a line of help and the arguments, which run themselves
-/// (`run(&self, &dyn Console) -> Result<(), Error>`): yields the enum that clap parses, and its dispatch.
+/// A closed list of subcommands, each a line of help and the arguments, which run themselves (`run(&self, &dyn Console) -> Result<(), Error>`):
+/// generates the enum that clap parses, and its dispatch.
 macro_rules! subcommands {
     ($(#[$about:meta])* $List:ident: $($(#[$help:meta])* $Name:ident($Arguments:ty),)*) => {
         $(#[$about])*
@@ -11,7 +11,7 @@ macro_rules! subcommands {
         }
 
         impl $List {
-            /// Does what the arguments ask for, and prints it.
+            /// Runs the subcommand, and prints its answer.
             pub fn run(&self, console: &dyn $crate::console::Console) -> Result<(), etendue::Error> {
                 match self {
                     $(Self::$Name(arguments) => arguments.run(console),)*

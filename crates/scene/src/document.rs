@@ -1,4 +1,4 @@
-//! A TOML text as a tree whose every value knows its place.
+//! A TOML text as a tree whose values know their places.
 
 use std::borrow::Cow;
 use std::num::IntErrorKind;
@@ -19,20 +19,20 @@ pub(crate) struct Node {
     pub(crate) value: Value,
 }
 
-/// What a file can say.
+/// A value of a file.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     Flag(bool),
     Whole(i64),
     Number(f64),
     Text(String),
-    /// A day or a time, as it is written.
+    /// A date or a time, as written.
     Moment(String),
     List(Vec<Node>),
     Table(Table),
-    /// TOML that no key of ours takes: its name.
+    /// A TOML value that no key accepts: its type.
     Foreign(&'static str),
-    /// What a file that could not be read would have said; the fault is noted where the file is named.
+    /// Placeholder of a file that could not be read; the error is reported where the file is named.
     Unreadable,
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct Table {
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
     pub(crate) key: String,
-    /// Where the key stands (the value stands to its right).
+    /// Place of the key (the value follows to its right).
     pub(crate) place: Place,
     pub(crate) node: Node,
 }
@@ -60,7 +60,7 @@ impl Table {
         self.entries.iter_mut().find(|e| e.key == key).map(|e| &mut e.node)
     }
 
-    /// Takes an entry out.
+    /// Removes an entry.
     pub(crate) fn remove(&mut self, key: &str) -> Option<Entry> {
         let index = self.entries.iter().position(|e| e.key == key)?;
         Some(self.entries.remove(index))
@@ -68,7 +68,7 @@ impl Table {
 }
 
 impl Node {
-    /// What it is, in words.
+    /// Description, in words.
     pub(crate) fn describe(&self) -> String {
         match &self.value {
             Value::Flag(v) => v.to_string(),
@@ -111,16 +111,16 @@ impl Node {
         }
     }
 
-    /// The `name` of a table that has one.
+    /// The `name` of a table, if any.
     pub(crate) fn name(&self) -> Option<&str> {
         self.as_table()?.get("name")?.as_text()
     }
 }
 
-/// How many syntax faults of a file are told: what follows the first is often its consequence.
+/// Maximum number of syntax errors reported per file: those after the first are often its consequence.
 const SYNTAX_FAULTS: usize = 3;
 
-/// Gives the tree of a file's text; notes its first syntax faults.
+/// Parses a file's text to its tree; reports its first syntax errors.
 pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
     let (table, mut errors) = DeTable::parse_recoverable(text);
     errors.sort_by_key(|error| error.span().map_or(0, |s| s.start));
@@ -138,14 +138,14 @@ pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
     Node { place: Place::file_head(file.clone()), value: Value::Table(table) }
 }
 
-/// Gives the tree of the value of an override, all of it at the place of the override; `None` where it is no TOML value.
+/// Parses the value of an override, with the place of the override throughout; `None` if it is no TOML value.
 pub(crate) fn parse_override(value: &str, key: &str, place: &dyn Fn(&Arc<str>) -> Place) -> Option<Node> {
     let parsed = DeValue::parse(value).ok()?;
     let builder = Builder { spots: Spots::Override(place) };
     Some(builder.node(parsed, &key.into()))
 }
 
-/// Where byte offsets are.
+/// Conversion of byte offsets to places.
 enum Spots<'a> {
     File {
         file: Arc<Path>,
@@ -171,7 +171,7 @@ struct Builder<'a> {
     spots: Spots<'a>,
 }
 
-// Values are taken apart as they are read: a large file is held once, as text, and once, as a tree.
+// Values are consumed as they are read: a large file is held once as text and once as a tree.
 impl Builder<'_> {
     fn node(&self, value: Spanned<DeValue<'_>>, key: &Arc<str>) -> Node {
         let place = self.spots.place(value.span().start, key);

@@ -1,8 +1,8 @@
-//! What a file may cost: every limit that a user can raise, in one list.
+//! Limits of input files: every limit that a user can raise, in one list.
 //!
-//! Limits keep a small or damaged file from filling the memory, and a mistake from running for hours. They belong to the process, as its memory does:
-//! the command line raises them (`--limit NAME=N`), descriptions cannot, so that a service can run foreign jobs. Readers of this crate and of
-//! `etendue_io` look at them; docs/limits.md is their page, with what cannot be raised.
+//! Limits prevent a small or damaged file from filling the memory, and a mistake from running for hours. They belong to the process, as its memory
+//! does: the command line raises them (`--limit NAME=N`), descriptions cannot, so that a service can run untrusted jobs. Readers of this crate and of
+//! `etendue_io` apply them; docs/limits.md is their page, with the limits that cannot be raised.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -12,21 +12,21 @@ use crate::suggest::nearest;
 /// A limit.
 #[derive(Debug)]
 pub struct Limit {
-    /// Its name on the command line; it ends in the unit of a size.
+    /// Name on the command line; it ends in the unit of a size.
     pub name: &'static str,
-    /// What it limits, in words.
+    /// Limited quantity, in words.
     pub about: &'static str,
-    /// Where it stands unless it is raised.
+    /// Default value.
     pub default: u64,
-    /// The highest that it can be raised to.
+    /// Highest value to which it can be raised.
     pub highest: u64,
-    /// Where it stands; 0: at its default.
+    /// Raised value; 0 for the default.
     raised: AtomicU64,
 }
 
 const MIB: u64 = 1 << 20;
 
-/// Sizes of files that describe: a byte of them may take 256 in memory, as a tree of values that know their places.
+/// Sizes of description files: a byte may take 256 in memory, as a tree of values that know their places.
 pub static DESCRIPTION: Limit = Limit::new(
     "description-mib",
     "MiB of a file that describes: jobs, scenes, cameras, weather, data sheets, material libraries, lamps, lenses, calibrations, side-cars, descriptors",
@@ -38,7 +38,7 @@ pub static DESCRIPTION: Limit = Limit::new(
 pub static FILE: Limit =
     Limit::new("file-mib", "MiB of any other file: meshes, pictures, spectra, tables, trajectories", 8192, 1 << 20);
 
-/// What pictures unpack to.
+/// Unpacked size of images.
 pub static PICTURE: Limit = Limit::new(
     "picture-mib",
     "MiB that a picture may unpack to, where that is more than 8 times its file: its numbers as they are kept, 1 to 4 bytes each",
@@ -50,7 +50,7 @@ pub static PICTURE: Limit = Limit::new(
 pub static CORNERS: Limit =
     Limit::new("mesh-corners", "corners of all faces of a mesh together", 1 << 28, u32::MAX as u64);
 
-/// What meshes unpack to whose nodes repeat them, and scenes that are imported.
+/// Unpacked size of meshes with repeated nodes, and of imported scenes.
 pub static MESH: Limit = Limit::new(
     "mesh-mib",
     "MiB that a glTF file may unpack to on its way to a mesh: nodes may show a mesh many times, primitives share vertices, materials pictures; that a layer of a USD stage may unpack to, and the tree of its values; text of a pbrt scene with what it includes; what is written of a scene of pbrt, Mitsuba or USD",
@@ -58,7 +58,7 @@ pub static MESH: Limit = Limit::new(
     1 << 20,
 );
 
-/// Files in a row that build on one another.
+/// Length of a chain of files that extend one another.
 pub static BASES: Limit = Limit::new("bases", "files that are built one on the other by \"base\"", 16, 64);
 
 /// Sizes of folders of tiles.
@@ -69,7 +69,7 @@ pub static TEXTURE_CACHE: Limit = Limit::new(
     1 << 20,
 );
 
-/// All of them.
+/// All limits.
 pub static ALL: [&Limit; 7] = [&DESCRIPTION, &FILE, &PICTURE, &CORNERS, &MESH, &BASES, &TEXTURE_CACHE];
 
 impl Limit {
@@ -77,7 +77,7 @@ impl Limit {
         Self { name, about, default, highest, raised: AtomicU64::new(0) }
     }
 
-    /// Where it stands, in its unit.
+    /// Current value, in its unit.
     #[must_use]
     pub fn most(&self) -> u64 {
         match self.raised.load(Ordering::Relaxed) {
@@ -86,19 +86,19 @@ impl Limit {
         }
     }
 
-    /// Where a limit in MiB stands, bytes.
+    /// Current value of a limit in MiB, bytes.
     #[must_use]
     pub fn most_bytes(&self) -> u64 {
         self.most().saturating_mul(MIB)
     }
 
-    /// Where to raise it to, for what needs more than `number` and is not known to the end: twice as much, or to its highest.
+    /// Suggested value for a need of more than `number`, where the exact need is unknown: twice as much, or the highest.
     #[must_use]
     pub fn next(&self, number: u64) -> u64 {
         if number < self.highest { number.saturating_mul(2).min(self.highest) } else { u64::MAX }
     }
 
-    /// How to go beyond it, for what needs this much in its unit: the end of a message. What is beyond the highest cannot be read.
+    /// End of a message: how to exceed the limit for a need in its unit. A need beyond the highest value cannot be met.
     #[must_use]
     pub fn remedy(&self, needed: u64) -> String {
         match needed <= self.highest {
@@ -107,16 +107,16 @@ impl Limit {
         }
     }
 
-    /// [`remedy`](Self::remedy) of a limit in MiB, for what needs this many bytes.
+    /// [`remedy`](Self::remedy) of a limit in MiB, for a need in bytes.
     #[must_use]
     pub fn remedy_bytes(&self, needed: u128) -> String {
         self.remedy(u64::try_from(needed.div_ceil(u128::from(MIB))).unwrap_or(u64::MAX))
     }
 
-    /// Refuses what would unpack to more than a limit in MiB: what is wrong, and what to do.
+    /// Refuses content that would unpack to more than a limit in MiB, with problem and remedy.
     ///
     /// # Errors
-    /// Where it is beyond.
+    /// The size exceeds the limit.
     pub fn check_unpacked(&self, bytes: u64) -> Result<(), Problem> {
         if bytes <= self.most_bytes() {
             return Ok(());
@@ -126,10 +126,10 @@ impl Limit {
         Err(Problem::new(ErrorCode::TooLarge, words))
     }
 
-    /// Refuses a file whose size is beyond a limit in MiB: what is wrong, and what to do.
+    /// Refuses a file whose size exceeds a limit in MiB, with problem and remedy.
     ///
     /// # Errors
-    /// Where it is beyond.
+    /// The size exceeds the limit.
     pub fn check_size(&self, bytes: u64) -> Result<(), Problem> {
         if bytes <= self.most_bytes() {
             return Ok(());
@@ -143,10 +143,10 @@ impl Limit {
     }
 }
 
-/// Moves a limit for all of the process: `NAME=N`.
+/// Changes a limit for the whole process: `NAME=N`.
 ///
 /// # Errors
-/// Where there is no such limit, or the number is not from 1 to its highest.
+/// There is no such limit, or the number is not from 1 to its highest value.
 pub fn set(text: &str) -> Result<(), String> {
     let names = ALL.map(|limit| limit.name);
     let (name, number) = text.split_once('=').ok_or_else(|| format!("expected NAME=N, one of {}", names.join(", ")))?;

@@ -3,10 +3,10 @@
 /// Bytes from one mark to the next.
 const STRIDE: usize = 128;
 
-/// Lines and columns of a text's offsets, found in time that does not depend on how long its lines are.
+/// Lines and columns of a text's offsets, found in a time independent of line length.
 pub(crate) struct LineIndex<'t> {
     text: &'t str,
-    /// Where lines begin.
+    /// Offsets of line starts.
     starts: Vec<usize>,
     /// Characters that begin before each multiple of [`STRIDE`].
     marks: Vec<usize>,
@@ -30,7 +30,7 @@ impl<'t> LineIndex<'t> {
         (saturating_u32(line), saturating_u32(column))
     }
 
-    /// Characters that begin before the byte `offset`.
+    /// Number of characters that begin before the byte `offset`.
     fn before(&self, offset: usize) -> usize {
         let offset = offset.min(self.text.len());
         let nearest = (offset / STRIDE).min(self.marks.len().saturating_sub(1));
@@ -39,7 +39,7 @@ impl<'t> LineIndex<'t> {
     }
 }
 
-/// How many characters of UTF-8 begin in `bytes`.
+/// Number of UTF-8 characters that begin in `bytes`.
 fn characters(bytes: &[u8]) -> usize {
     bytes.iter().filter(|b| (**b & 0xc0) != 0x80).count()
 }
@@ -66,7 +66,7 @@ mod tests {
         assert_eq!(LineIndex::new("ab").line_column(99), (1, 3), "past the end is the end");
     }
 
-    /// Counting from the head of the line would take 10¹³ steps here.
+    /// Counting from the start of the line would take 10¹³ steps here.
     #[test]
     fn a_long_line_is_as_quick_as_many_short_ones() {
         let text = "x".repeat(4_000_000);

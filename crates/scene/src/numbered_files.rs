@@ -1,9 +1,9 @@
-//! Names of numbered files: a pattern with `%d` or `%03d` in the place of the number.
+//! Names of numbered files: a pattern with `%d` or `%03d` for the number.
 
 use std::path::{Path, PathBuf};
 
-/// Where the number stands in the name of numbered files: what is before it, its digits (0 for as many as it has), what is behind it.
-/// `None` unless there is one such place.
+/// Splits the name of numbered files: text before the number, its digits (0 for as many as needed), text behind it. `None` unless there is exactly
+/// one number.
 pub(crate) fn parts(name: &str) -> Option<(&str, usize, &str)> {
     let (before, rest) = name.split_once('%')?;
     let (digits, behind) = rest.split_once('d')?;

@@ -1,10 +1,9 @@
 //! Overrides: `--set key=value`, applied to the documents before they are checked.
 //!
-//! The key is a dotted path as the description would have it. An entry of a list is called by its name or its number
-//! (from 0): `cameras.front.sensor.exposure_s=0.01`, `scene.objects.2.material=red`. Referenced files are reached
-//! through the key that names them. The value is TOML; what is no TOML value is taken as a text, so that
-//! `scene=other.toml` needs no quotes. `null`, which TOML does not have, takes the key, or the entry of a list, out:
-//! `cameras.front.effects.psf=null`.
+//! The key is a dotted path of the description. An entry of a list is addressed by its name or its number (from 0):
+//! `cameras.front.sensor.exposure_s=0.01`, `scene.objects.2.material=red`. Referenced files are reached through the key that names them. The value is
+//! TOML; other text is read as a string, so that `scene=other.toml` needs no quotes. `null`, which TOML does not have, removes the key or the entry
+//! of a list: `cameras.front.effects.psf=null`.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -25,12 +24,12 @@ pub struct Overrides {
 #[derive(Clone, Debug)]
 struct Text {
     text: Arc<str>,
-    /// Where a file states it; `None`: it is of the command line.
+    /// Place in the file that states it; `None` for the command line.
     by: Option<Arc<Place>>,
 }
 
 impl Text {
-    /// Of a key of `file` that it changes.
+    /// Place of a key of `file` that it changes.
     fn place(&self, file: &Path, key: &str) -> Place {
         match &self.by {
             Some(by) => Place::change(file.into(), by.clone(), key.into()),
@@ -64,7 +63,7 @@ enum FlagTable {
 }
 
 impl Overrides {
-    /// From `key=value` texts; they are looked at when the description is loaded.
+    /// Creates overrides from `key=value` texts; they are checked when the description is loaded.
     pub fn new<S: AsRef<str>>(texts: impl IntoIterator<Item = S>) -> Self {
         Self { texts: texts.into_iter().map(|t| t.as_ref().into()).collect(), flags: Vec::new() }
     }
@@ -74,13 +73,12 @@ impl Overrides {
         self.texts.push(text.into());
     }
 
-    /// The same of a change that a file of changes states at `by`, where its faults are told.
+    /// Adds a change that a file of changes states at `by`, where its errors are reported.
     pub fn push_stated(&mut self, text: &str, by: &Place) {
         self.texts.push(Text { text: text.into(), by: Some(Arc::new(by.clone())) });
     }
 
-    /// Sets `key` of `[render]` for all cameras, over what files and the other changes say; faults are told of the flag of
-    /// the command line `text`.
+    /// Sets `key` of `[render]` for all cameras, over files and the other changes. Errors are reported at the flag `text` of the command line.
     pub fn push_render(&mut self, text: &str, key: &'static str, value: &str) {
         self.flags.push(Flag { table: FlagTable::Render, key, value: value.to_owned(), text: text.into() });
     }
@@ -90,7 +88,7 @@ impl Overrides {
         self.flags.push(Flag { table: FlagTable::Sensors, key, value: value.to_owned(), text: text.into() });
     }
 
-    /// Applies those that say which files are read (`early`), or the others.
+    /// Applies the changes that select files to read (`early`), or the others.
     pub(crate) fn apply(&self, document: &mut Node, early: bool, faults: &mut Faults) {
         for text in &self.texts {
             let change = Change::parse(text);
@@ -179,10 +177,10 @@ fn note_no_pair(document: &Node, text: &Text, faults: &mut Faults) {
     );
 }
 
-/// The value that takes a key out.
+/// The value that removes a key.
 const REMOVED: &str = "null";
 
-/// Parts that a key may have: as deep as the TOML reader follows tables. No description comes near.
+/// Maximum number of parts of a key: the nesting depth of the TOML reader. No description comes near it.
 const DEEPEST: usize = 80;
 
 fn note_too_deep(document: &Node, text: &Text, parts: usize, faults: &mut Faults) {
@@ -206,12 +204,12 @@ impl<'t> Change<'t> {
         whole.then_some(Self { text, path, value: value.trim() })
     }
 
-    /// Whether the change says which file is read.
+    /// True if the change selects a file to read.
     fn names_file(&self) -> bool {
         matches!(self.path.as_slice(), ["scene"] | ["cameras", _, "file"])
     }
 
-    /// The path in the document, where the tree of a camera's file stands under "file".
+    /// Path in the document, where the tree of a camera's file is stored under "file".
     fn path_through_files(&self, document: &Node) -> Vec<&'t str> {
         let mut path = self.path.clone();
         if let ["cameras", camera, "lens" | "sensor" | "isp" | "external_optics" | "effects", ..] = self.path.as_slice()
@@ -233,7 +231,7 @@ impl<'t> Change<'t> {
         if self.value == REMOVED { self.take_out(node, last, faults) } else { self.put(node, last, faults) }
     }
 
-    /// Takes the entry `last` out of `node`; one that is not there is a fault.
+    /// Removes the entry `last` from `node`; reports an error if it is absent.
     fn take_out(&self, node: &mut Node, last: &str, faults: &mut Faults) {
         let place = self.text.place(node.place.file(), &join(&node.place.key(), last));
         let parent = node.place.key().into_owned();
@@ -262,7 +260,7 @@ impl<'t> Change<'t> {
         );
     }
 
-    /// The entry `part` of `node`; a table that is not there yet is made.
+    /// Returns the entry `part` of `node`; an absent table is created.
     fn step<'n>(&self, node: &'n mut Node, part: &str, faults: &mut Faults) -> Option<&'n mut Node> {
         let parent = node.place.key().into_owned();
         let place = self.text.place(node.place.file(), &join(&parent, part));
@@ -309,7 +307,7 @@ impl<'t> Change<'t> {
     }
 }
 
-/// Whether the camera has its lens, sensor and processing in a file.
+/// True if the camera has its lens, sensor and processing in a file.
 fn is_in_file(document: &Node, camera: &str) -> bool {
     let cameras = document.as_table().and_then(|job| job.get("cameras")).map_or(&[][..], Node::as_list);
     let entry = find_entry(cameras, camera).and_then(|i| cameras[i].as_table());
@@ -317,7 +315,7 @@ fn is_in_file(document: &Node, camera: &str) -> bool {
     file.is_some_and(|file| matches!(file.value, Value::Table(_) | Value::Unreadable))
 }
 
-/// The number of the entry of that name or number.
+/// Index of the entry with that name or number.
 fn find_entry(list: &[Node], part: &str) -> Option<usize> {
     let by_name = list.iter().position(|n| n.name() == Some(part));
     by_name.or_else(|| part.parse().ok().filter(|i| *i < list.len()))

@@ -1,4 +1,4 @@
-//! Where a value stands: file, line, column and key, or the override that set it.
+//! Place of a value: file, line, column and key, or the override that set it.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,16 +6,16 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
-/// Where a value or a fault stands.
+/// Place of a value or an error.
 ///
-/// Displays as `file:line:column: key`, and as `--set key=value` or the flag as typed for a value given on the command line. A value that a file
-/// of changes sets has that file's line and the key that it changes.
+/// Displays as `file:line:column: key`, and as `--set key=value` or the flag as typed for a value given on the command line. A value set by a file of
+/// changes has the line in that file and the key that it changes.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     file: Arc<Path>,
     spot: Spot,
     key: Arc<str>,
-    /// Of a value in the list `key`: which, from 0. So the values of a long list share one text.
+    /// Index of a value in the list `key`, from 0. This allows the values of a long list to share one text.
     element: Option<u32>,
 }
 
@@ -27,13 +27,13 @@ enum Spot {
     },
     Set(Arc<str>),
     Flag(Arc<str>),
-    /// A change that another file states: where.
+    /// A change that another file states, with its place.
     Change(Arc<Place>),
     Unstated,
 }
 
 impl Place {
-    /// Of what no file states: a record that a program made.
+    /// Place of a value in no file: of a record that a program made.
     #[must_use]
     pub fn unstated() -> Self {
         static UNSTATED: LazyLock<Place> = LazyLock::new(|| Place {
@@ -45,7 +45,7 @@ impl Place {
         UNSTATED.clone()
     }
 
-    /// Whether a file or the command line states it.
+    /// True if a file or the command line states the value.
     #[must_use]
     pub fn is_stated(&self) -> bool {
         self.spot != Spot::Unstated
@@ -82,7 +82,7 @@ impl Place {
         Self { element: Some(index), ..self }
     }
 
-    /// Whether the command line says it, by an override, a flag or a file of changes.
+    /// True if the command line states it, by an override, a flag or a file of changes.
     #[must_use]
     pub fn is_command_line(&self) -> bool {
         matches!(self.spot, Spot::Set(_) | Spot::Flag(_) | Spot::Change(_))
@@ -94,7 +94,7 @@ impl Place {
         &self.file
     }
 
-    /// The file that [`line_column`](Self::line_column) is of: the one that states the value.
+    /// The file to which [`line_column`](Self::line_column) refers: the one that states the value.
     #[must_use]
     pub fn stating_file(&self) -> &Path {
         match &self.spot {
@@ -103,7 +103,7 @@ impl Place {
         }
     }
 
-    /// The dotted key; empty for the file as a whole. Entries with a name are called by it: `cameras.front.lens`.
+    /// The dotted key; empty for the file as a whole. Named entries appear by name: `cameras.front.lens`.
     #[must_use]
     pub fn key(&self) -> Cow<'_, str> {
         match self.element {
@@ -112,7 +112,7 @@ impl Place {
         }
     }
 
-    /// Line and column, both from 1; `None` for an override and for what no file states.
+    /// Line and column, both from 1; `None` for an override and for values in no file.
     #[must_use]
     pub fn line_column(&self) -> Option<(u32, u32)> {
         match self.spot {
@@ -122,7 +122,7 @@ impl Place {
         }
     }
 
-    /// `path` as meant at this place: relative to the file.
+    /// Resolves `path` at this place: relative to the file.
     #[must_use]
     pub fn resolve(&self, path: &Path) -> PathBuf {
         self.file.parent().unwrap_or(Path::new("")).join(path)
@@ -146,7 +146,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// The override as typed; of a long one the first 160 characters.
+/// Writes the override as typed; of a long one the first 160 characters.
 fn write_set(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     const SHOWN: usize = 160;
     match text.char_indices().nth(SHOWN) {
@@ -155,30 +155,30 @@ fn write_set(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     }
 }
 
-/// A value and where it stands. Equality looks at the value only.
+/// A value and its place. Equality ignores the place.
 #[derive(Clone, Debug)]
 pub struct Placed<T> {
     /// The value.
     pub value: T,
-    /// Where it stands.
+    /// Place of the value.
     pub place: Place,
 }
 
 impl<T> Placed<T> {
-    /// `value` at `place`.
+    /// Creates `value` at `place`.
     #[must_use]
     pub fn new(value: T, place: Place) -> Self {
         Self { value, place }
     }
 
-    /// Another value at the same place.
+    /// Converts the value and keeps the place.
     pub fn map<U>(self, f: impl FnOnce(T) -> U) -> Placed<U> {
         Placed { value: f(self.value), place: self.place }
     }
 }
 
 impl<T> From<T> for Placed<T> {
-    /// A value that no file states.
+    /// A value in no file.
     fn from(value: T) -> Self {
         Self::new(value, Place::unstated())
     }

@@ -1,4 +1,4 @@
-//! JSON Schema of the files, for editors; made of the same rules that read them.
+//! JSON Schema of the files, for editors; derived from the same rules that read them.
 
 use serde_json::{Value as Json, json};
 
@@ -10,24 +10,24 @@ use crate::record::{Camera, DataSheet, Job, Laboratory, Scene};
 /// The kinds of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// What is seen.
+    /// Scene.
     Scene,
     /// Lens, sensor, processing.
     Camera,
-    /// What is rendered.
+    /// Job.
     Job,
-    /// What a camera's maker measured after EMVA 1288.
+    /// Data sheet of a camera's maker after EMVA 1288.
     DataSheet,
-    /// What is laid over stored radiance.
+    /// Weather for stored radiance.
     Weather,
-    /// What differs from sample to sample of a data set.
+    /// Differences between the samples of a data set.
     Variations,
-    /// What is known of a laboratory folder beside its pictures.
+    /// Facts about a laboratory folder that its images do not contain.
     Laboratory,
 }
 
-/// The JSON Schema (draft 2020-12) of a kind of file. That of jobs, scenes and cameras is a choice: a file with a `base` ("then")
-/// may leave out what the base says, all others ("else") are whole.
+/// Returns the JSON Schema (draft 2020-12) of a kind of file. For jobs, scenes and cameras it is a choice: a file with a `base` ("then") may omit
+/// keys of the base, all others ("else") are complete.
 #[must_use]
 pub fn schema(kind: FileKind) -> Json {
     match kind {
@@ -41,7 +41,7 @@ pub fn schema(kind: FileKind) -> Json {
     }
 }
 
-/// A file that builds on no other.
+/// A file that extends no other.
 fn unbased<T: Record>(title: &str) -> Json {
     let mut schema = whole::<T>();
     head(&mut schema, title);
@@ -53,7 +53,7 @@ fn head(schema: &mut Json, title: &str) {
     schema["title"] = json!(title);
 }
 
-/// A file that is whole, or builds on another.
+/// A file that is complete, or extends another.
 fn based<T: Record>(title: &str) -> Json {
     let mut schema = json!({ "if": { "required": ["base"] }, "then": derived::<T>(), "else": whole::<T>() });
     head(&mut schema, title);
@@ -70,7 +70,7 @@ fn whole<T: Record>() -> Json {
     schema
 }
 
-/// A file that is laid over another: any part of it may be missing, so only the names of its keys are told.
+/// A file merged over another: any part of it may be missing, so only the names of its keys are given.
 fn derived<T: Record>() -> Json {
     let base = "The path of a file of this kind, over which this one is laid.";
     let removed = "Dotted keys of entries that are taken out of the base: \"environment\", \"lights.sun\".";

@@ -1,14 +1,13 @@
-//! The nearest legal word to a misspelt one.
+//! The nearest valid word to a misspelt one.
 
-/// The word nearest to `found` (optimal string alignment distance), if it is near enough to be meant: at most a third
-/// of its letters and one differ. Capitals count as small letters.
+/// Returns the word nearest to `found` (optimal string alignment distance), if at most a third of its letters and one differ. Case is ignored.
 pub(crate) fn nearest<'w>(found: &str, words: &[&'w str]) -> Option<&'w str> {
     let found = found.to_lowercase();
     let scored = words.iter().map(|w| (distance(&found, &w.to_lowercase()), *w));
     scored.filter(|(d, w)| *d <= w.chars().count() / 3 + 1).min_by_key(|(d, _)| *d).map(|(_, w)| w)
 }
 
-/// How many insertions, deletions, substitutions and swaps of neighbours turn `a` into `b`.
+/// Number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`.
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];

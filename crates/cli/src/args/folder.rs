@@ -1,16 +1,16 @@
-//! The folder for results.
+//! The folder of results.
 
 use clap::Args;
 use etendue::Existing;
 use std::path::{Path, PathBuf};
 
-/// Where results go.
+/// Folder of the results.
 #[derive(Debug, Args)]
 pub struct Output {
-    /// Folder for the results; made where missing
+    /// Folder for the results; created if missing
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// Replace results that are already there
+    /// Replace existing results
     #[arg(long)]
     pub overwrite: bool,
 }
@@ -21,7 +21,7 @@ impl Output {
         &self.output
     }
 
-    /// Returns what becomes of results that are already there.
+    /// Returns the treatment of existing results.
     pub fn existing(&self) -> Existing {
         if self.overwrite { Existing::Replace } else { Existing::Refuse }
     }

@@ -7,39 +7,38 @@ use etendue::{Error, FilmMemory, Job, JobRequest, Message, TextureMemory};
 use etendue_arguments::whole;
 use std::path::PathBuf;
 
-/// A job file and what the command line changes in it.
+/// A job file and its overrides on the command line.
 #[derive(Debug, Args)]
 pub struct JobArgs {
     #[command(flatten)]
     pub request: JobRequest,
-    /// Refuse every file outside the folder of the job, whoever names it and through whatever link: for the jobs of others (docs/limits.md)
+    /// Refuse every file outside the folder of the job, whichever file names it and through any link: for untrusted jobs (docs/limits.md)
     #[arg(long)]
     pub sandboxed: bool,
-    /// With --sandboxed: files may lie in this folder, too
+    /// With --sandboxed: also allow files in this folder
     #[arg(long, value_name = "DIR", requires = "sandboxed")]
     pub allow_outside: Vec<PathBuf>,
-    /// Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result
-    /// does not depend on it
+    /// Memory of textures. If they need more, large ones are stored as tiles on disk and read on demand. The result does not depend on it
     #[arg(id = "texture_memory_mb", long = "texture-memory", value_name = "MB", value_parser = whole(1..=1 << 20), default_value = "512")]
     pub texture_memory: u32,
-    /// The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache]
+    /// Folder of these tiles, reused by later runs [default: etendue in $XDG_CACHE_HOME, else in ~/.cache]
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
-    /// Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and
-    /// files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it
+    /// Memory of the bands of one film: means and variances, 8 bytes per pixel and band. Larger films are stored in a scratch file on disk; files,
+    /// effects and electrons are then computed from it some rows or one band at a time. The result does not depend on it
     #[arg(id = "film_memory_mb", long = "film-memory", value_name = "MB", value_parser = whole(1..=1 << 20), default_value = "2048")]
     pub film_memory: u32,
-    /// Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what
-    /// the process, its control group and the machine have free]
+    /// Memory limit of the run, without the program itself; a run with a higher estimate is refused before its first sample. 0: no check [default:
+    /// the free memory of the process, its control group and the machine]
     #[arg(id = "memory_mb", long = "memory", value_name = "MB", value_parser = whole(0..=1 << 24))]
     pub memory: Option<u32>,
-    /// The folder of these scratch files, which are gone when the run ends [default: that of --cache]
+    /// Folder of these scratch files, which are removed at the end of the run [default: that of --cache]
     #[arg(long, value_name = "DIR")]
     pub scratch: Option<PathBuf>,
 }
 
 impl JobArgs {
-    /// The request with the folders and the memory of this machine.
+    /// Returns the request with the folders and the memory of this machine.
     pub fn request(&self) -> JobRequest {
         JobRequest {
             sandbox: self.sandboxed.then(|| self.allow_outside.clone()),
@@ -54,12 +53,12 @@ impl JobArgs {
         }
     }
 
-    /// Opens the job to describe it, and notes what the command line supersedes.
+    /// Opens the job to describe it, and reports keys overridden by the command line.
     pub fn open(&self, console: &dyn Console, pool: &rayon::ThreadPool) -> Result<Job, Error> {
         Self::open_request(console, self.request().without_tiles(), pool)
     }
 
-    /// The same of a request, for a run.
+    /// Opens the job of a request, for a run.
     pub fn open_request(console: &dyn Console, request: JobRequest, pool: &rayon::ThreadPool) -> Result<Job, Error> {
         let job = pool.install(|| request.open())?;
         job.notices().iter().for_each(|notice| console.observer().message(Message::Note(notice)));

@@ -1,4 +1,4 @@
-//! Arguments that several verbs share, and the words that they are typed in.
+//! Arguments shared by several verbs, and the words in which they are typed.
 
 pub mod folder;
 pub mod job;

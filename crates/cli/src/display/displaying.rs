@@ -1,21 +1,21 @@
-//! An observer that shows light in a viewer as well.
+//! An observer that also shows light in a viewer.
 
 use super::Display;
 use etendue::{ImageTile, Message, Observer, Progress};
 
-/// Hands all on to another observer, and light to a viewer where there is one.
+/// Passes everything to another observer, and light also to a viewer if there is one.
 pub struct Displaying<'a> {
     observer: &'a dyn Observer,
     display: Option<Display>,
 }
 
 impl<'a> Displaying<'a> {
-    /// The same as `observer`, with a viewer.
+    /// Adds a viewer to `observer`.
     pub fn new(observer: &'a dyn Observer, display: Option<Display>) -> Self {
         Self { observer, display }
     }
 
-    /// Waits a while until the viewer has all.
+    /// Waits for a limited time until the viewer has received everything.
     pub fn finish(self) {
         self.display.into_iter().for_each(Display::finish);
     }

@@ -1,11 +1,11 @@
-//! The images of a viewer, as far as they are to be sent.
+//! The images of a viewer and their unsent tiles.
 
 use super::tev;
 use etendue::ImageTile;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// Tiles that are not sent yet, of the two newest images. Older images are complete, or the viewer is too slow to show them: their tiles are dropped, so
-/// that a film of many frames takes the memory of at most two.
+/// Unsent tiles of the two newest images. Older images are complete, or the viewer is too slow to show them: their tiles are dropped, so that a film
+/// of many frames takes the memory of at most two.
 #[derive(Default)]
 pub struct Images {
     waiting: VecDeque<Image>,
@@ -13,7 +13,7 @@ pub struct Images {
     created: BTreeSet<String>,
 }
 
-/// Maximum number of images with tiles that are not sent yet.
+/// Maximum number of images with unsent tiles.
 const MAX_WAITING: usize = 2;
 
 struct Image {
@@ -34,7 +34,7 @@ struct Place {
 }
 
 impl Images {
-    /// Takes a tile over.
+    /// Stores a tile.
     pub fn put(&mut self, tile: &ImageTile<'_>) {
         let place = self.waiting.iter().position(|image| image.name == tile.image).unwrap_or_else(|| {
             self.waiting.push_back(Image::of(tile));
@@ -44,7 +44,7 @@ impl Images {
         self.waiting[place].tiles.insert(Place::of(tile), tile.values.to_vec());
     }
 
-    /// The packets that send the next tile; `None` where all are sent.
+    /// Returns the packets of the next tile; `None` if all are sent.
     pub fn next(&mut self) -> Option<Vec<u8>> {
         let image = self.waiting.front_mut()?;
         let Some((place, values)) = image.tiles.pop_first() else {

@@ -1,8 +1,8 @@
-//! Light shown in a viewer while it is gathered, over the network.
+//! Shows light in a viewer during rendering, over the network.
 //!
-//! [`tev`] writes the packets of the protocol; [`Display`] sends them from a thread of its own, so that a slow viewer does not hold
-//! up the rendering. Tiles wait in the images themselves: one that is refined before it is sent is sent once. A viewer that goes
-//! away is told of once, and the rendering goes on.
+//! [`tev`] writes the packets of the protocol; [`Display`] sends them from a thread of its own, so that a slow viewer does not slow down the
+//! rendering. Tiles wait in the images themselves: one that is refined before it is sent is sent once. A lost viewer is reported once, and the
+//! rendering continues.
 
 mod displaying;
 mod images;
@@ -18,14 +18,14 @@ use std::sync::mpsc::{self, Receiver};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How long a viewer may take to answer a call, and to take a packet.
+/// Timeout of a viewer's answer to a call, and of its reception of a packet.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A viewer.
 pub struct Display {
     address: String,
     shared: Arc<Shared>,
-    /// Closed when all is sent, or nothing more can be.
+    /// Closed when everything is sent, or the viewer is lost.
     done: Mutex<Receiver<()>>,
 }
 
@@ -38,9 +38,9 @@ struct Shared {
 #[derive(Default)]
 struct State {
     images: Images,
-    /// Nothing more comes.
+    /// No further tiles will come.
     is_ended: bool,
-    /// Nothing more can be sent.
+    /// The viewer is lost.
     is_lost: bool,
 }
 
@@ -49,7 +49,7 @@ impl Shared {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The packets of the next tile; `None` when nothing more comes. Waits.
+    /// Returns the packets of the next tile, and waits for them; `None` at the end.
     fn next(&self) -> Option<Vec<u8>> {
         let mut state = self.state();
         loop {
@@ -65,10 +65,10 @@ impl Shared {
 }
 
 impl Display {
-    /// Calls the viewer at HOST:PORT.
+    /// Connects to the viewer at HOST:PORT.
     ///
     /// # Errors
-    /// Where none answers.
+    /// No viewer answers.
     pub fn connect(address: &str) -> Result<Self, Error> {
         let refused = |why: String| {
             Error::argument(
@@ -97,7 +97,7 @@ impl Display {
         Ok(Self { address: address.to_owned(), shared, done: Mutex::new(done) })
     }
 
-    /// Takes a tile over, to be sent.
+    /// Stores a tile to be sent.
     pub fn tile(&self, tile: &ImageTile<'_>) {
         let mut state = self.shared.state();
         if !state.is_lost {
@@ -106,7 +106,7 @@ impl Display {
         }
     }
 
-    /// Waits a while until all is sent.
+    /// Waits for a limited time until everything is sent.
     pub fn finish(self) {
         self.shared.state().is_ended = true;
         self.shared.changed.notify_one();
@@ -117,7 +117,7 @@ impl Display {
     }
 }
 
-/// Sends tiles until there are no more, or the viewer goes away.
+/// Sends tiles until there are no more, or the viewer is lost.
 fn send(mut stream: TcpStream, shared: &Shared, address: &str) {
     while let Some(packets) = shared.next() {
         if let Err(cause) = stream.write_all(&packets) {

@@ -1,7 +1,7 @@
-//! Packets of the protocol of tev (github.com/Tom94/tev, `src/Ipc.cpp`), which other viewers speak as well.
+//! Packets of the protocol of tev (github.com/Tom94/tev, `src/Ipc.cpp`), which other viewers also use.
 //!
-//! A packet is its own length in bytes (u32, itself included), a byte that says what it is, and its fields. Numbers are little-endian,
-//! texts end with a zero byte, `grab focus` is a byte.
+//! A packet consists of its length in bytes (u32, itself included), a byte with its type, and its fields. Numbers are little-endian, texts end with a
+//! zero byte, `grab focus` is a byte.
 //!
 //! | packet | byte | fields |
 //! | --- | --- | --- |
@@ -55,13 +55,13 @@ impl Packet {
     }
 }
 
-/// Makes an image of these columns and rows.
+/// Creates an image with this number of columns and rows.
 pub fn create_image(name: &str, [width, height]: [u32; 2], channels: &[&str]) -> Vec<u8> {
     let count = channels.len() as u32;
     Packet::new(CREATE_IMAGE).flag(true).text(name).whole(&[width, height, count]).texts(channels).finish()
 }
 
-/// Changes a rectangle of it, from this column and row on, of these columns and rows; one channel's values after the other's.
+/// Updates a rectangle, given by its first column and row and its size; the channels' values follow one another.
 pub fn update_image(name: &str, channels: &[&str], first: [u32; 2], size: [u32; 2], values: &[f32]) -> Vec<u8> {
     let (count, length) = (channels.len() as u32, u64::from(size[0]) * u64::from(size[1]));
     Packet::new(UPDATE_IMAGE_V3)

@@ -1,4 +1,4 @@
-//! `etendue calibrate`: a camera's intrinsics and distortion from pictures of a chart.
+//! `etendue calibrate`: a camera's intrinsics and distortion from images of a chart.
 
 use super::measure::report::{CameraOut, ReportArgs};
 use crate::console::Console;
@@ -17,7 +17,7 @@ pub struct CalibrateArgs {
     /// Write the camera file here; needs --pixel-pitch-um
     #[arg(id = "camera_keys", short = 'o', long = "output", value_name = "CAMERA.toml", requires = "pixel_pitch_um", value_parser = toml)]
     pub output: Option<PathBuf>,
-    /// Replace a camera file that is already there
+    /// Replace an existing camera file
     #[arg(long, requires = "camera_keys")]
     pub overwrite: bool,
     #[command(flatten)]

@@ -13,10 +13,10 @@ use std::path::PathBuf;
 pub struct Characterise {
     #[command(flatten)]
     pub request: CharacteriseRequest,
-    /// Write the camera file here, and beside it the report under the same stem: .html, .json
+    /// Write the camera file here, and next to it the report under the same stem: .html, .json
     #[arg(short, long, value_name = "CAMERA.toml", value_parser = toml)]
     pub output: PathBuf,
-    /// Replace files that are already there
+    /// Replace existing files
     #[arg(long)]
     pub overwrite: bool,
 }

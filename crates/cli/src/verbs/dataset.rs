@@ -1,4 +1,4 @@
-//! `etendue dataset`: a job varied sample after sample, in the formats of those who train and test by pictures.
+//! `etendue dataset`: a job varied sample by sample, in formats for training and tests.
 
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
@@ -18,10 +18,10 @@ pub struct Dataset {
     pub output: Output,
     #[command(flatten)]
     pub request: DatasetRequest,
-    /// Go on with the data set that is in the folder: samples that are whole are kept, and more may be added
+    /// Resume the data set in the folder: complete samples are kept, and more may be added
     #[arg(long, conflicts_with = "overwrite")]
     pub resume: bool,
-    /// Worker threads [default: one a processor]. The result does not depend on it
+    /// Worker threads [default: one per processor]. The result does not depend on it
     #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
     pub threads: Option<u32>,
 }

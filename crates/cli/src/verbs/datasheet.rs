@@ -1,4 +1,4 @@
-//! `etendue datasheet`: a camera file of an EMVA 1288 data sheet.
+//! `etendue datasheet`: a camera file from an EMVA 1288 data sheet.
 
 use crate::args::folder::Output;
 use crate::console::Console;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// `etendue datasheet`
 #[derive(Debug, Args)]
 pub struct DataSheet {
-    /// The data sheet's figures (TOML; docs/format/datasheet.md has the keys)
+    /// Values of the data sheet (TOML; docs/format/datasheet.md has the keys)
     #[arg(value_name = "SHEET.toml")]
     pub sheet: PathBuf,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `etendue develop`: pictures of stored raws, by another processing.
+//! `etendue develop`: images from stored raws, by another processing.
 
 use crate::args::folder::Output;
 use crate::console::Console;

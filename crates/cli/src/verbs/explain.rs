@@ -1,4 +1,4 @@
-//! `etendue explain`: what an error code means and what to do.
+//! `etendue explain`: meaning and remedy of an error code.
 
 use crate::console::Console;
 use clap::Args;
@@ -7,7 +7,7 @@ use etendue::{Error, ErrorCode, ExampleContext};
 /// `etendue explain`
 #[derive(Debug, Args)]
 pub struct Explain {
-    /// The code of an error, such as unknown-key, which stands in brackets before its message [default: a list of all codes]
+    /// The code of an error, such as unknown-key, shown in brackets before its message [default: a list of all codes]
     #[arg(value_name = "CODE")]
     pub code: Option<String>,
 }
@@ -27,7 +27,7 @@ fn code(word: &str) -> Result<ErrorCode, Error> {
     word.parse().map_err(|error| Error::argument("code", format!("{error}")).with_code(ErrorCode::UnknownName))
 }
 
-/// All codes with their causes, one a line.
+/// All codes with their causes, one per line.
 fn list() -> String {
     let width = ErrorCode::ALL.iter().map(|code| code.word().len()).max().unwrap_or(0);
     let line = |code: &ErrorCode| format!("{:width$}  {}\n", code.word(), code.explanation().cause);

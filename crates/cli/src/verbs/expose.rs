@@ -1,4 +1,4 @@
-//! `etendue expose`: a stored radiance image photographed by another lens and sensor.
+//! `etendue expose`: a stored radiance image captured by another lens and sensor.
 
 use crate::args::folder::Output;
 use crate::console::Console;

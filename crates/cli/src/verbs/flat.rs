@@ -1,4 +1,4 @@
-//! `etendue flat`: even light on a camera's bare sensor.
+//! `etendue flat`: uniform illumination of a camera's bare sensor.
 
 use crate::args::folder::Output;
 use crate::console::Console;

@@ -1,4 +1,4 @@
-//! `etendue inspect`: what is in a file, with units; a picture of it.
+//! `etendue inspect`: content of a file, with units, also as an image.
 
 use crate::console::Console;
 use clap::Args;
@@ -12,13 +12,13 @@ pub struct Inspect {
     /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo), OBJ, tables (CSV), lamps (IES, EULUMDAT), JSON side-car
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Write a picture of it here
+    /// Write its content as an image here
     #[arg(long, value_name = "OUT.png", value_parser = png)]
     pub png: Option<PathBuf>,
-    /// The layer of an EXR that the picture shows: a channel, or what channels have before their last dot (depth, instance, flow.forward, N)
+    /// Layer of an EXR for the image: a channel, or the part of channel names before the last dot (depth, instance, flow.forward, N)
     #[arg(long, value_name = "NAME", requires = "png")]
     pub layer: Option<String>,
-    /// Draw the boxes of a frame's objects over the picture
+    /// Draw the boxes of a frame's objects on the image
     #[arg(long, value_name = "boxes.NNNN.json", requires = "png")]
     pub boxes: Option<PathBuf>,
 }
@@ -47,7 +47,7 @@ impl Inspect {
     }
 }
 
-/// Whether two names are of one file that is there.
+/// True if two names refer to one existing file.
 fn same(a: &Path, b: &Path) -> bool {
     a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
 }

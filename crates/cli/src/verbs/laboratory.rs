@@ -1,4 +1,4 @@
-//! `etendue laboratory`: a laboratory folder, photographed by a camera file.
+//! `etendue laboratory`: a laboratory folder, captured by a camera file.
 
 use crate::args::folder::Output;
 use crate::console::Console;

@@ -1,4 +1,4 @@
-//! `etendue merge`: the shards of one job to the result of an unsharded run.
+//! `etendue merge`: joins the shards of one job to the result of an unsharded run.
 
 use crate::args::folder::Output;
 use crate::console::Console;
@@ -10,10 +10,10 @@ use std::path::PathBuf;
 /// `etendue merge`
 #[derive(Debug, Args)]
 pub struct Merge {
-    /// The folders of all shards
+    /// Folders of all shards
     #[arg(required = true, value_name = "DIR")]
     pub shards: Vec<PathBuf>,
-    /// Where the job file is, where the shards were rendered from another place, as on another machine [default: as they state it]
+    /// Path of the job file, if the shards were rendered from another path or machine [default: as stated in the shards]
     #[arg(long, value_name = "JOB.toml")]
     pub job: Option<PathBuf>,
     #[command(flatten)]

@@ -32,44 +32,44 @@ subcommands! {
     Render(render::Render),
     /// Join the shards of one job to the result of an unsharded run, byte for byte
     Merge(merge::Merge),
-    /// Write where a job's cameras stand and how they project, as ROS, Kalibr and COLMAP know them; nothing is rendered
+    /// Write poses and projections of a job's cameras for ROS, Kalibr and COLMAP; nothing is rendered
     Rig(rig::Rig),
-    /// Print what will be modelled, what is left out and why, and what it will cost
+    /// Print the effects that will be modelled, those left out with reasons, and the estimated cost
     Plan(plan::Plan),
-    /// Tell what each choice of rendering costs in time and error for a job, and recommend settings
+    /// Report time and error of each rendering choice for a job, and recommend settings
     Tradeoff(tradeoff::Tradeoff),
-    /// Make a data set of a job that is varied sample after sample: COCO, KITTI, Cityscapes and others
+    /// Make a data set from a job varied sample by sample: COCO, KITTI, Cityscapes and others
     Dataset(dataset::Dataset),
-    /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor
+    /// Capture a stored radiance image (rendered with route = "pupil") with another lens and sensor
     Expose(expose::Expose),
-    /// Lay fog, rain or snow over a stored radiance image (rendered with route = "pupil"), by its distances
+    /// Add fog, rain or snow to a stored radiance image (rendered with route = "pupil"), by its distances
     Weather(weather::Weather),
-    /// Make pictures of raws that were taken before, by another processing
+    /// Make images from stored raws, with another processing
     Develop(develop::Develop),
-    /// Photograph even light by a camera's bare sensor, or take the series by which EMVA 1288 measures; nothing is traced
+    /// Capture uniform illumination with a camera's bare sensor, or the series of EMVA 1288 measurements; nothing is traced
     Flat(flat::Flat),
-    /// Make a camera file of an EMVA 1288 data sheet; figures that contradict each other are refused
+    /// Make a camera file from an EMVA 1288 data sheet; contradictory values are refused
     Datasheet(datasheet::DataSheet),
-    /// Write a scene of another program (glTF, pbrt, Mitsuba, USD) as a scene and a job of the format, and what became of what
+    /// Convert a scene of another program (glTF, pbrt, Mitsuba, USD) to a scene and a job of the format, with a conversion report
     Import(import::Import),
-    /// Say what is in a file, with units; make a picture of it
+    /// Print the content of a file, with units; write it as an image
     Inspect(inspect::Inspect),
-    /// Make a page of a result for a browser: every layer with its values, spectra, histograms, beside another result
+    /// Make a page for a browser from a result: every layer with its values, spectra, histograms, next to another result
     View(view::View),
-    /// Compare two results: errors with their uncertainty; exit status 1 where they differ
+    /// Compare two results: errors with their uncertainty; exit status 1 if they differ
     Compare(compare::Compare),
-    /// Make a test chart as a scene ready to render, with its truth beside it
+    /// Make a test chart as a scene ready to render, with reference data
     Chart(chart::Chart),
-    /// Measure a camera: from pictures, or its lens without rendering
+    /// Measure a camera from images, or its lens without rendering
     Measure(measure::Measure),
-    /// Find a camera's intrinsics and distortion from several pictures of a chart, as a camera file
+    /// Compute a camera's intrinsics and distortion from several images of a chart, as a camera file
     Calibrate(calibrate::CalibrateArgs),
-    /// Make a camera file of a laboratory folder (dark frames, flats, charts), with every uncertainty and a report as a page
+    /// Make a camera file from a laboratory folder (dark frames, flats, charts), with every uncertainty and a report as a page
     Characterise(characterise::Characterise),
-    /// Photograph a laboratory folder by a camera file: what characterise reads
+    /// Capture a laboratory folder with a camera file: the input of characterise
     Laboratory(laboratory::Laboratory),
     /// Print the JSON Schema of a file kind, for editors
     Schema(schema::Schema),
-    /// Explain the code of an error: its cause, an example and what to do
+    /// Explain an error code: cause, example and remedy
     Explain(explain::Explain),
 }

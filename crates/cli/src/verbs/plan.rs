@@ -1,4 +1,4 @@
-//! `etendue plan`: what will be modelled, what is left out and why, and what it will cost.
+//! `etendue plan`: modelled effects, those left out with reasons, and estimated cost.
 
 use crate::args::job::JobArgs;
 use crate::console::{Console, print_paths};
@@ -11,10 +11,10 @@ use etendue::Error;
 pub struct Plan {
     #[command(flatten)]
     pub job: JobArgs,
-    /// Print one JSON document: cameras, settings, effects with their costs and what leaving each out would bring, remarks (docs/plan.md)
+    /// Print one JSON document: cameras, settings, effects with their costs and the difference that omitting each would make, remarks (docs/plan.md)
     #[arg(long)]
     pub json: bool,
-    /// Print only the paths of the files that the job reads, itself among them, one a line: what another machine needs to render it
+    /// Print only the paths of the files that the job reads, including its own, one per line: the files needed to render it on another machine
     #[arg(long, conflicts_with = "json")]
     pub files: bool,
 }

@@ -18,29 +18,28 @@ pub struct Render {
     pub output: Output,
     #[command(flatten)]
     pub options: RenderOptions,
-    /// Go on where a run of the same plan into this folder was interrupted: whole frames of light that depends on time are
-    /// kept, and passes of a progressive run; everything else is rendered and replaced
+    /// Resume an interrupted run of the same plan into this folder: whole frames of time-dependent light are kept, and passes of a progressive run;
+    /// everything else is rendered and replaced
     #[arg(long, conflicts_with_all = ["overwrite", "shard"])]
     pub resume: bool,
-    /// As many samples as this time of light allows, s, 10 or more, from the first sample on, all cameras and frames together; the
-    /// passes that were done are told and written, and render.passes makes the same bytes again
+    /// Take as many samples as this rendering time allows, s, 10 or more, from the first sample on, all cameras and frames together; the passes are
+    /// reported and written, and render.passes reproduces the same bytes
     #[arg(id = "time_s", long = "time", value_name = "S", conflicts_with_all = ["spp", "noise", "shard"])]
     pub time: Option<f64>,
-    /// Refine the picture on disk pass by pass, and keep the state after each: a run that is stopped or killed goes on with --resume, to the
-    /// same bytes
+    /// Refine the image on disk pass by pass, and store the state after each: a stopped or killed run continues with --resume, to the same bytes
     #[arg(long, conflicts_with_all = ["noise", "shard"])]
     pub progressive: bool,
-    /// Show light while it is gathered in a viewer that speaks tev's protocol. The result does not depend on it
+    /// Show light during rendering in a viewer with tev's protocol. The result does not depend on it
     #[arg(long, value_name = "HOST:PORT")]
     pub display: Option<String>,
-    /// Worker threads [default: one a processor]. The result does not depend on it
+    /// Worker threads [default: one per processor]. The result does not depend on it
     #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
     pub threads: Option<u32>,
     /// Render only the tiles whose number is I modulo N; join the shards with `etendue merge`
     #[arg(long, value_name = "I/N")]
     pub shard: Option<ShardSpec>,
     /// Of a shard only this film, by the name of its file, as front.film.exr or left.0003.0.film.exr (once or several times); `etendue merge`
-    /// wants all films of a shard in its folder
+    /// requires all films of a shard in its folder
     #[arg(id = "films", long = "film", value_name = "FILE", requires = "shard")]
     pub film: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! `etendue rig`: where the cameras of a job stand and how they project, for other programs.
+//! `etendue rig`: poses and projections of a job's cameras, for other programs.
 
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;

@@ -1,4 +1,4 @@
-//! `etendue tradeoff`: time against error for a job of one's own, with settings for drafts, standard pictures and references.
+//! `etendue tradeoff`: time against error for a user's job, with settings for drafts, standard images and references.
 
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
@@ -23,18 +23,18 @@ pub struct Tradeoff {
     pub output: Output,
     #[command(flatten)]
     pub request: Request,
-    /// Worker threads [default: one a processor]. Times are those of as many
+    /// Worker threads [default: one per processor]. Times refer to this number
     #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
     pub threads: Option<u32>,
-    /// Leave out one effect of the plan after the other instead, and tell what that changes and saves
+    /// Instead omit the effects of the plan one by one, and report the change and the saving of each
     #[arg(long)]
     pub ablate: bool,
-    /// Compare the frame with this change of a key instead (as of --set; several keys with ';' between them), and tell what it
-    /// changes and saves; give it once for each change: --vary render.wavelengths_per_path=1 --vary "a.b=1; a.c=2"
+    /// Instead compare the frame with this change of a key (as for --set; several keys separated by ';'), and report the change and the saving; once
+    /// for each change: --vary render.wavelengths_per_path=1 --vary "a.b=1; a.c=2"
     #[arg(long, value_name = "KEY=VALUE", conflicts_with = "ablate", value_parser = changes)]
     pub vary: Vec<Changes>,
-    /// With --ablate or --vary: photograph a chart of slanted edges with the camera as it is and with each change, too, and tell the spatial frequencies (cycles a
-    /// pixel) at which its contrast is halved
+    /// With --ablate or --vary: also capture a chart of slanted edges with the unchanged camera and with each change, and report the spatial
+    /// frequencies (cycles per pixel) at half contrast
     #[arg(long)]
     pub mtf50: bool,
     /// Print the study as JSON instead of as tables
@@ -42,17 +42,17 @@ pub struct Tradeoff {
     pub json: bool,
 }
 
-/// What is written, beside pictures.
+/// Written files, except images.
 const STUDY_FILES: [&str; 6] =
     ["tradeoff.json", "tradeoff.txt", "tradeoff.svg", "draft.toml", "standard.toml", "reference.toml"];
 const ABLATION_FILES: [&str; 2] = ["ablation.json", "ablation.txt"];
 const VARIATION_FILES: [&str; 2] = ["variations.json", "variations.txt"];
 
-/// Changes of keys that are made together.
+/// Changes of keys that apply together.
 #[derive(Clone, Debug)]
 pub struct Changes(Vec<String>);
 
-/// Changes with ';' between them.
+/// Parses changes separated by ';'.
 fn changes(text: &str) -> Result<Changes, String> {
     let changes: Vec<_> = text.split(';').map(|change| change.trim().to_owned()).collect();
     match changes.iter().find(|change| !change.contains('=')) {
@@ -61,11 +61,11 @@ fn changes(text: &str) -> Result<Changes, String> {
     }
 }
 
-/// Seconds since the program asked first, of so many threads.
+/// Seconds since the first query, with the number of threads.
 struct Stopwatch(Instant, usize);
 
 impl Stopwatch {
-    /// Of the pool that it is called in.
+    /// Starts with the current pool's number of threads.
     fn begin() -> Self {
         Self(Instant::now(), rayon::current_num_threads())
     }
@@ -85,7 +85,7 @@ impl Clock for Stopwatch {
     }
 }
 
-/// What a study prints and writes: names of files below its folder with their bytes.
+/// Output of a study: text, and names of files below its folder with their bytes.
 struct Findings {
     text: String,
     json: String,
@@ -96,7 +96,7 @@ impl Tradeoff {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
-        // Its faults, and what the command line supersedes, before anything is written.
+        // Reports errors and overridden keys before anything is written.
         self.job.open(console, &pool)?;
         let (folder, existing) = (self.output.path(), self.output.existing());
         if self.mtf50 && !self.ablate && self.vary.is_empty() {
@@ -131,7 +131,7 @@ impl Tradeoff {
         Ok(())
     }
 
-    /// Nothing is replaced unasked, nor the job that is studied; told before a study takes its time.
+    /// Refuses to replace existing files without a request, or the studied job; checked before the study starts.
     fn refuse_to_replace(&self) -> Result<(), Error> {
         let (folder, existing) = (self.output.path(), self.output.existing());
         let names: &[&str] = match (self.ablate, self.vary.is_empty()) {
@@ -155,7 +155,7 @@ impl Tradeoff {
     }
 }
 
-/// Time against error, with three jobs.
+/// Study of time against error, with three jobs.
 fn studied(request: &Request, folder: &Path, observer: &dyn Observer) -> Result<Findings, Error> {
     let found = study(request, &folder.join("pilot"), &Stopwatch::begin(), observer)?;
     let compared = pictures(&found, request, observer)?;
@@ -173,7 +173,7 @@ fn studied(request: &Request, folder: &Path, observer: &dyn Observer) -> Result<
     Ok(Findings { text, json, files })
 }
 
-/// Effect by effect.
+/// Study of one effect after the other.
 fn ablated(request: &Request, observer: &dyn Observer) -> Result<Findings, Error> {
     let found = ablation(request, &Stopwatch::begin(), observer)?;
     let (text, json) = (ablation_table(&found), to_json(&found)?);
@@ -186,12 +186,12 @@ fn ablated(request: &Request, observer: &dyn Observer) -> Result<Findings, Error
     Ok(Findings { text, json, files })
 }
 
-/// The name of the picture of the nth change, from 1.
+/// Name of the image of the nth change, from 1.
 fn varied_picture(n: usize) -> String {
     format!("pictures/with-{n}.jpg")
 }
 
-/// Change by change.
+/// Study of one change after the other.
 fn varied(request: &Request, changes: &[Changes], observer: &dyn Observer) -> Result<Findings, Error> {
     let changes: Vec<_> = changes.iter().map(|Changes(set)| set.clone()).collect();
     let found = variations(request, &changes, &Stopwatch::begin(), observer)?;
@@ -211,7 +211,7 @@ fn to_json(found: &impl serde::Serialize) -> Result<String, Error> {
     Ok(text + "\n")
 }
 
-/// The bytes of a file, whose texts name arguments as the console does.
+/// Bytes of a file, with the names of arguments in texts as the console spells them.
 fn spelled(console: &dyn Console, name: &str, bytes: &[u8]) -> Vec<u8> {
     let text = name.ends_with(".json") || name.ends_with(".txt");
     match std::str::from_utf8(bytes) {

@@ -12,13 +12,14 @@ use std::path::PathBuf;
 pub struct View {
     #[command(flatten)]
     pub request: ViewRequest,
-    /// Folder for the page, or the name of one file that ends in .html and holds everything [default: the folder `view` in FOLDER, where an earlier page is replaced]
+    /// Folder for the page, or the name of one file that ends in .html and holds everything [default: the folder `view` in FOLDER, where an existing
+    /// page is replaced]
     #[arg(short, long, value_name = "DIR|PAGE.html")]
     pub output: Option<PathBuf>,
-    /// Replace files that are already there
+    /// Replace existing files
     #[arg(long)]
     pub overwrite: bool,
-    /// Write the page and leave it closed; without a terminal that is so by itself
+    /// Write the page without opening it; this is the default without a terminal
     #[arg(long)]
     pub no_open: bool,
 }

@@ -1,4 +1,4 @@
-//! `etendue weather`: fog, rain and snow laid over a stored radiance image.
+//! `etendue weather`: adds fog, rain and snow to a stored radiance image.
 
 use crate::args::folder::Output;
 use crate::console::Console;

@@ -1,10 +1,10 @@
-//! Samples that noise decides: by the command line and the job, with what is told and stored of them.
+//! Adaptive sampling: from the command line and the job, with its messages and stored data.
 
 use crate::support::{BALL, assert_same, contents, etendue, rendered, text};
 use etendue_io::exr::{ExrFile, Samples, read_exr};
 use std::path::Path;
 
-/// A wall beside the ball that glows.
+/// A wall next to the ball that glows.
 const WALL: &str = r#"
 [[scene.materials]]
 name = "light"
@@ -61,7 +61,7 @@ fn the_limit_is_reached_and_told() {
     let (least, most) = (samples.iter().min(), samples.iter().max());
     assert!(least >= Some(&16) && least < Some(&64) && most > Some(&640), "{least:?} {most:?}");
     let ratio: Vec<f64> = light.iter().zip(&sensor).map(|(a, b)| a / b).collect();
-    // The limit is 0.04; samples that are stratified do better, and no pixel gets fewer than 16.
+    // The limit is 0.04; stratified samples do better, and no pixel receives fewer than 16.
     assert!((0.003..0.044).contains(&mean(&ratio)), "{}", mean(&ratio));
     // 4 e⁻ of read noise, 12 bits of 20 e⁻, and the photons' own.
     assert!(sensor.iter().all(|v| *v > 16.0 + 33.0), "{:?}", sensor.iter().copied().fold(f64::MAX, f64::min));

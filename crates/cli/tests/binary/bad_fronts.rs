@@ -1,4 +1,4 @@
-//! Mirrors and glass before the lens that cannot be: refused with file, line and key.
+//! Invalid mirrors and glass in front of the lens: refused with file, line and key.
 
 use crate::support::{Ran, etendue, text};
 use std::fs;
@@ -8,7 +8,7 @@ const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 
 const JOB: &str = "format = 1\nscene = {}\n[[cameras]]\nname = \"c\"\nfile = \"camera.toml\"\nposition_m = [0, 0, 1]\n\
                    look_at_m = [9, 0, 1]\n";
 
-/// The plan of a job whose camera has this before its lens; `[front…]` is line 10 of its file.
+/// Plans a job whose camera has this in front of its lens; `[front…]` is line 10 of its file.
 fn plan(front: &str, job: &str) -> Ran {
     let place = tempfile::tempdir().expect("a temporary folder");
     fs::write(place.path().join("camera.toml"), format!("{CAMERA}{front}\n")).expect("written");
@@ -85,7 +85,7 @@ fn drops_that_cannot_lie_on_the_glass() {
     refused("count = 4\noffset_mm = [900, 0]", &["camera.toml:12", "no pixel", "offset_mm"]);
     let swapped = format!("{DROPS}count = 4").replace("max_radius_mm = 2", "max_radius_mm = 0.4");
     plan(&swapped, "").refused(&["camera.toml:14", "min_radius_mm", "above max_radius_mm = 0.4"]);
-    // One wavelength a path, but where the index is that of one wavelength.
+    // One wavelength per path, except where the index is that of one wavelength.
     let four = "[render]\nwavelengths_per_path = 4";
     plan(&format!("{DROPS}count = 4"), four).refused(&["job.toml:9", "each differently"]);
     plan(&format!("{DROPS}count = 4\ndispersion = false"), four).ok();
@@ -117,7 +117,7 @@ fn drops_that_cannot_change_as_described() {
     refused(&wiper.replace("0.5", "0.05"), &["camera.toml:21", "wiper.sweep_s"]);
 }
 
-/// The command line reaches through the camera's file.
+/// The command line can set keys of the camera's file.
 #[test]
 fn what_stands_in_front_and_the_effects_can_be_set() {
     let place = tempfile::tempdir().expect("a temporary folder");

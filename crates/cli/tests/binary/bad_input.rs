@@ -1,11 +1,11 @@
-//! Unusable descriptions and assets: each is told with its file, line and key, and nothing is written.
+//! Unusable descriptions and assets: each is reported with file, line and key, and nothing is written.
 
 use crate::support::{Ran, etendue, tests, text};
 use std::fs;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
-/// A copy of the small job that a test spoils.
+/// A copy of the small job, to be modified by a test.
 pub(crate) struct Spoilt {
     place: TempDir,
 }
@@ -22,12 +22,12 @@ impl Spoilt {
         Self { place }
     }
 
-    /// Where the copy lies.
+    /// Folder of the copy.
     pub(crate) fn folder(&self) -> &std::path::Path {
         self.place.path()
     }
 
-    /// The job's path.
+    /// Path of the job.
     pub(crate) fn job(&self) -> String {
         text(&self.path("small.toml"))
     }
@@ -44,7 +44,7 @@ impl Spoilt {
         fs::write(self.path(name), bytes).expect("written");
     }
 
-    /// Replaces the first `from` in a file; gives `file:line` of what was replaced.
+    /// Replaces the first `from` in a file; returns `file:line` of the replacement.
     pub(crate) fn spoil(&self, name: &str, from: &str, to: &str) -> String {
         let text = self.read(name);
         let at = text.find(from).unwrap_or_else(|| panic!("{name} lacks {from}"));
@@ -52,7 +52,7 @@ impl Spoilt {
         format!("{name}:{}", 1 + text[..at].matches('\n').count())
     }
 
-    /// Renders; whatever happens, nothing may be written.
+    /// Renders; asserts that nothing is written.
     pub(crate) fn render(&self, options: &[&str]) -> Ran {
         let output = self.path("out");
         let (job, folder) = (text(&self.path("small.toml")), text(&output));
@@ -62,7 +62,7 @@ impl Spoilt {
     }
 }
 
-/// The job with `from` replaced by `to` is refused at that line, with all of `phrases`.
+/// Asserts that the job with `from` replaced by `to` is refused at that line, with all of `phrases`.
 #[track_caller]
 fn job_refused(from: &str, to: &str, phrases: &[&str]) {
     let spoilt = Spoilt::new();
@@ -71,7 +71,7 @@ fn job_refused(from: &str, to: &str, phrases: &[&str]) {
     spoilt.render(&[]).refused(&phrases);
 }
 
-/// The same of the mesh, and the place in the job that names it.
+/// The same for the mesh, at the place in the job that names it.
 #[track_caller]
 fn mesh_refused(from: &str, to: &str, phrases: &[&str]) {
     let spoilt = Spoilt::new();

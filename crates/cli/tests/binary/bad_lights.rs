@@ -1,4 +1,4 @@
-//! Unusable lamps, skies and materials: each is told with its file, line and key, and nothing is written.
+//! Unusable lamps, skies and materials: each is reported with file, line and key, and nothing is written.
 
 use crate::bad_input::Spoilt;
 
@@ -6,7 +6,7 @@ const LAMP: &str = "[[scene.lights]]\ntype = \"measured\"\nname = \"street\"\nfi
                     position_m = [5, 0, 6]\n\n[[scene.lights]]\ntype = \"sun\"";
 const IES: &str = "IESNA:LM-63-2002\n[TEST] a lamp\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n100 80 0\n";
 
-/// The job with a lamp of such a file is refused: at a line of the file, where the job names it, and with `phrases`.
+/// Asserts that the job with a lamp from such a file is refused: at a line of the file, at the job's reference to it, and with `phrases`.
 #[track_caller]
 fn lamp_refused(ies: &str, line: &str, phrases: &[&str]) {
     let spoilt = Spoilt::new();
@@ -95,7 +95,7 @@ fn light_that_no_number_holds() {
     spoilt.render(&[]).refused(&["small.toml:", "brighter than 1e30"]);
 }
 
-/// A lamp so near to a wall that 32 bits do not hold the irradiance under it: found only while it is rendered.
+/// A lamp so near to a wall that 32 bits do not hold the irradiance under it: detected only during rendering.
 const NEAR: &str = r#"format = 1
 [[cameras]]
 name = "eye"

@@ -1,4 +1,4 @@
-//! Every measurement of pictures that show nothing: one clear error and exit status 2, or figures that are right; never a panic, never a number that is none.
+//! Every measurement on images without content: one clear error and exit status 2, or correct results; never a panic or a non-number.
 
 use crate::support::{etendue, text};
 use etendue_core::Plane;
@@ -9,7 +9,7 @@ use std::path::Path;
 
 pub(crate) const SIZE: (usize, usize) = (128, 96);
 
-/// The measurements, PICTURE in the place of the file, SERIES in that of a descriptor of photon transfer that has no other.
+/// The measurements, with PICTURE for the file, and SERIES for a photon-transfer descriptor without another.
 pub(crate) const MEASUREMENTS: [&str; 24] = [
     "measure sfr PICTURE",
     "measure sfr PICTURE --region 0,0,64,64",
@@ -37,7 +37,7 @@ pub(crate) const MEASUREMENTS: [&str; 24] = [
     "calibrate PICTURE PICTURE PICTURE --target checkerboard --pitch-mm 10",
 ];
 
-/// Measurements that have a right answer of an even picture: no fall-off, no noise, no bands.
+/// Measurements with a correct answer for a uniform image: no fall-off, no noise, no bands.
 const OF_EVEN_LIGHT: [&str; 4] = ["vignetting", "shading", "noise", "flicker"];
 
 pub(crate) fn grey(folder: &Path, name: &str, (width, height): (usize, usize), reading: u32) -> String {
@@ -89,7 +89,7 @@ pub(crate) fn floats(folder: &Path, name: &str, sample: impl Fn(usize) -> f32) -
     text(&file)
 }
 
-/// A descriptor of photon transfer, twelve levels of light and dark, all of them this picture.
+/// A photon-transfer descriptor, twelve levels of light and dark, all of them this image.
 fn series(picture: &str) -> String {
     let (file, name) = (Path::new(picture), Path::new(picture).file_name().expect("a name").to_string_lossy());
     let level = |i: u32| {
@@ -103,23 +103,23 @@ fn series(picture: &str) -> String {
     crate::support::text(&descriptor)
 }
 
-/// The arguments of a measurement of a picture, figures as JSON.
+/// The arguments of a measurement of an image, results as JSON.
 pub(crate) fn of_picture(line: &str, picture: &str) -> Vec<String> {
-    // Of grey pictures there is one channel, which nobody names.
+    // Grey images have one channel, which is not named.
     let line = if picture.contains("coloured") { line.to_owned() } else { line.replace(" --channel Y", "") };
     let series = series(picture);
     let words = line.split(' ').map(|word| word.replace("PICTURE", picture).replace("SERIES", &series));
     words.chain((!line.starts_with("calibrate")).then(|| "--json".to_owned())).collect()
 }
 
-/// Runs every measurement on a picture. Those that may answer are named; all others must refuse it.
+/// Runs every measurement on an image. Those that may answer are named; all others must refuse it.
 #[track_caller]
 fn measured(picture: &str, may_answer: &[&str]) {
     for line in MEASUREMENTS {
         let run = etendue(of_picture(line, picture));
         let words = format!("{line} of {picture}: {run:?}");
         if run.status == 0 {
-            // A picture is equal to itself, whatever it shows.
+            // Any image is equal to itself.
             let may = line.starts_with("compare") || may_answer.iter().any(|name| line.contains(name));
             assert!(may, "{words}");
             let nothing = run.out.contains("NaN") || run.out.contains("inf");
@@ -128,9 +128,9 @@ fn measured(picture: &str, may_answer: &[&str]) {
         }
         assert!(run.status == 2 && run.out.is_empty(), "{words}");
         let errors: Vec<&str> = run.err.lines().filter(|l| l.starts_with("error[")).collect();
-        // Of several views each bad file is named.
+        // Of several views each invalid file is named.
         assert!(errors.len() == 1 || (line.starts_with("calibrate") && errors.len() == 3), "{words}");
-        // A reading that is no number is named as such by the reader, and nowhere else.
+        // A reading that is no number is reported as such by the reader only.
         let named = errors[0].contains("expected finite numbers");
         assert!(named || !(errors[0].contains("NaN") || errors[0].contains("inf ")), "{words}");
     }

@@ -1,4 +1,4 @@
-//! Faults of `[isp]`: each is told with its file, line and key, and nothing is written.
+//! Errors of `[isp]`: each is reported with file, line and key, and nothing is written.
 
 use crate::bad_input::Spoilt;
 use crate::support::{Ran, etendue};
@@ -6,7 +6,7 @@ use crate::support::{Ran, etendue};
 const WHITE_BALANCE: &str = "white_balance = \"D65\"";
 const MATRIX: &str = "colour_matrix = { fit = \"D65\" }";
 
-/// The small job with `keys` in place of its white balance.
+/// The small job with `keys` instead of its white balance.
 fn with(keys: &str) -> (Spoilt, String) {
     let spoilt = Spoilt::new();
     let place = spoilt.spoil("small.toml", WHITE_BALANCE, keys);
@@ -17,7 +17,7 @@ fn plan(spoilt: &Spoilt) -> Ran {
     etendue(["plan".to_owned(), spoilt.job()])
 }
 
-/// The job with this key in its processing is refused at the line of the key, in these words.
+/// Asserts that the job with this key in its processing is refused at the line of the key, with these phrases.
 #[track_caller]
 fn refused(keys: &str, phrases: &[&str]) {
     let (spoilt, place) = with(keys);
@@ -25,7 +25,7 @@ fn refused(keys: &str, phrases: &[&str]) {
     plan(&spoilt).refused(&[&[place.as_str(), "cameras.front.isp", key], phrases].concat());
 }
 
-/// The same with a table beside the job.
+/// The same with a table next to the job.
 #[track_caller]
 fn table_refused(keys: &str, table: &str, phrases: &[&str]) {
     let (spoilt, place) = with(keys);
@@ -33,7 +33,7 @@ fn table_refused(keys: &str, table: &str, phrases: &[&str]) {
     plan(&spoilt).refused(&[&[place.as_str()], phrases].concat());
 }
 
-/// A monochrome sensor with this processing is refused.
+/// Asserts that a monochrome sensor with this processing is refused.
 #[track_caller]
 fn mono_refused(keys: &str, phrases: &[&str]) {
     let (spoilt, _) = with(keys);

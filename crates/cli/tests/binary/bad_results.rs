@@ -1,4 +1,4 @@
-//! Stored results that cannot be used for what is asked.
+//! Stored results that are unsuitable for the request.
 
 use crate::support::{etendue, small, tests, text};
 use etendue_io::Provenance;
@@ -11,7 +11,7 @@ fn place() -> TempDir {
     tempfile::tempdir().expect("a temporary folder")
 }
 
-/// Renders the small job into `place/name`; gives that folder.
+/// Renders the small job into `place/name`; returns that folder.
 fn into(place: &Path, name: &str, options: &[&str]) -> String {
     let output = text(&place.join(name));
     etendue(["render", &small(), "-o", &output].iter().chain(options)).ok();
@@ -119,7 +119,7 @@ fn what_is_not_finite_in_exr_files_is_counted_and_never_agrees() {
     }
 }
 
-/// A copy of the small job that may be changed.
+/// An editable copy of the small job.
 fn own_job(place: &Path) -> PathBuf {
     let folder = place.join("job");
     fs::create_dir(&folder).expect("made");
@@ -154,7 +154,7 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     assert!(!output.exists());
 }
 
-/// The header of a film states what it is of: a film that was put under another manifest, or in another's place, is not merged.
+/// The header of a film states its origin: a film under another manifest, or in place of another, is not merged.
 #[test]
 fn films_of_another_run_shard_frame_or_capture_are_not_merged() {
     let place = place();

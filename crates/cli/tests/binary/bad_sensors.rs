@@ -1,4 +1,4 @@
-//! Sensors that cannot be: each is told with its file, line and key, and nothing is written.
+//! Invalid sensors: each is reported with file, line and key, and nothing is written.
 
 use crate::bad_input::Spoilt;
 use crate::support::etendue;
@@ -6,7 +6,7 @@ use crate::support::etendue;
 const EFFICIENCY: &str = "quantum_efficiency = { camera = \"nikon-d5100\", peak = 0.5 }";
 const BITS: &str = "bits = 12";
 
-/// The job with `from` replaced by `to` is refused at line `below` that, with all of `phrases`.
+/// Asserts that the job with `from` replaced by `to` is refused `below` lines further, with all of `phrases`.
 #[track_caller]
 fn refused_below(below: usize, from: &str, to: &str, phrases: &[&str]) {
     let spoilt = Spoilt::new();
@@ -44,7 +44,7 @@ fn a_table_of_efficiencies_above_all() {
 
 #[test]
 fn a_converter_without_gain() {
-    // Whether its end or the well comes first is not known then: nothing is assumed.
+    // Without a gain it is unknown whether the ADC or the well saturates first: no value is assumed.
     let spoilt = Spoilt::new();
     spoilt.spoil("small.toml", "full_well_e = 12_000", "full_well_e = 1_000");
     let table = spoilt.spoil("small.toml", "[cameras.sensor]", "[cameras.sensor]");

@@ -1,11 +1,11 @@
-//! Lenses as their makers give them away: tables over the field and ray-transfer functions drive a camera that follows them, and bad ones are told.
+//! Lenses as published by their makers: tables over the field and ray-transfer functions determine a camera, and invalid ones are reported.
 
 use crate::support::{etendue, root, text};
 use etendue_io::exr::{Samples, read_exr};
 use serde_json::Value;
 use std::path::Path;
 
-/// A uniform surround of 1 W/(m²·sr·nm), and what is put before it, before a camera that looks along +x.
+/// A uniform surround of 1 W/(m²·sr·nm), with objects in front of it and a camera that looks along +x.
 pub(crate) fn job(objects: &str, sensor: &str, lens: &str, spp: u32) -> String {
     format!(
         "format = 1\n[scene]\nenvironment = {{ type = \"uniform\", radiance_w_m2_sr_nm = 1 }}\n{objects}[[cameras]]\nname = \"eye\"\n\
@@ -30,7 +30,7 @@ pub(crate) fn plan(folder: &Path, job: &str) -> crate::support::Ran {
     etendue(["plan", &text(&folder.join("job.toml"))])
 }
 
-/// An export of relative illumination with fields in degrees to either side's convention, as OpticStudio writes it.
+/// An export of relative illumination, with fields in degrees and either sign convention, as written by OpticStudio.
 fn export(rows: &str) -> String {
     format!(
         "Relative Illumination Data\r\n\r\nFile : C:\\lenses\\made for a test.zmx\r\nTitle: made for a test\r\nDate : 1/1/2026\r\n\r\n\
@@ -68,7 +68,7 @@ fn a_camera_falls_off_as_zemax_s_export_says() {
             let after = FIELDS.iter().position(|(field, _)| *field >= angle).expect("within the table").max(1);
             let [(a, from), (b, to)] = [FIELDS[after - 1], FIELDS[after]];
             let expected = from + (to - from) * (angle - a) / (b - a);
-            // A pixel is 0.6° wide: at a kink of the table its mean is off by up to 0.1 %.
+            // A pixel is 0.6° wide: at a kink of the table its mean deviates by up to 0.1 %.
             assert!((value / found[60] - expected).abs() < 0.002, "{angle}°: {} for {expected}", value / found[60]);
         }
     }
@@ -104,7 +104,7 @@ fn exports_that_cannot_be_used_are_told_with_their_line() {
     plan(folder.path(), &job("", SENSOR, &half, 1)).refused(&["job.toml", "\"ratio\" is missing"]);
 }
 
-/// A published file, and what tests/oracles/ray_transfer.py finds in it.
+/// A published file, and the results of tests/oracles/ray_transfer.py for it.
 fn published() -> (String, Value) {
     let figures = root().join("tests/oracles/figures/ray_transfer.json");
     let figures = std::fs::read_to_string(figures).expect("stored figures");
@@ -134,7 +134,7 @@ fn a_camera_falls_off_as_published_ray_transfer_functions_say() {
         let near = &found[at.saturating_sub(2)..at + 3];
         let axis = &found[..3];
         let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
-        // Eight hundredths of the samples are stopped: 0.2 % of noise; half a millimetre of fall-off is averaged over.
+        // Eight hundredths of the samples are blocked: 0.2 % of noise; the fall-off is averaged over half a millimetre.
         assert!(
             (mean(near) / mean(axis) - expected).abs() < 0.01,
             "{height} mm: {} for {expected}",
@@ -152,7 +152,7 @@ fn a_camera_falls_off_as_published_ray_transfer_functions_say() {
     }
 }
 
-/// What is bright lies below an edge a thousand kilometres away.
+/// The bright half lies below an edge at a distance of a thousand kilometres.
 #[test]
 fn edges_look_as_published_ray_transfer_functions_make_them() {
     let (folder, (file, figures)) = (tempfile::tempdir().expect("a folder"), published());
@@ -217,7 +217,7 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
     plan(folder.path(), &pupil).refused(&["route", "ray-transfer lens"]);
 }
 
-/// The published functions as those of two wavelengths.
+/// The published functions at two wavelengths.
 #[test]
 fn functions_of_several_wavelengths_are_read_in_any_order() {
     let (folder, (file, _)) = (tempfile::tempdir().expect("a folder"), published());
@@ -240,7 +240,7 @@ fn functions_of_several_wavelengths_are_read_in_any_order() {
     told(&red, &red).refused(&["lens.json:", "the wavelength 650 nm is there twice"]);
 }
 
-/// The cameras that ship with such lenses. ISET has this lens's film for infinity at 57.315 mm.
+/// Shipped cameras with such lenses. ISET places this lens's film for infinity at 57.315 mm.
 #[test]
 fn shipped_cameras_are_measured_as_their_files_say() {
     let folder = tempfile::tempdir().expect("a folder");

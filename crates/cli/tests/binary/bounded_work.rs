@@ -1,4 +1,4 @@
-//! Descriptions of few bytes whose work would be without bounds, and files that are larger than what reads them expects.
+//! Short descriptions with unbounded work, and files larger than their reader expects.
 
 use crate::support::{BALL, etendue, text};
 use std::fs;
@@ -10,7 +10,7 @@ fn plan_of(folder: &Path, scene: &str) -> crate::support::Ran {
     etendue(["plan", &text(&job)])
 }
 
-/// Pieces of such a turn were halved as long as times could be distinguished: some 1e15 times.
+/// Pieces of such a rotation were halved as long as times could be distinguished: about 1e15 times.
 #[test]
 fn a_wheel_that_turns_by_more_than_can_be_followed_is_refused() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -26,7 +26,7 @@ fn a_wheel_that_turns_by_more_than_can_be_followed_is_refused() {
     for (x, radius) in [("3", "1e-30"), ("3", "1e-13"), ("1e30", "0.3"), ("3", "1e-310")] {
         wheel(x, radius).refused(&["job.toml:", "rolls.radius_m", "at most 1e12 can be traced", "larger radius"]);
     }
-    // A frame may be the wheel.
+    // A frame may also be the wheel.
     plan_of(
         place.path(),
         "[[scene.frames]]\nname = \"car\"\nkeys = [{ time_s = 0 }, { time_s = 1, position_m = [3, 0, 0] }]\n\
@@ -49,7 +49,7 @@ fn chain(count: usize, first: &str, each: &str) -> String {
     )
 }
 
-/// 30 000 frames within each other took minutes, and more than a thread's stack. With the square of the depth these take an hour.
+/// 30 000 nested frames took minutes, and more than a thread's stack. In quadratic time these take an hour.
 #[test]
 fn frames_in_frames_take_time_in_proportion_to_their_depth() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -66,7 +66,7 @@ fn frames_in_frames_take_time_in_proportion_to_their_depth() {
     assert!(refusal.err.lines().count() <= 52 && refusal.err.len() < 100_000, "{} bytes", refusal.err.len());
 }
 
-/// The side-car beside a picture is read as all that describes: up to its limit.
+/// The side-car of an image is read as any description: up to its limit.
 #[test]
 fn a_side_car_beyond_the_limit_is_refused_by_its_size() {
     let place = tempfile::tempdir().expect("a temporary folder");

@@ -1,5 +1,5 @@
-//! One cuboid, modelled with various axes and rotated, in every format of data sets with 3D boxes: size and heading by each format's published
-//! convention. MCAP is not among them, as its messages contain no boxes.
+//! One cuboid, modelled with various axes and rotated, in every data-set format with 3D boxes: size and heading by each format's published
+//! convention. MCAP is not included, as its messages contain no boxes.
 //!
 //! | format | size | heading | source |
 //! | --- | --- | --- | --- |
@@ -17,7 +17,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
 
-/// Centre of the car, which stands at (10, 2, 0) m.
+/// Centre of the car at (10, 2, 0) m.
 const CENTRE_M: [f64; 3] = [10.0, 2.0, 0.65];
 /// Rotations of the object about the vertical, degrees.
 const TURNS_DEG: [f64; 4] = [0.0, 40.0, -90.0, 170.0];
@@ -89,7 +89,7 @@ fn every_format_has_the_size_and_the_heading_of_its_convention() {
 fn check_kitti(export: &Export) {
     let label_row = label(&export.path("set"));
     export.assert("KITTI", &label_row[7..10], &[SIZE_M.z, SIZE_M.y, SIZE_M.x]);
-    // Modulo 360°: −90° less the rotation about z, as y points down.
+    // Modulo 360°: −90° minus the rotation about z, as y points down.
     let (heading, expected) = (sin_cos(label_row[13]), sin_cos((-90.0 - export.turn_deg).to_radians()));
     export.assert("KITTI", &[heading.0, heading.1], &[expected.0, expected.1]);
 }
@@ -138,13 +138,14 @@ fn check_osi(export: &Export) {
     export.assert("OSI", &vector(3), &[0.0, 0.0, export.turn_deg.to_radians()]);
 }
 
-/// The object's x is (−sin, 0, cos) in the camera's axes. The camera looks along the world's x: its x is the world's −y, its y the world's −z, its z the world's x.
+/// The object's x is (−sin, 0, cos) in the camera's axes. The camera looks along the world's x: its x is the world's −y, its y the world's −z, its z
+/// the world's x.
 fn check_bop(export: &Export) {
     let (sin, cos) = sin_cos(export.turn_deg.to_radians());
     let poses = export.json("set/bop/train/000000/scene_gt.json");
     let pose = &poses["0"][0];
     export.assert("BOP", &numbers(&pose["cam_R_m2c"]), &[-sin, -cos, 0.0, 0.0, 0.0, -1.0, cos, -sin, 0.0]);
-    // The camera stands 1.5 m above the ground.
+    // The camera is 1.5 m above the ground.
     let translation_m: Vec<f64> = numbers(&pose["cam_t_m2c"]).iter().map(|mm| mm / 1000.0).collect();
     export.assert("BOP", &translation_m, &[-CENTRE_M[1], 1.5 - CENTRE_M[2], CENTRE_M[0]]);
     let models = export.json("set/bop/models/models_info.json");

@@ -1,4 +1,4 @@
-//! Paths that branch: what is told of them and what they exclude. That no cut changes their bytes is in `bytes.rs`.
+//! Branched paths: messages, and settings that they exclude. `bytes.rs` shows that no division of the work changes their bytes.
 
 use crate::support::{BALL, etendue, text};
 use std::path::Path;
@@ -25,7 +25,7 @@ fn the_plan_tells_branches_and_refuses_what_they_exclude() {
     refused("branches = 65\n", &["job.toml", "branches: found 65"]);
     let direct = ["job.toml", "\"branches\" has no effect here, it belongs to integrator = \"path\""];
     refused("branches = 4\nintegrator = \"direct\"\n", &direct[1..]);
-    // What the command line says supersedes what a file says.
+    // The command line overrides a file.
     let branched = job(place.path(), "branches = 4\n");
     let ran = etendue(["plan", &branched, "--set", "render.path_reuse_px=2"]).ok();
     assert!(ran.err.contains("supersedes") && ran.err.contains("branches"), "{}", ran.err);

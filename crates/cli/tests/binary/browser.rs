@@ -1,5 +1,5 @@
-//! Headless Chromium, spoken to by its own protocol over two pipes (`--remote-debugging-pipe`: file descriptors 3 and 4, messages that end in a
-//! zero byte).
+//! Headless Chromium, controlled by its own protocol over two pipes (`--remote-debugging-pipe`: file descriptors 3 and 4, messages end with a zero
+//! byte).
 
 use serde_json::{Value, json};
 use std::io::{BufRead as _, BufReader, Write as _};
@@ -8,7 +8,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// How long a page may take until it has drawn what it is asked for; a busy machine is slow.
+/// Timeout for a page to draw; a busy machine is slow.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A browser with one page.
@@ -18,13 +18,13 @@ pub(crate) struct Browser {
     output: BufReader<ChildStdout>,
     session: Option<String>,
     last: u64,
-    /// What the page said on its console as an error or warning, and exceptions that nothing caught.
+    /// Errors and warnings on the page's console, and uncaught exceptions.
     pub(crate) complaints: Vec<String>,
     _profile: tempfile::TempDir,
 }
 
 impl Browser {
-    /// Starts the program with a window of so many pixels.
+    /// Starts the program with a window of this many pixels.
     pub(crate) fn start(program: &str, [width, height]: [u32; 2]) -> Self {
         let profile = tempfile::tempdir().expect("a temporary folder");
         let folder = format!("--user-data-dir={}", profile.path().display());
@@ -110,7 +110,7 @@ impl Browser {
         self.ready();
     }
 
-    /// Goes to another address of the same page.
+    /// Navigates to another address of the same page.
     #[track_caller]
     pub(crate) fn look(&mut self, address: &str) {
         self.value(&format!("document.body.dataset.state = 'asked'; location.hash = {}", json!(address)));
@@ -131,14 +131,14 @@ impl Browser {
         }
     }
 
-    /// The text of an element.
+    /// Text of an element.
     #[track_caller]
     pub(crate) fn text(&mut self, selector: &str) -> String {
         let told = self.value(&format!("document.querySelector({}).textContent", json!(selector)));
         told.as_str().expect("a text").to_owned()
     }
 
-    /// The numbers of the rows of this name beside the panes: one for each result.
+    /// Numbers of the rows with this name next to the panes: one for each result.
     #[track_caller]
     pub(crate) fn numbers(&mut self, name: &str) -> Vec<f64> {
         let cells = format!(
@@ -157,7 +157,7 @@ impl Browser {
         self.ready();
     }
 
-    /// Moves the mouse to a place of the window, or clicks there.
+    /// Moves the mouse to a position in the window, or clicks there.
     pub(crate) fn mouse(&mut self, [x, y]: [f64; 2], clicks: bool) {
         let mut event = |kind: &str| {
             let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": u32::from(kind != "mouseMoved") });
@@ -168,7 +168,7 @@ impl Browser {
             event("mousePressed");
             event("mouseReleased");
         }
-        // What follows a move is drawn with the next frame.
+        // The reaction to a move is drawn with the next frame.
         self.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))");
     }
 }

@@ -1,4 +1,4 @@
-//! The same description, seed and version give the same bytes, however the work is cut.
+//! Equal description, seed and version give equal bytes, for any division of the work.
 
 use crate::support::{assert_same, contents, etendue, rendered, rendered_with, small, text};
 use std::collections::BTreeMap;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 const PUPIL: [&str; 4] = ["--set", "render.route=pupil", "--set", "render.overscan=0.1"];
 
-/// Every file that the job asks for, and no other.
+/// All files that the job requests.
 const FILES: [&str; 8] = [
     "front/camera.json",
     "front/depth.png",
@@ -41,7 +41,7 @@ fn same_however_it_is_cut(route: &[&str]) {
     assert_same(&expected, &merged(&with(route, &["--set", "render.tile_px=8"]), 2), "two shards of small tiles");
 }
 
-/// Renders in shards and joins them, given in the wrong order.
+/// Renders in shards and joins them, in the wrong order.
 fn merged(options: &[&str], count: u32) -> BTreeMap<String, Vec<u8>> {
     let place = tempfile::tempdir().expect("a temporary folder");
     let folder = |name: &str| text(&place.path().join(name));
@@ -176,7 +176,7 @@ fn a_reader_of_the_results_finds_their_names_on_stdout() {
     told.sort_unstable();
     let expected: Vec<String> = FILES.iter().map(|name| text(&output.join(name))).collect();
     assert_eq!(told, expected);
-    // No progress bar where nobody looks: the levels of the frames alone.
+    // No progress bar without a terminal: only the levels of the frames.
     let levels: Vec<&str> = ran.err.lines().collect();
     assert!(matches!(levels[..], [front] if front.starts_with("note: camera front: mean level")), "{}", ran.err);
 }

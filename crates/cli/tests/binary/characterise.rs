@@ -1,16 +1,16 @@
-//! Cameras from laboratory folders: rendered ones, whose camera is known; OpenCV's photographs; folders that cannot be used.
+//! Cameras from laboratory folders: rendered ones with a known camera, OpenCV's photographs, and unusable folders.
 
 use crate::support::{Ran, etendue, root, text};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// A small laboratory of the monochrome reference camera, its barrel included: the field of the large one in pixels of four times the pitch.
+/// A small laboratory of the monochrome reference camera, with its barrel distortion: the field of the large one in pixels of four times the pitch.
 const SMALL: [&str; 6] = [
     "sensor.width_px=194",
     "sensor.height_px=146",
     "sensor.pixel_pitch_um=33.2",
-    // Pixels of the large camera's charge.
+    // Pixels with the large camera's charge.
     "sensor.exposure_s=1e-3",
     "sensor.optical_black=null",
     "sensor.smear=null",
@@ -74,7 +74,7 @@ fn a_rendered_laboratory_gives_its_camera_back() {
     ran.ok();
     let report = json(&place);
     let found = &report["parameters"];
-    // The camera file's own numbers, the principal distance of a lens of 8 mm focused at 10 m; four standard uncertainties, of 21 numbers with this seed.
+    // Values of the camera file, the principal distance of a lens of 8 mm focused at 10 m; four standard uncertainties, of 21 numbers with this seed.
     let fx = 8.0 * 10.0 / (10.0 - 0.008) / 0.0332;
     for (key, declared) in [
         ("sensor.gain_dn_per_e", 0.2),
@@ -104,7 +104,7 @@ fn a_rendered_laboratory_gives_its_camera_back() {
     let said = report["not_known"].to_string();
     assert!(said.contains("hot pixels") && said.contains("one wavelength"), "{said}");
     page_is_whole(&place);
-    // The file is a camera.
+    // The file is a valid camera.
     let camera = text(&place.path().join("found.toml"));
     let lens = etendue(["measure", "lens", &camera, "--json"]).ok().out;
     let lens: Value = serde_json::from_str(&lens).expect("JSON");
@@ -113,7 +113,7 @@ fn a_rendered_laboratory_gives_its_camera_back() {
     again.refused(&["found.toml", "already"]);
 }
 
-/// A mosaic's views are measured raw, and its colours by their filters.
+/// The views of a mosaic are measured raw, and its colours by their filters.
 #[test]
 fn a_camera_in_colour_is_given_back_from_raw_mosaics() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -127,7 +127,7 @@ fn a_camera_in_colour_is_given_back_from_raw_mosaics() {
     ran.ok();
     let report = json(&place);
     let found = &report["parameters"];
-    // The camera file's own numbers, the principal distance of a lens of 4 mm focused at 2 m; four standard uncertainties, of 7 numbers with this seed.
+    // Values of the camera file, the principal distance of a lens of 4 mm focused at 2 m; four standard uncertainties, of 7 numbers with this seed.
     let fx = 4.0 * 2.0 / (2.0 - 0.004) / 0.0192;
     for (key, declared, most) in [
         ("lens.projection.fx_px", fx, 0.5),
@@ -145,7 +145,7 @@ fn a_camera_in_colour_is_given_back_from_raw_mosaics() {
     assert!(found["isp.colour_matrix.green.green"]["value"].as_f64().is_some_and(|v| v > 1.0), "{found:#}");
 }
 
-/// One file with every part, nothing of which lies elsewhere.
+/// One file with every part, without references to other files.
 fn page_is_whole(place: &tempfile::TempDir) {
     let page = std::fs::read_to_string(place.path().join("found.html")).expect("a page");
     for part in [
@@ -192,7 +192,7 @@ fn what_is_missing_is_said_and_left_out_or_a_base_s() {
     etendue(["measure", "lens", &text(&place.path().join("found.toml"))]).ok();
 }
 
-/// The first file of an ending in a folder.
+/// The first file with an extension in a folder.
 fn first(folder: &Path, ending: &str) -> PathBuf {
     let mut files: Vec<PathBuf> = walk(folder);
     files.sort();
@@ -224,12 +224,12 @@ fn folders_that_cannot_be_used_are_refused() {
     std::fs::copy(other, dark.join("other.jpg")).expect("copied");
     refused(&["other.jpg", "not of the same camera", "640 × 480 pixels", "194 × 146 pixels"]);
     std::fs::remove_file(dark.join("other.jpg")).expect("removed");
-    // Half a file.
+    // A truncated file.
     let bytes = std::fs::read(&frame).expect("a picture");
     std::fs::write(&frame, &bytes[..bytes.len() / 2]).expect("written");
     refused(&["raw.0000.png"]);
     std::fs::write(&frame, &bytes).expect("written");
-    // A key without effect, and one that is none.
+    // A key without effect, and an unknown key.
     let file = lab.path().join("laboratory.toml");
     let stated = std::fs::read_to_string(&file).expect("text");
     std::fs::write(&file, format!("{stated}\n[chart]\npitch_mm = 30\n")).expect("written");
@@ -237,7 +237,7 @@ fn folders_that_cannot_be_used_are_refused() {
     std::fs::write(&file, "format = 1\npixel_pich_um = 3\n").expect("written");
     refused(&["laboratory.toml:2", "pixel_pich_um", "pixel_pitch_um"]);
     std::fs::write(&file, &stated).expect("written");
-    // Flats of ten times what saturates.
+    // Flats at ten times saturation.
     std::fs::remove_dir_all(&flat).expect("removed");
     let camera = text(&laboratory().join("declared.toml"));
     for (name, exposure) in [("a", "sensor.exposure_s=0.0005"), ("b", "sensor.exposure_s=0.001")] {
@@ -264,7 +264,7 @@ fn folders_that_cannot_be_used_are_refused() {
     characterised(&empty.path().join("lost"), &[]).0.refused(&["lost", "there is no such folder"]);
 }
 
-/// OpenCV's own photographs of its checkerboard: what they have evidence for is its calibration, and nothing else.
+/// OpenCV's own photographs of its checkerboard: they determine a calibration, and nothing else.
 #[test]
 fn photographs_of_a_checkerboard_give_a_calibration_and_no_more() {
     let photographs = root().join("tests/oracles/figures/checkerboard");
@@ -280,7 +280,8 @@ fn photographs_of_a_checkerboard_give_a_calibration_and_no_more() {
     let (ran, place) = characterised(lab.path(), &[]);
     ran.ok().says(&["not known: gain", "no pictures in dark/"]);
     let report = json(&place);
-    // OpenCV's calibration of the same photographs by its own corners (docs/measurements.md, k1 k2 p1 p2 k3): 532.8, 342.5 + 0.5, and theirs is uncertain to 0.5.
+    // OpenCV's calibration of the same photographs by its own corners (docs/measurements.md, k1 k2 p1 p2 k3): 532.8, 342.5 + 0.5, with an uncertainty
+    // of 0.5.
     for (key, opencv, within) in [("fx_px", 532.83, 3.0), ("cx_px", 342.99, 3.0), ("cy_px", 234.2, 3.0)] {
         let value = report["parameters"][format!("lens.projection.{key}")]["value"].as_f64().expect(key);
         assert!((value - opencv).abs() < within, "{key}: {value}");

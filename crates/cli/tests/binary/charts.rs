@@ -1,4 +1,4 @@
-//! Charts: every one makes a job that compiles, their truth is what is rendered, and nonsense is refused.
+//! Charts: every one makes a job that compiles, its reference data equal the render, and invalid options are refused.
 
 use crate::support::{etendue, text};
 use etendue_io::exr::read_exr;
@@ -24,7 +24,7 @@ const CHARTS: [&str; 16] = [
     "depth-wedge",
 ];
 
-/// A small camera with a barrel, its axis beside the picture's middle.
+/// A small camera with barrel distortion, its axis off the image's middle.
 const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 2\nf_number = 4\n[lens.distortion]\nk1 = -0.6\ndirection \
                       = \"ideal_to_observed\"\nradius_unit = \"focal_lengths\"\n[sensor]\nwidth_px = 96\nheight_px = \
                       72\npixel_pitch_um = 8\nprincipal_point_px = [50, 34]\nexposure_s = 0.01\ncfa = \
@@ -111,8 +111,7 @@ fn stand_ins_bring_their_file_and_views_their_poses() {
     }
 }
 
-/// Ground truth's positions, rendered by the tracer, lie where the truth's features say; and the dots' light has its centroid
-/// where the truth says.
+/// Ground-truth positions, rendered by the tracer, agree with the features of the reference data; and the dots' centroids agree with it.
 #[test]
 fn dots_are_rendered_where_the_truth_says() {
     let place = Place::new();
@@ -141,10 +140,10 @@ fn dots_are_rendered_where_the_truth_says() {
         let world = point3(&feature["world_m"][0]);
         let there = [0, 1, 2].map(|c| between(&planes[c], 96, x, y));
         let off: f64 = (0..3).map(|c| (there[c] - world[c]).abs()).fold(0.0, f64::max);
-        // Between pixels positions bend by an eighth of the second derivative, 6 k₁ r/f ≈ 0.004 a pixel; they are stored in 32 bits.
+        // Positions between pixels bend by an eighth of the second derivative, 6 k₁ r/f ≈ 0.004 a pixel; they are stored in 32 bits.
         assert!(off < 1.5e-3 * pixel_m, "({x}, {y}): {off} m");
         let [u, v] = grey_centroid(&electrons, centre, half);
-        // 256 samples: a pixel on the edge errs by at most 0.03 of it, and some 30 share that.
+        // 256 samples: a pixel on the edge errs by at most 0.03 of it, and about 30 share that.
         assert!((u - centre[0]).abs() < 0.02 && (v - centre[1]).abs() < 0.02, "{centre:?}: {u} {v}");
         checked += 1;
     }
@@ -160,7 +159,7 @@ fn between(plane: &[f32], width: usize, x: f64, y: f64) -> f64 {
     (at(0, 0) * (1.0 - s) + at(1, 0) * s) * (1.0 - t) + (at(0, 1) * (1.0 - s) + at(1, 1) * s) * t
 }
 
-/// The centroid of what is darker than the brightest about a place; shares below a tenth are the ground's falloff.
+/// Centroid of darkness relative to the brightest value about a position; fractions below a tenth are the ground's fall-off.
 fn grey_centroid(plane: &[f32], [x, y]: [f64; 2], half: f64) -> [f64; 2] {
     let range = |c: f64| (c - half).floor() as usize..(c + half).ceil() as usize;
     let pixels: Vec<(f64, f64, f64)> = range(y)
@@ -177,7 +176,7 @@ fn grey_centroid(plane: &[f32], [x, y]: [f64; 2], half: f64) -> [f64; 2] {
     ]
 }
 
-/// The light that the truth says reaches the middle of a flat field is what is rendered there.
+/// The light that reaches the middle of a flat field in the reference data equals the render.
 #[test]
 fn electrons_are_those_of_the_truth() {
     let place = Place::new();
@@ -196,7 +195,7 @@ fn electrons_are_those_of_the_truth() {
             let rendered = middle.map(|i| f64::from(plane[i])).sum::<f64>() / 25.0;
             let electrons = truth["inks"][0]["electrons"]["mono"].as_f64().expect("electrons");
             let expected = electrons * camera["exposure_s"].as_f64().expect("an exposure") / 0.01;
-            // 64 samples over the spectrum leave half a percent in a pixel; 25 are a tenth of a percent off.
+            // 64 samples over the spectrum leave half a per cent of noise in a pixel; the mean of 25 is off by a tenth of a per cent.
             assert!((rendered / expected - 1.0).abs() < 3e-3, "{name} {folder}: {rendered} {expected}");
         }
     }
@@ -262,7 +261,7 @@ fn nonsense_is_refused_and_leaves_nothing() {
         .refused(&["already there", "--overwrite"]);
 }
 
-/// A change of the camera changes the chart as well: with half the focal length twice the width is in view at the same distance.
+/// A change of the camera also changes the chart: with half the focal length twice the width is in view at the same distance.
 #[test]
 fn set_changes_the_written_job_and_its_camera() {
     let place = Place::new();

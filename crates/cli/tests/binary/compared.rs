@@ -41,7 +41,7 @@ fn row<'a>(report: &'a Value, table: &str, key: &str, name: &str) -> &'a Value {
     rows.iter().find(|row| row[key] == name).unwrap_or_else(|| panic!("{name} is missing in {report}"))
 }
 
-/// E_n = 0.001 / (2 √2 · 0.0005) = 0.7071 of k1; the curves are apart by 0.001 at the edge of the field, 1e-3/(2 √2 1e-4) = 3.54.
+/// E_n = 0.001 / (2 √2 · 0.0005) = 0.7071 of k1; the curves differ by 0.001 at the edge of the field, 1e-3/(2 √2 1e-4) = 3.54.
 #[test]
 fn measurements_are_compared_by_their_uncertainties() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -61,7 +61,7 @@ fn measurements_are_compared_by_their_uncertainties() {
     let swapped: Value = serde_json::from_str(&compare(&b, &a).out).expect("JSON");
     let k1 = row(&swapped, "quantities", "quantity", "forward_k1");
     assert!((number(&k1["relative_error_percent"]) + 100.0 / 101.0).abs() < 1e-9, "0.1 − 0.101 over 0.101: {k1}");
-    // A count is laid beside the other and not tested.
+    // A count is listed with the other and not tested.
     assert_eq!(row(&report, "quantities", "quantity", "points")["verdict"], Value::Null);
     let curve = row(&report, "curves", "curve", "curve");
     assert!((number(&curve["largest_difference"]) - 1e-3).abs() < 1e-12, "{curve}");
@@ -81,8 +81,8 @@ fn equal_measurements_agree_and_are_drawn() {
     assert!(drawn.contains("relative error of A against B"), "both curves and their relative error");
 }
 
-/// The forward camera declares k1 = −0.12 in its principal distance: 4.6 mm focused at 10 m, 4.6 · 10/(10 − 0.0046) mm. Within half of
-/// the uncertainty of 1e-5, k1 in half diagonals is found again.
+/// The forward camera declares k1 = −0.12 in its principal distance: 4.6 mm focused at 10 m, 4.6 · 10/(10 − 0.0046) mm. k1 in half diagonals is
+/// recovered within half of the uncertainty of 1e-5.
 #[test]
 fn a_camera_file_declares_what_was_measured() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -96,12 +96,12 @@ fn a_camera_file_declares_what_was_measured() {
         written(folder.path(), "measured.json", &report)
     };
     compare(&measured(k1 + 5e-6), &camera).ok();
-    // One part in a hundred is seen.
+    // A deviation of one per cent is detected.
     assert_eq!(compare(&measured(1.01 * k1), &camera).status, 1);
 }
 
-/// What the file of a camera in focus declares at half a cycle a pixel, for an edge at an angle: sinc(½ cos θ) sinc(½ sin θ), times the
-/// response of a circular pupil where diffraction is described.
+/// Declaration by the file of a camera in focus at half a cycle per pixel, for an edge at an angle: sinc(½ cos θ) sinc(½ sin θ), times the response
+/// of a circular pupil if diffraction is described.
 #[test]
 fn responses_are_declared_in_closed_form() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -131,12 +131,12 @@ fn responses_are_declared_in_closed_form() {
     };
     let middle = lost("388,291");
     assert!((0.07..0.10).contains(&middle), "{middle}");
-    // 388 px of 8.3 µm to the side, 8 mm before the pupil: tan θ′ = 0.4026, cos⁻³ θ′ = 1.2526 of the frequency, as 4 s/π is lost.
+    // 388 px of 8.3 µm to the side, 8 mm in front of the pupil: tan θ′ = 0.4026, cos⁻³ θ′ = 1.2526 of the frequency, as 4 s/π is lost.
     let side = lost("776,291") / middle;
     assert!((side - 1.2526).abs() < 0.01, "{side}");
 }
 
-/// A straight line, its smear, and the picture's curve, the light's strength free.
+/// A straight line, its smear, and the image's curve, with the light's strength free.
 #[test]
 fn tone_curves_are_declared() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -155,7 +155,7 @@ fn tone_curves_are_declared() {
         });
         written(folder.path(), name, &report)
     };
-    // Smear of −100 dB and 20 ms a frame adds 2 µs to every exposure; the well is full at 4060.
+    // Smear of −100 dB and 20 ms per frame adds 2 µs to every exposure; the well is full at 4060.
     let share = |exposure: f64| ((exposure + 2e-6) / 1e-3).min(1.0);
     compare(&series("line.json", "raw", &|t| 60.0 + 4000.0 * share(t)), &camera).ok();
     let bent = series("bent.json", "raw", &|t| 60.0 + 4000.0 * pow(share(t), 0.98));
@@ -190,7 +190,7 @@ fn contradictions_are_refused() {
     etendue(["measure", "compare", &a, &a, "--set", "sensor.bits=8"]).refused(&["--set", "neither side"]);
 }
 
-/// Under filters smear is not neutral, and what development makes of it is another share of each colour of the picture than of the raw one.
+/// Under filters smear is not neutral, and after development it is another fraction of each colour of the image than of the raw.
 #[test]
 fn smear_in_a_developed_picture_is_declared_by_what_development_makes_of_it() {
     const CAMERA: &str = r#"
@@ -242,7 +242,7 @@ smear = { type = "interline", smear_db = -70 }
         let found = etendue(["measure", "compare", &path("curve.json"), &path("c0.toml"), "--json"]);
         let report: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
         let largest = report["tables"]["curves"][0]["largest_difference"].as_f64().expect("a difference");
-        // Of 255; 3.7 in green where smear is declared as of raw readings. Numbers are whole, and the field is even to a few per cent.
+        // Out of 255; 3.7 in green if smear is declared as for raw readings. Numbers are integers, and the field is uniform to a few per cent.
         assert!(largest.abs() < 0.3, "{channel}: {largest}");
     }
 }

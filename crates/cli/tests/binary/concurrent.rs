@@ -1,4 +1,4 @@
-//! Several runs at one time: a folder takes one, and says whose it is. A section of docs/extremes.md.
+//! Several runs at one time: a folder accepts one, and states its owner. A section of docs/extremes.md.
 
 use crate::support::{assert_same, contents, etendue, rendered, root, small, tests, text};
 use etendue_testkit::page::{Row, check};
@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// A run that goes on until it is killed.
+/// A run that continues until it is killed.
 struct Running(Child);
 
 impl Running {
@@ -16,7 +16,7 @@ impl Running {
         Self(command.spawn().expect("the binary starts"))
     }
 
-    /// A render that takes long, begun and at work in its folder.
+    /// A long render, started and active in its folder.
     fn render_into(out: &Path) -> Self {
         let running = Self::begin(&["render", &small(), "-o", &text(out), "--spp", "1000000", "--overwrite"]);
         let mark = out.join(format!(".etendue.{}-0.part", running.0.id()));
@@ -34,7 +34,7 @@ impl Drop for Running {
     }
 }
 
-/// While a run is at work in a folder, and when it was killed.
+/// During an active run in a folder, and after it was killed.
 fn a_second_run_is_refused_until_the_first_has_ended_however_it_does() -> Row {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (out, shard) = (place.path().join("out"), text(&place.path().join("shard")));
@@ -60,7 +60,7 @@ fn a_second_run_is_refused_until_the_first_has_ended_however_it_does() -> Row {
         etendue(arguments.iter().copied().chain(["-o", &folder])).refused(&phrases);
     }
     assert!(contents(&out).keys().all(|name| name.starts_with('.')), "nothing but the first one's mark");
-    // Killed: the lock goes with the process, what it left with the next run.
+    // Killed: the lock disappears with the process, its files with the next run.
     drop(first);
     etendue(["render", &job, "-o", &folder, "--spp", "2"]).ok();
     assert_same(&rendered(&job, &["--spp", "2"]), &contents(&out), "after a kill");
@@ -95,7 +95,7 @@ fn runs_that_write_into_folders_of_cameras_go_side_by_side() -> Row {
     )
 }
 
-/// Runs that begin at one moment: one is let in, or one after the other, and none mixes its files with another's.
+/// Runs that start at one moment: one is admitted, or one after the other, and none mixes its files with another's.
 fn of_runs_that_begin_together_each_leaves_all_files_or_none() -> Row {
     let expected = rendered(&small(), &["--spp", "2"]);
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -114,7 +114,7 @@ fn of_runs_that_begin_together_each_leaves_all_files_or_none() -> Row {
     )
 }
 
-/// A row of what has been asserted.
+/// A row of asserted results.
 fn row(extreme: &str, expected: &str, found: &str) -> Row {
     Row { extreme: extreme.to_owned(), expected: expected.to_owned(), found: found.to_owned(), holds: true }
 }

@@ -1,11 +1,11 @@
-//! The tasks of docs/cookbook and docs/tutorials, as they stand there: the blocks of a page one after the other in a folder that holds the shipped scenes alone, and what the page says
-//! is printed.
+//! The tasks of docs/cookbook and docs/tutorials, as written: the blocks of a page one after the other in a folder with only the shipped scenes, and
+//! the output stated on the page.
 
 use crate::support::root;
 use std::path::Path;
 use std::process::Command;
 
-/// Pages of the cook book and how many tasks each has.
+/// Pages of the cookbook and the number of their tasks.
 const PAGES: [(&str, usize); 6] =
     [("rendering", 7), ("cameras", 8), ("lenses", 5), ("driving", 6), ("robots", 4), ("light", 5)];
 
@@ -24,7 +24,7 @@ fn page(folder: &str, name: &str) -> String {
     std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// What stands between a line of three backticks with `kind` and the next.
+/// Text between a line of three backticks with `kind` and the next.
 fn block<'a>(text: &'a str, kind: &str) -> Option<&'a str> {
     let (_, from) = text.split_once(&format!("```{kind}\n"))?;
     Some(from.split_once("```").expect("the block ends").0)
@@ -46,7 +46,7 @@ fn tasks(page: &str) -> Vec<Task> {
     page.split("\n## ").skip(1).map(task).collect()
 }
 
-/// Runs a task in a folder where the program is called `etendue`.
+/// Runs a task in a folder in which the program is called `etendue`.
 fn run(task: &Task, folder: &Path) {
     let program = Path::new(env!("CARGO_BIN_EXE_etendue")).parent().expect("a folder");
     let paths = format!("{}:{}", program.display(), std::env::var("PATH").expect("a search path"));
@@ -105,7 +105,7 @@ fn light() {
     run_page("cookbook", "light");
 }
 
-/// The pages of a folder but its first, by name.
+/// Pages of a folder except its first, by name.
 fn names(folder: &str) -> Vec<String> {
     let entries = std::fs::read_dir(root().join("docs").join(folder)).expect("a folder");
     let files = entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("UTF-8"));
@@ -120,7 +120,7 @@ fn files<'a>(pages: impl Iterator<Item = &'a str>) -> Vec<String> {
     files
 }
 
-/// No page of the folders is left out above, and their first pages list them all.
+/// All pages of the folders are listed above, and their first pages list them all.
 #[test]
 fn the_book_has_all_its_tasks() {
     assert_eq!(names("cookbook"), files(PAGES.iter().map(|(name, _)| *name)));

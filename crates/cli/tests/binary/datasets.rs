@@ -1,4 +1,4 @@
-//! Data sets: a sample is the same alone or among all, runs that end early go on, and bad variations are refused where they stand.
+//! Data sets: a sample is the same alone or among all, interrupted runs resume, and invalid variations are refused at their place.
 
 use crate::support::{Ran, contents, etendue, root, text};
 use serde_json::Value;
@@ -10,7 +10,7 @@ use tempfile::TempDir;
 
 const JOB: &str = "scenes/cornell/cornell.toml";
 const VARIATIONS: &str = "scenes/datasets/boxes.toml";
-/// A picture of few pixels, and noise for it.
+/// An image of few pixels, with suitable noise.
 const SMALL: [&str; 7] = [
     "--set=cameras.front.sensor.width_px=24",
     "--set=cameras.front.sensor.height_px=18",
@@ -43,7 +43,7 @@ impl Place {
         etendue(self.arguments(VARIATIONS, folder, more))
     }
 
-    /// A run of variations of one's own.
+    /// Runs with the given variations.
     fn run_of(&self, variations: &str, more: &[&str]) -> Ran {
         let file = self.path("variations.toml");
         fs::write(&file, variations).expect("written");
@@ -120,7 +120,7 @@ fn a_run_that_was_interrupted_goes_on_and_leaves_what_is_done() {
     let place = Place::new();
     place.run("whole", &["--samples", "0..3"]).ok().says(&["\"kitti_types\" has no effect without the format kitti"]);
     place.run("part", &["--samples", "0..2"]).ok();
-    // As a kill leaves it: files of a sample without its record.
+    // State after a kill: files of a sample without its record.
     fs::remove_file(place.path("part/samples/000001.json")).expect("it was there");
     let first = place.path("part/samples/000000.json");
     let before = fs::metadata(&first).expect("a file").modified().expect("a time");
@@ -165,7 +165,7 @@ fn samples_whose_files_or_record_are_not_whole_are_made_anew() {
     assert!(place.files("out") == whole);
 }
 
-/// Files of more than so many blocks of 512 bytes cannot be written, as on a full disk.
+/// Files of more than this many blocks of 512 bytes cannot be written, as on a full disk.
 fn with_blocks(blocks: u32, arguments: &[String]) -> (Option<i32>, String) {
     let mut shell = Command::new("sh");
     let before = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
@@ -174,7 +174,7 @@ fn with_blocks(blocks: u32, arguments: &[String]) -> (Option<i32>, String) {
     (ran.status.code(), String::from_utf8_lossy(&ran.stderr).into_owned())
 }
 
-/// Pictures of two sizes: the files of some samples do not fit where those of others do.
+/// Images of two sizes: files that fit the limit for some samples do not for others.
 const TWO_SIZES: &str = r#"format = 1
 [[presets]]
 name = "size"
@@ -283,7 +283,7 @@ fn bad_variations_are_refused_where_they_stand() {
     place.run_of(&file, &["--samples", "0..2000000"]).refused(&["--samples"]);
 }
 
-/// A model of BOP keeps its size: a sample that breaks that is not kept, and the set of those before is whole.
+/// A BOP model keeps its size: a sample that violates that is discarded, and the set of the preceding ones is complete.
 #[test]
 fn bop_keeps_the_samples_before_one_of_another_size() {
     let place = Place::new();
@@ -298,7 +298,7 @@ fn bop_keeps_the_samples_before_one_of_another_size() {
     drop(run(&["--samples", "1..2", "--resume"]).refused(&["\"short-block\"", "sample 1", "keeps its size"]));
 }
 
-/// A complete shard has no parts any more, of which one could be made anew.
+/// A complete shard has no parts left that could be made again individually.
 #[test]
 fn samples_of_a_complete_shard_are_made_anew_together() {
     let place = Place::new();

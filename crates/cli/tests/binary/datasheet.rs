@@ -1,11 +1,11 @@
-//! Camera files made of data sheets: consistent ones, loose ones, and ones that contradict themselves.
+//! Camera files made from data sheets: consistent, incomplete and contradictory ones.
 
 use crate::support::{Ran, contents, etendue, root, text};
 use std::path::PathBuf;
 
 const SHEET: &str = "scenes/datasheets/made-up-cmos.toml";
 
-/// The example with some lines changed, and where its camera goes.
+/// The example with changed lines, and the path of its camera.
 struct Sheet {
     place: tempfile::TempDir,
 }
@@ -30,7 +30,7 @@ impl Sheet {
         etendue(["datasheet", &text(&self.place.path().join("sheet.toml")), "-o", &text(&self.folder())])
     }
 
-    /// The camera that was written takes a frame.
+    /// Asserts that the written camera captures a frame.
     fn takes_a_frame(&self) {
         let camera = text(&self.folder().join("sheet.toml"));
         let out = text(&self.place.path().join("flat"));
@@ -67,7 +67,7 @@ fn dark_noise_in_numbers_loses_its_quantisation() {
     let files = contents(&sheet.folder());
     let camera = String::from_utf8(files["sheet.toml"].clone()).expect("UTF-8");
     let noise = camera.lines().find_map(|line| line.strip_prefix("read_noise_e = ")).expect("the key");
-    // √(0.6883² − 1/12)/0.25, of four digits.
+    // √(0.6883² − 1/12)/0.25, with four digits.
     assert!((noise.parse::<f64>().expect("a number") - 2.5).abs() < 1e-3, "{noise}");
 }
 
@@ -110,7 +110,7 @@ fn what_differs_by_a_little_is_told_and_taken() {
     sheet.run().ok().says(&["warning", "snr_max_db", "42.1 dB", "41.76 dB"]);
 }
 
-/// Many sheets state the wavelength without a figure in photons.
+/// Many sheets state the wavelength without a value in photons.
 #[test]
 fn a_wavelength_that_nothing_needs_is_a_warning() {
     let sheet = Sheet::with(&[("saturation_capacity_p = 24194\n", ""), ("sensitivity_threshold_p = 5.25\n", "")]);

@@ -1,4 +1,4 @@
-//! `etendue develop`: raws of every kind again, and raws that contradict their camera.
+//! `etendue develop`: raws of every kind developed again, and raws that contradict their camera.
 
 use crate::support::{Ran, contents, etendue, text};
 use std::fs;
@@ -36,7 +36,7 @@ amplitude_dn = 40
 probability = 0.1
 "#;
 
-/// Shielded rows, and an exposure that changes from frame to frame.
+/// Shielded rows, and an exposure that varies between frames.
 const MONO: &str = r#"
 [sensor.optical_black]
 rows_px = 4
@@ -48,7 +48,7 @@ exposure_limits_s = [1e-8, 1e-4]
 gain_limits = [1, 8]
 "#;
 
-/// Numbers of 20 bits in 12, and two by two pixels in one.
+/// Numbers of 20 bits companded to 12, and 2 × 2 binning.
 const HDR: &str = r#"
 [sensor.hdr]
 merged_bits = 20
@@ -82,7 +82,7 @@ raw = true
 picture = true
 "#;
 
-/// A folder with the job, its cameras, and what was rendered of it: two frames of each camera.
+/// A folder with the job, its cameras, and its result: two frames of each camera.
 struct Shots {
     place: TempDir,
 }
@@ -118,7 +118,7 @@ impl Shots {
         text(&self.place.path().join(name))
     }
 
-    /// Develops raws, named from the folder, into the folder `made`.
+    /// Develops raws, named relative to the folder, into the folder `made`.
     fn develop(&self, raws: &[&str], camera: &str, options: &[&str]) -> Ran {
         let raws: Vec<String> = raws.iter().map(|raw| self.path(raw)).collect();
         let rest = ["--camera", &self.path(camera), "-o", &self.path("made"), "--overwrite"].map(str::to_owned);
@@ -126,7 +126,7 @@ impl Shots {
         etendue(["develop".to_owned()].into_iter().chain(raws).chain(rest).chain(options))
     }
 
-    /// Refused for these reasons, and nothing was written.
+    /// Asserts a refusal with these phrases and without output.
     #[track_caller]
     fn refused(&self, raws: &[&str], camera: &str, options: &[&str], phrases: &[&str]) {
         self.develop(raws, camera, options).refused(phrases);
@@ -179,7 +179,7 @@ fn another_processing_gives_another_picture() {
     assert_ne!(developed(&["--seed", "8"]), plain, "the paper's noises have the seed");
 }
 
-/// What is developed without a curve and without a matrix says so: in the side-car, in its words, and in the file's own chunk.
+/// Development without a curve and a matrix is stated in the side-car, in its words, and in the file's own chunk.
 #[test]
 fn a_linear_picture_of_the_sensors_colours_is_called_that() {
     let shots = Shots::taken();

@@ -1,4 +1,4 @@
-//! Light in a viewer: what arrives by tev's protocol is what is written, and a viewer changes nothing.
+//! Light in a viewer: the data received by tev's protocol equals the written one, and a viewer changes nothing.
 
 use crate::support::{assert_same, contents, etendue, small, text};
 use etendue_io::exr::read_exr;
@@ -7,7 +7,7 @@ use std::io::Read as _;
 use std::net::{TcpListener, TcpStream};
 use std::thread;
 
-/// What a viewer shows: of each channel its values, row by row.
+/// Content of a viewer: the values of each channel, row by row.
 #[derive(Debug, Default, PartialEq)]
 struct Shown {
     size: [usize; 2],
@@ -80,7 +80,7 @@ fn update(image: &mut Shown, fields: &mut Fields<'_>) {
     }
 }
 
-/// Renders with what `viewer` does with the connection.
+/// Renders while `viewer` handles the connection.
 fn shown<T: Send + 'static>(
     options: &[&str],
     viewer: impl FnOnce(TcpStream) -> T + Send + 'static,
@@ -135,7 +135,7 @@ fn a_viewer_that_goes_away_is_told_of_and_the_run_goes_on() {
     assert!(told.lines().filter(|line| line.contains("the viewer at 127.0.0.1")).count() <= 1, "{told}");
 }
 
-/// It accepts, and reads nothing before the run is over: its buffers may hold all, or it is given up after 5 s.
+/// The viewer accepts, and reads nothing before the run is over: its buffers may hold everything, or the connection is closed after 5 s.
 #[test]
 fn a_viewer_that_does_not_read_changes_nothing() {
     let (files, _, _stream) = shown(&["--spp", "4"], |stream| stream);

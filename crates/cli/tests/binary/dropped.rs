@@ -1,4 +1,4 @@
-//! What makes a picture another than might be meant: the plan says it, and `render` repeats it.
+//! Causes of an unexpected image: the plan states them, and `render` repeats them.
 
 use crate::support::{etendue, text};
 use std::fs;
@@ -11,7 +11,7 @@ const JOB: &str = "format = 1\n[scene]\nmeshes = [{ name = \"m\", file = \"m.obj
     lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 8 }\n\
     sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 100 }\n[render]\nspp = 1\nreplicates = 1\n";
 
-/// Two good triangles, two without area (a repeated corner, three corners on a line), one given three times.
+/// Two valid triangles, two without area (a repeated corner, three corners on a line), one given three times.
 const OBJ: &str = "v 0 0 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\nv 0 2 0\n\
     f 1 2 3\nf 2 4 3\nf 1 1 2\nf 1 2 5\nf 2 3 1\nf 1 2 3\n";
 
@@ -38,7 +38,7 @@ fn a_mesh_of_nothing_but_such_triangles_is_an_empty_one() {
     assert!(plan.contains("0 triangles (0 stored)") && plan.contains("m.obj: 1 triangles of no area"), "{plan}");
 }
 
-/// Renders a job of a folder, whose files are given; what it said.
+/// Renders a job of a folder with these files; returns its output.
 fn rendered(files: &[(&str, &str)]) -> crate::support::Ran {
     let place = tempfile::tempdir().expect("a temporary folder");
     files.iter().for_each(|(name, text)| fs::write(place.path().join(name), text).expect("written"));

@@ -1,4 +1,4 @@
-//! Drops on the wind-screen in pictures: what they show, and when.
+//! Drops on the windscreen in images: their refraction, and their times.
 
 use crate::support::{assert_same, etendue, rendered, text};
 use etendue_io::exr::{Samples, read_exr};
@@ -6,7 +6,7 @@ use std::path::Path;
 
 const SIDE: usize = 24;
 
-/// A camera of 4.6° that looks at the horizon through flat glass 50 mm before it.
+/// A camera of 4.6° that looks at the horizon through flat glass 50 mm in front of it.
 const JOB: &str = r#"format = 1
 [scene.environment]
 type = "uniform"
@@ -62,7 +62,7 @@ shape = { type = "quad", size_m = [4000, 4000] }
 material = "black"
 "#;
 
-/// One drop that fills the picture.
+/// One drop that fills the image.
 const ONE: &str = r#"
 [cameras.external_optics.windscreen.drops]
 size_mm = [1e-6, 1e-6]
@@ -72,7 +72,7 @@ max_radius_mm = 4
 dispersion = false
 "#;
 
-/// Rain on the glass, in a rectangle that covers the left two thirds of the picture.
+/// Rain on the glass, in a rectangle that covers the left two thirds of the image.
 const RAIN: &str = r#"
 [cameras.external_optics.windscreen.drops]
 size_mm = [3, 6]
@@ -137,7 +137,7 @@ fn a_drop_turns_the_picture_upside_down() {
             let values = &electrons[rows.start * SIDE..rows.end * SIDE];
             values.iter().sum::<f64>() / values.len() as f64
         };
-        // But for the two rows at the horizon.
+        // Except for the two rows at the horizon.
         [mean(0..SIDE / 2 - 1), mean(SIDE / 2 + 1..SIDE)]
     };
     let [above, below] = rows(&scene(FLOOR, "").electrons());
@@ -146,14 +146,14 @@ fn a_drop_turns_the_picture_upside_down() {
     assert!(upper == 0.0 && lower > 0.9 * above, "{upper} {lower}");
 }
 
-/// In even light the middle of a drop is brighter by T(glass, water) T(water, air)/T(glass, air), 1.0188 for 1.52 and 1.333.
+/// In uniform light the middle of a drop is brighter by T(glass, water) T(water, air)/T(glass, air), 1.0188 for 1.52 and 1.333.
 #[test]
 fn a_drop_in_even_light_is_seen_by_its_fresnel_losses_alone() {
     let (dry, wet) = (scene("", "").electrons(), scene("", ONE).electrons());
     for (i, (dry, wet)) in dry.iter().zip(&wet).enumerate() {
         let (x, y) = (i % SIDE, i / SIDE);
         let ratio = wet / dry;
-        // Losses at the sphere stay below a tenth of a per cent of change up to 15° from its middle.
+        // Losses at the sphere change by less than a tenth of a per cent up to 15° from its middle.
         let (dx, dy) = (x.abs_diff(SIDE / 2), y.abs_diff(SIDE / 2));
         let expected = if dx < 4 && dy < 4 { 1.017..1.0195 } else { 0.9..1.0195 };
         assert!(expected.contains(&ratio), "{x} {y}: {ratio}");

@@ -3,7 +3,7 @@
 use crate::support::{etendue, root};
 use serde_json::Value;
 
-/// The job whose camera has electronics and processing, so that its plan lists all effects of these.
+/// The job whose camera has electronics and processing, so that its plan lists all their effects.
 const JOB: &str = "scenes/effects/effects.toml";
 
 fn page(name: &str) -> Option<String> {
@@ -34,7 +34,7 @@ fn every_effect_that_the_plan_knows_has_a_page() {
     assert!(count >= 49, "{count} effects");
 }
 
-/// The commands of the pages are of jobs of the repository, with keys that the small one takes; plans of the others take seconds.
+/// The commands of the pages refer to jobs of the repository, with keys that also fit the small one; plans of the others take seconds.
 #[test]
 fn the_commands_of_the_pages_make_plans() {
     let mut commands = 0;
@@ -59,7 +59,7 @@ fn the_commands_of_the_pages_make_plans() {
     assert!(commands >= 45, "{commands}");
 }
 
-/// Words of a shell's line, single quotes taken off.
+/// Words of a shell command, without single quotes.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quoted = false;

@@ -1,4 +1,4 @@
-//! How measurements learn what the numbers of a picture are: told, by side-car, by the file's chunks, guessed.
+//! Sources of an image's encoding for measurements: options, side-car, chunks of the file, assumption.
 
 use crate::support::{Ran, etendue, text};
 use etendue_core::Plane;
@@ -11,7 +11,7 @@ use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Light of an edge over square pixels, turned by 5° or so: dark 0.1, bright 0.8.
+/// Light of an edge over square pixels, turned by about 5°: dark 0.1, bright 0.8.
 fn light(i: usize) -> f32 {
     let (x, y) = ((i % 80) as f32, (i / 80) as f32);
     0.1 + 0.7 * (x - 39.0 - 0.0875 * (y - 39.5)).clamp(0.0, 1.0)
@@ -32,14 +32,14 @@ impl Pictures {
         text(&file)
     }
 
-    /// A grey picture of 16 bits whose file says nothing.
+    /// A 16-bit grey image whose file states no encoding.
     fn grey(&self, name: &str, number: impl Fn(f32) -> f32) -> String {
         let samples = (0..80 * 80).map(|i| (65_535.0 * number(light(i))).round() as u32).collect();
         let plane = Plane::<DigitalNumber>::from_samples(80, 80, samples).expect("a square");
         self.write(name, &encode_companded16(&plane).expect("a picture"))
     }
 
-    /// A picture of 8 bits whose file says so.
+    /// An 8-bit image whose file states its encoding.
     fn stated(&self, name: &str, encoding: &Encoding, number: impl Fn(f32) -> f32) -> String {
         let plane = Plane::<Display>::from_samples(80, 80, (0..80 * 80).map(|i| [number(light(i)); 3]).collect());
         self.write(name, &encode_display(&plane.expect("a square"), encoding).expect("a picture"))
@@ -50,7 +50,7 @@ fn sfr(picture: &str, options: &[&str]) -> Ran {
     etendue(["measure", "sfr", picture].into_iter().chain(options.iter().copied()))
 }
 
-/// The frequency where the response is a half, and what was taken for the encoding and why.
+/// Frequency of half response, and the encoding used with its reason.
 fn found(picture: &str, options: &[&str]) -> (f64, String, String) {
     let report: Value = serde_json::from_str(&sfr(picture, &[options, &["--json"]].concat()).ok().out).expect("JSON");
     let mtf50 = report["tables"]["edges"][0]["mtf50_cycles_per_px"]["value"].as_f64();
@@ -82,7 +82,7 @@ fn pictures_of_any_encoding_give_one_response() {
     let table = pictures.write("curve.csv", b"light, number\n0, 0\n0.2, 0.5\n1, 1\n");
     let bent = |l: f32| if l < 0.2 { 2.5 * l } else { 0.5 + 0.625 * (l - 0.2) };
     same(&pictures.grey("bent.png", bent), &["--encoding", &table], "tone curve of 3 points", "curve.csv");
-    // A measured function: a straight line over the logarithm of the exposure, in the picture's own numbers.
+    // A measured function: linear in the logarithm of the exposure, in the image's own numbers.
     let oecf = pictures.write("oecf.csv", b"# cd/m2, DN\n1 6553.5\n100 58981.5\n");
     let log = |l: f32| 0.1 + 0.4 * log10(100.0 * f64::from(l)) as f32;
     same(&pictures.grey("log.png", log), &["--encoding", &oecf], "OECF of 2 points", "oecf.csv");
@@ -118,7 +118,7 @@ fn tables_and_words_that_are_no_encoding_are_refused() {
     sfr(&picture, &["--encoding", &wide]).refused(&["wide.csv", "3 columns", "expected two"]);
 }
 
-/// Photon transfer measures numbers as they are: a frame that says it is encoded is none of its kind.
+/// Photon transfer measures linear numbers: a frame that states an encoding is refused.
 #[test]
 fn frames_that_say_they_are_encoded_are_no_raws() {
     let stacks = crate::support::root().join("tests/oracles/figures/emva1288");

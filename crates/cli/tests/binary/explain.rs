@@ -1,11 +1,11 @@
-//! The catalogue of errors: its examples have the errors that they are of, and the page of errors is made of it.
+//! The catalogue of errors: its examples have their errors, and the page of errors is generated from it.
 
 use crate::support::{Ran, bless, error_code, etendue, etendue_in, root, tests};
 use etendue::{ErrorCode, ExampleContext};
 use std::fs::{self, File};
 use std::path::Path;
 
-/// What the small job has in the place of its own lines before an example is made of it.
+/// Edits of the small job that prepare an example.
 fn edits(code: ErrorCode) -> &'static [(&'static str, &'static str)] {
     match code {
         ErrorCode::WrongCount => &[("white_balance = \"D65\"", "white_balance = [1.9, 1, 1.4]")],
@@ -17,7 +17,7 @@ fn edits(code: ErrorCode) -> &'static [(&'static str, &'static str)] {
     }
 }
 
-/// Writes the files that the example of a code needs beside the small job; a file that it answers with stays open.
+/// Writes the files that the example of a code needs next to the small job; a returned file stays open.
 fn prepare(code: ErrorCode, folder: &Path) -> Option<File> {
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).expect("written");
     let copy = |from: &str, name: &str| {
@@ -49,7 +49,7 @@ fn prepare(code: ErrorCode, folder: &Path) -> Option<File> {
     None
 }
 
-/// Commands whose mended form needs files that no test makes here, or long.
+/// Commands whose corrected form takes long, or needs files that no test makes here.
 const NOT_RUN: [ErrorCode; 3] = [ErrorCode::NotMeasurable, ErrorCode::NotStated, ErrorCode::NotEnoughMemory];
 
 fn replaced(path: &Path, from: &str, to: &str) {
@@ -58,7 +58,7 @@ fn replaced(path: &Path, from: &str, to: &str) {
     fs::write(path, text.replacen(from, to, 1)).expect("written");
 }
 
-/// The words of a command of the catalogue as they are typed.
+/// Arguments of a command of the catalogue.
 fn words(command: &str) -> Vec<String> {
     let word = |word: &str| match word.strip_prefix('`').and_then(|word| word.strip_suffix('`')) {
         Some(field) => format!("--{}", field.replace('_', "-")),
@@ -134,7 +134,7 @@ fn codes_are_words_of_their_own() {
     }
 }
 
-/// The page of errors below its mark.
+/// The part of the page of errors below its mark.
 fn page() -> String {
     let mut page = String::from("| code | cause | what to do |\n| --- | --- | --- |\n");
     for code in ErrorCode::ALL {

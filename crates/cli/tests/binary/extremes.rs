@@ -1,5 +1,6 @@
-//! The ends of what the program can be given that only the binary shows: pictures that show nothing, files that are none, runs that cannot go on. The rows
-//! of docs/extremes.md beside those of tests/tests/physics/ranges, each with the message that a user gets (`just extremes`); variants stand in the tests of each part.
+//! Extremes of the program's input that only the binary shows: images without content, invalid files, runs that cannot continue. The rows of
+//! docs/extremes.md in addition to those of tests/tests/physics/ranges, each with the message for the user (`just extremes`); variants are in the
+//! tests of each part.
 
 mod files;
 mod pictures;
@@ -9,7 +10,7 @@ use crate::support::{Ran, error_message, text};
 use etendue_testkit::page::Row;
 use std::path::Path;
 
-/// A run that is refused with status 2, the first error of which is the row's figure; the folders in it are left out.
+/// A run refused with status 2, whose first error is the row's result, without the folders in it.
 pub(crate) fn refused(extreme: &str, expected: &str, ran: &Ran, folders: &[&Path]) -> Row {
     ended(2, extreme, expected, ran, folders)
 }
@@ -25,7 +26,7 @@ fn ended(status: i32, extreme: &str, expected: &str, ran: &Ran, folders: &[&Path
     }
 }
 
-/// A message as it stands in a table.
+/// A message as shown in a table.
 fn told(message: &str, folders: &[&Path]) -> String {
     let short = folders.iter().fold(message.to_owned(), |told, folder| told.replace(&format!("{}/", text(folder)), ""));
     let cut = short.char_indices().nth(240).map_or(short.clone(), |(at, _)| format!("{}…", &short[..at]));

@@ -1,6 +1,5 @@
-//! The bench is no mirror of itself: a camera with a fault is laid beside the file without it, and the fault is flagged by the
-//! quantity that it belongs to; the same camera without the fault, by the same seeds, is not. docs/faults.md is the table, written by
-//! `just faults`.
+//! The bench detects seeded defects: a camera with a defect is compared with the file without it, and the defect is flagged by its quantity; the same
+//! camera without the defect, with the same seeds, is not flagged. docs/faults.md is the table, written by `just faults`.
 
 mod geometry;
 mod light;
@@ -19,7 +18,7 @@ const PAGE: &str = "docs/faults.md";
 /// Tests of one run write the page one after another.
 static WRITING: Mutex<()> = Mutex::new(());
 
-/// A quantity or curve of a comparison: its largest E_n, and what is flagged beyond.
+/// A quantity or curve of a comparison: its largest E_n, and the threshold for a flag.
 #[derive(Clone, Copy, Debug)]
 struct Test {
     e_n: f64,
@@ -63,7 +62,7 @@ impl Bench {
         output.join("camera")
     }
 
-    /// What a measurement (its arguments) finds, beside what a camera file declares.
+    /// Compares the result of a measurement (its arguments) with the declaration of a camera file.
     #[track_caller]
     fn beside(&self, measure: &[&str], camera: &str, options: &[&str]) -> Compared {
         let found = etendue(["measure"].iter().chain(measure).chain(&["--json"])).ok().out;
@@ -78,7 +77,7 @@ impl Bench {
     }
 }
 
-/// What a comparison tested.
+/// The tests of a comparison.
 fn tests(report: &Value) -> Compared {
     let rows = |table: &str| report["tables"][table].as_array().cloned().unwrap_or_default();
     let test = |row: &Value, name: &str| {
@@ -91,13 +90,13 @@ fn tests(report: &Value) -> Compared {
     quantities.chain(rows("curves").into_iter().filter_map(|row| test(&row, "curve"))).collect()
 }
 
-/// A camera without fault: nothing is flagged.
+/// Asserts that nothing is flagged for a camera without a defect.
 #[track_caller]
 fn sound(compared: &Compared) {
     assert!(!compared.is_empty() && compared.values().all(|t| !t.differs()), "a sound camera is flagged: {compared:?}");
 }
 
-/// The fault is flagged by its quantity, which the sound camera passes.
+/// Asserts that the defect is flagged by its quantity, which the sound camera passes.
 #[track_caller]
 fn flagged(fault: &str, seeded: &str, quantity: &str, faulty: &Compared, healthy: &Compared) {
     let (with, without) = (faulty[quantity], healthy[quantity]);
@@ -105,7 +104,7 @@ fn flagged(fault: &str, seeded: &str, quantity: &str, faulty: &Compared, healthy
     told(fault, seeded, quantity, with, without);
 }
 
-/// The page has the fault's row; its numbers are those of the last `just faults`.
+/// Asserts that the page has the defect's row; its numbers are those of the last `just faults`.
 #[track_caller]
 fn told(fault: &str, seeded: &str, quantity: &str, with: Test, without: Test) {
     let head = format!("| {fault} | {seeded} | `{quantity}` |");
@@ -118,7 +117,7 @@ fn told(fault: &str, seeded: &str, quantity: &str, with: Test, without: Test) {
     assert!(page.lines().any(|line| line.starts_with(&head)), "{PAGE} lacks {head}: run just faults");
 }
 
-/// The page has this row of a fault.
+/// Asserts that the page has this row of a defect.
 #[track_caller]
 fn row(fault: &str, row: &str) {
     let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);

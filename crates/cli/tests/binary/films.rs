@@ -1,10 +1,10 @@
-//! Films that are larger than they may be in memory: kept in a scratch file, the same bytes of every result.
+//! Films larger than their memory limit: stored in a scratch file, with equal bytes of every result.
 
 use crate::support::{assert_same, etendue, rendered, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A ball under an even sky; 20 bands of 150 × 101 pixels, which take 2.4 MB with their variances.
+/// A ball under a uniform sky; 20 bands of 150 × 101 pixels, which take 2.4 MB with their variances.
 const JOB: &str = r#"format = 1
 [render]
 PASSES
@@ -52,7 +52,7 @@ impl Place {
         text(&self.path("job.toml"))
     }
 
-    /// Results are the same from memory and from the disk, and nothing is left in the folder for scratch files.
+    /// Asserts equal results from memory and from disk, and an empty folder for scratch files.
     fn check(&self, what: &str) {
         let (job, scratch) = (self.job(), text(&self.path("scratch")));
         let held = rendered(&job, &["--scratch", &scratch]);
@@ -105,7 +105,7 @@ fn radiance_at_the_pupil_and_its_lens_do_not_depend_on_the_memory_of_films() {
     Place::new("spp = 2", &deep, "irradiance = true").check("depth of field");
 }
 
-/// One element, whose reflections are soon traced; behind the filter each band has an étendue of its own.
+/// One element, whose reflections are traced quickly; behind the filter each band has its own étendue.
 #[test]
 fn prescriptions_and_their_ghosts_do_not_depend_on_the_memory_of_films() {
     let element = "{ thickness_mm = 1, semi_aperture_mm = 1, stop = true }, { radius_mm = 20, thickness_mm = 4, semi_aperture_mm = 8, glass = \"N-BK7\" }, { radius_mm = -20, semi_aperture_mm = 8 }";
@@ -126,7 +126,7 @@ fn prescriptions_and_their_ghosts_do_not_depend_on_the_memory_of_films() {
 fn the_plan_tells_where_a_film_is() {
     let place = Place::new("spp = 4\nreplicates = 2", &camera(THIN, "", ""), SPECTRA);
     let plan = |options: &[&str]| etendue(["plan", &place.job()].iter().chain(options)).ok().out;
-    // 20 bands: means and variances of 4 bytes; beside them weights, samples and what was not finite.
+    // 20 bands: means and variances of 4 bytes; also weights, samples and non-finite counts.
     let told = "film 0.2 MB in memory, its bands 2.4 MB on the disk";
     assert!(plan(&["--film-memory", "1"]).contains(told), "{}", plan(&["--film-memory", "1"]));
     assert!(plan(&["--film-memory", "3"]).contains("film 2.6 MB\n"), "{}", plan(&[]));

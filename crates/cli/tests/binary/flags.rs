@@ -1,4 +1,4 @@
-//! Every flag of a measurement changes something: each is set alone on a picture of its kind, and what is printed, written or refused must be another than
+//! Every flag of a measurement has an effect: each is set alone on a suitable image, and the printed, written or refused output must differ from that
 //! without it. The list of flags is that of `--help`, so that a new flag is tried or fails the test.
 
 use crate::support::{etendue, text};
@@ -8,10 +8,10 @@ use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
 use std::path::Path;
 
-/// Flags that need another one: tried with it, or a matter of the process.
+/// Flags that need another one, and are tried with it, or that concern the process.
 const ELSEWHERE: [&str; 4] = ["--help", "--limit", "--camera", "--overwrite"];
 
-/// Flags of all measurements of pictures, and values that change every picture of this test.
+/// Flags of all measurements of images, and values that change every image of this test.
 const PICTURE: &[(&str, &str)] = &[
     ("--channel", "R"),
     ("--cfa", "RGGB"),
@@ -31,7 +31,7 @@ const CHART: &[(&str, &str)] = &[
     ("--points", ""),
 ];
 
-/// The output of a run, its exit status, and the files that it leaves.
+/// Output of a run, its exit status, and its files.
 fn ran(words: &[&str], out: &Path) -> (i32, String, String, Vec<String>) {
     let made = etendue(words);
     let files = std::fs::read_dir(out).expect("a folder").map(|f| text(&f.expect("a file").path()));
@@ -70,7 +70,7 @@ fn each_changes_something(base: &[&str], values: &[&[(&str, &str)]]) {
             ("--truth", None) => lost.clone(),
             _ => panic!("measure {kind}: no value of {flag} is tried; add one to this test"),
         };
-        // A value that the base states is replaced.
+        // A value from the base is replaced.
         let mut all = words.clone();
         match all.iter().position(|word| word == flag) {
             Some(place) => all[place + 1] = value.as_str(),
@@ -93,7 +93,7 @@ fn picture(folder: &Path, name: &str, [w, h]: [usize; 2], brightness: impl Fn(f6
     text(&file)
 }
 
-/// −1 to 1, another at every place and in every frame.
+/// A number from −1 to 1 that differs by position and frame.
 fn scatter(x: f64, y: f64, frame: usize) -> f64 {
     let mixed = (x as usize * 73_856_093) ^ (y as usize * 19_349_663) ^ (frame * 83_492_791 + 12_345);
     ((mixed ^ (mixed >> 13)).wrapping_mul(0x5bd1_e995) % 65_537) as f64 / 32_768.0 - 1.0
@@ -130,7 +130,7 @@ fn of_measurements_of_charts_of_points() {
 #[test]
 fn of_measurements_of_an_edge_and_of_an_even_field() {
     let folder = tempfile::tempdir().expect("a folder");
-    // 5° from the columns, a little uneven.
+    // 5° from the columns, slightly non-uniform.
     let edge = picture(folder.path(), "edge.png", SIZE, |x, y| {
         let level = if x - 160.0 < 0.0875 * (y - 120.0) { 2_000.0 } else { 14_000.0 };
         level * (1.0 + 1e-4 * x + 1e-7 * x * x) + 100.0 * scatter(x, y, 0)

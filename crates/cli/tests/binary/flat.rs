@@ -1,4 +1,4 @@
-//! Even light on bare sensors from the command line.
+//! Uniform illumination of bare sensors from the command line.
 
 use crate::support::{Ran, contents, etendue, text};
 use etendue_io::exr::{Samples, read_exr};
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 const WEB: &str = "scenes/cameras/web.toml";
 const SMALL: [&str; 4] = ["--set", "sensor.width_px=16", "--set", "sensor.height_px=8"];
 
-/// The run, and the camera's files.
+/// Runs `flat`; returns the run, and the camera's files.
 fn flat(camera: &str, options: &[&str]) -> (Ran, BTreeMap<String, Vec<u8>>) {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = text(&place.path().join("out"));
@@ -28,7 +28,7 @@ fn stored(bytes: &[u8], name: &str) -> (tempfile::TempDir, PathBuf) {
     (place, path)
 }
 
-/// The numbers of a raw, and its columns and rows.
+/// Digital numbers of a raw, and its columns and rows.
 fn numbers(bytes: &[u8]) -> (Vec<u16>, [u32; 2]) {
     let (_place, path) = stored(bytes, "raw.png");
     let picture = read_picture(&path).expect("a picture");
@@ -48,7 +48,7 @@ fn single_frames_have_raw_picture_and_side_car_and_a_seed() {
     // 3.6 µm, 10 ms, 525 nm, 2 mW/m²: the standard's 50.34 photons.
     let photons = facts["light"]["photons_per_pixel"].as_f64().expect("a number");
     assert!((photons - 50.341_165_675_4 * 12.96 * 10.0 * 0.525 * 0.2).abs() < 1e-6 * photons, "{photons}");
-    // No exposure control: the camera has it, a bench has not.
+    // No exposure control: the camera has it, a bench does not.
     assert!(facts["frames"].as_array().expect("frames").iter().all(|f| f["exposure_s"] == 0.01));
     let (_, again) = flat(WEB, &options);
     assert_eq!(files, again);
@@ -56,7 +56,8 @@ fn single_frames_have_raw_picture_and_side_car_and_a_seed() {
     assert_ne!(files["web/raw.0003.png"], other["web/raw.0003.png"]);
 }
 
-/// Of every two columns and rows of tiles of two pixels the first: columns 0, 1, 4, 5, 8, 9, 12, 13 of 16 and rows 0, 1, 4, 5 of 8, each pixel as it is without.
+/// Of every two columns and rows of tiles of two pixels the first: columns 0, 1, 4, 5, 8, 9, 12, 13 of 16 and rows 0, 1, 4, 5 of 8, each pixel as it
+/// is without.
 #[test]
 fn a_thinned_picture_has_the_pixels_that_are_read() {
     let options = [&SMALL[..], &["--irradiance-w-m2", "0.002"]].concat();
@@ -147,7 +148,7 @@ fn a_picture_of_no_time_is_dark() {
     assert_eq!(files["automotive/raw.0000.png"], dark["automotive/raw.0000.png"]);
     let series = [&no_time[..], &["--photon-transfer", "3"]].concat();
     flat("scenes/cameras/automotive.toml", &series).0.refused(&["\"exposure_s\"", "which is 0"]);
-    // What needs a rate of light has none.
+    // Effects that need a rate of light are refused at zero exposure time.
     flat("scenes/cameras/ccd-mono.toml", &lit).0.refused(&["smear", "exposure_s of 0"]);
 }
 
@@ -168,7 +169,7 @@ fn the_series_of_the_standard_names_all_its_frames() {
     assert_eq!(files.len(), 4 * 4 + 6 + 2);
     let descriptor = String::from_utf8(files["ccd-mono/emva1288.txt"].clone()).expect("UTF-8");
     let lines: Vec<&str> = descriptor.lines().collect();
-    // Bits, columns and rows of the picture: the optical black is left out.
+    // Bits, columns and rows of the image: the optical black is excluded.
     assert_eq!(lines[..2], ["v 4.0", "n 12 16 8"]);
     let heads: Vec<&str> = lines.iter().filter(|l| !l.starts_with('i')).skip(2).copied().collect();
     assert_eq!(heads.len(), 10);
@@ -179,7 +180,7 @@ fn the_series_of_the_standard_names_all_its_frames() {
     assert_eq!(numbers(&files["ccd-mono/raw.0000.png"]).1, [16, 8]);
 }
 
-/// Its frames are raws as those of a job are: shot and read noise at 0.2 DN an electron, in eight frames of 160 × 120 px.
+/// Its frames are raws like those of a job: shot and read noise at 0.2 DN per electron, in eight frames of 160 × 120 px.
 #[test]
 fn frames_are_measured_by_their_side_car() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -196,7 +197,7 @@ fn frames_are_measured_by_their_side_car() {
     };
     let (signal_dn, _) = figure("signal");
     let (noise_dn, uncertainty_dn) = figure("temporal_noise");
-    // Shot noise of what was collected, read noise of 10 e⁻, and a twelfth of a step's square.
+    // Shot noise of the collected charge, read noise of 10 e⁻, and a twelfth of a step's square.
     let expected_dn = (0.2 * signal_dn + 0.04 * 100.0 + 1.0 / 12.0_f64).sqrt();
     assert!((noise_dn - expected_dn).abs() < 4.0 * uncertainty_dn, "{noise_dn} ± {uncertainty_dn}, not {expected_dn}");
 }

@@ -25,7 +25,7 @@ fn figure(report: &Value, key: &str) -> [f64; 2] {
     [value, number("standard_uncertainty").unwrap_or(f64::INFINITY)]
 }
 
-/// A picture of brightnesses 0 to 1, each pixel the mean of 16 samples.
+/// An image of brightness 0 to 1, each pixel the mean of 16 samples.
 fn picture(folder: &Path, name: &str, [w, h]: [usize; 2], brightness: impl Fn(f64, f64) -> f64) -> String {
     let pixel = |i: usize| {
         let at = |k: usize| (k as f64 + 0.5) / 4.0;
@@ -64,7 +64,7 @@ fn the_distortion_of_dots_is_the_one_they_were_drawn_with() {
         let field = point["field_percent"].as_f64().expect("a number") / 100.0;
         let ratio = point["ratio"]["value"].as_f64().expect("a number");
         let want = 1.0 / (1.0 + k1 * field * field + k2 * field * field * field * field);
-        // The bench's 0.1 % of the field, of distances that are a part of it.
+        // The bench's tolerance is 0.1 % of the field, for distances that are a part of it.
         assert!((ratio - want).abs() * field < 1e-3, "{field}: {ratio} {want}");
     }
     assert!((figure(&found, "backward_k1")[0] - k1).abs() < 3e-3, "{found}");
@@ -88,7 +88,7 @@ fn board(folder: &Path, name: &str, [about_x, about_y]: [f64; 2]) -> String {
     let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     picture(folder, name, SIZE, |x, y| {
         let ray = [(x - 205.0) / 320.0, (y - 148.0) / 320.0, 1.0];
-        // The chart's middle stands 13 steps ahead.
+        // The chart's middle is 13 steps ahead.
         let t = 13.0 * n[2] / dot(n, ray);
         let hit = [t * ray[0], t * ray[1], t * ray[2] - 13.0];
         let (u, v) = ((dot(hit, a) + 4.0).floor() as i32, (dot(hit, b) + 2.5).floor() as i32);
@@ -110,7 +110,7 @@ fn a_pinhole_is_calibrated_from_its_views() {
     let found = json(&arguments);
     for (key, want) in [("fx_px", 320.0), ("fy_px", 320.0), ("cx_px", 205.0), ("cy_px", 148.0), ("k1", 0.0)] {
         let [value, uncertainty] = figure(&found, key);
-        // Errors of 16 samples a pixel are not noise: wider than three standard uncertainties.
+        // Errors of 16 samples per pixel are not noise: wider than three standard uncertainties.
         assert!(
             (value - want).abs() < 5.0 * uncertainty && uncertainty < 1e-2 * (want + 1.0),
             "{key}: {value} {uncertainty}"
@@ -142,7 +142,7 @@ fn a_pinhole_is_calibrated_from_its_views() {
     etendue(["measure", "distortion", &views[0], "--grid", "5x4"]).refused(&["9 × 6", "5 × 4"]);
 }
 
-/// A view in which there is no chart says nothing of the camera.
+/// A view without a chart gives no information on the camera.
 #[test]
 fn a_view_without_a_chart_is_left_out_and_told() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -157,12 +157,12 @@ fn a_view_without_a_chart_is_left_out_and_told() {
     let found = json(&told(&[0, 3, 1, 2]));
     assert!(found["notes"].to_string().contains("wall0.png: left out"), "{}", found["notes"]);
     assert_eq!(found["tables"]["views"].as_array().expect("views").len(), 3);
-    // Two are too few to leave others out, and of none the first says why.
+    // Two views are too few to omit others; with no valid view the first gives the reason.
     etendue(told(&[0, 1, 3])).refused(&["wall0.png: ", "no checkerboard or grid of dots"]);
     etendue(told(&[4, 3])).refused(&["wall1.png: ", "none of the 2 pictures shows the chart"]);
 }
 
-/// Four coefficients of a fisheye beyond the points of OpenCV's board: the figures stand, a camera file of them does not.
+/// Four coefficients of a fisheye beyond the points of OpenCV's board: the results are valid, a camera file from them is not.
 #[test]
 fn a_camera_that_folds_outside_its_points_is_told_and_no_file() {
     let views: Vec<String> = [1, 2, 3, 4, 5, 6]
@@ -171,7 +171,7 @@ fn a_camera_that_folds_outside_its_points_is_told_and_no_file() {
     let all = ["calibrate", "--pitch-mm", "30", "--model", "kannala-brandt"];
     let all: Vec<&str> = all.into_iter().chain(views.iter().map(String::as_str)).collect();
     let found = json(&all);
-    // OpenCV with its own model and all views: 532.8 px (opencv.json); six views and another model differ by some 3 px.
+    // OpenCV with its own model and all views: 532.8 px (opencv.json); six views and another model differ by about 3 px.
     assert!((figure(&found, "fx_px")[0] - 533.0).abs() < 4.0, "{found}");
     assert!(found["notes"].to_string().contains("folds the picture over"), "{}", found["notes"]);
     let folder = tempfile::tempdir().expect("a folder");
@@ -197,10 +197,10 @@ fn colours_that_are_displaced_are_told_and_grey_is_refused() {
     let file = folder.path().join("colours.png");
     std::fs::write(&file, encode_display(&plane, &Encoding::Srgb).expect("a picture")).expect("written");
     let found = json(&["measure", "chromatic", &text(&file)]);
-    // 16 samples and 8 bits: some hundredths of a pixel.
+    // 16 samples and 8 bits: a few hundredths of a pixel.
     assert!((figure(&found, "red_largest_px")[0] - 0.4).abs() < 0.06, "{found}");
     assert!((figure(&found, "blue_largest_px")[0] - 0.2).abs() < 0.06, "{found}");
-    // JSON lists every point in both colours; so does the text, where that is asked for.
+    // JSON lists every point in both colours; the text does so on request.
     let points = found["tables"]["points"].as_array().expect("points");
     let red = points.iter().find(|point| point["channel"] == "red").expect("a point in red");
     assert!(points.len() > 300 && (red["less_green_x_px"].as_f64().expect("a number") - 0.4).abs() < 0.1, "{red}");
@@ -215,8 +215,8 @@ fn colours_that_are_displaced_are_told_and_grey_is_refused() {
 #[test]
 fn the_colours_of_a_mosaic_are_measured_where_their_pixels_are() {
     let folder = tempfile::tempdir().expect("a folder");
-    // Dots about 20.3 (k − ¼, l − ¼) as green shows them, in all places among the pixels; red, at even columns and rows, 0.4 px to the right; blue, at odd ones, 0.2
-    // px to the left.
+    // Dots about 20.3 (k − ¼, l − ¼) as green shows them, at all positions among the pixels; red, at even columns and rows, 0.4 px to the right;
+    // blue, at odd ones, 0.2 px to the left.
     let file = picture(folder.path(), "mosaic.png", SIZE, |x, y| {
         let shift = match (x as usize % 2, y as usize % 2) {
             (0, 0) => 0.4,
@@ -243,7 +243,7 @@ fn the_colours_of_a_mosaic_are_measured_where_their_pixels_are() {
         let (x, y) = (off("x_px", shift), off("y_px", 0.0));
         assert!(x.abs() < 0.02 && y.abs() < 0.02, "{channel}: {x} {y}");
     }
-    // Colours that are displaced against each other are off by their mean displacement, and in waves.
+    // Mutually displaced colours deviate by their mean displacement, and in waves.
     let found = json(&["measure", "distortion", &file, "--cfa", "RGGB", "--channel", "balanced"]);
     let points = found["tables"]["points"].as_array().expect("points");
     let x = |p: &Value| (p["x_px"].as_f64().expect("a number") - 0.05) / 20.3 + 0.25;
@@ -280,7 +280,7 @@ fn points_and_covariances_are_told() {
     assert!(
         found["figures"]["picture_height_percent"]["value"].as_f64().expect("two rows from side to side").abs() < 3.0
     );
-    // Tilted by 20°, its distortion centred elsewhere: the map leaves the tilt out, and the curve is that of k1 and k2.
+    // Tilted by 20°, with another centre of distortion: the map excludes the tilt, and the curve is that of k1 and k2.
     let found = json(&["measure", "distortion", &photograph()]);
     assert!(!found["notes"].to_string().contains("the curve is not what k1 and k2 say"), "{}", found["notes"]);
 }
@@ -318,7 +318,7 @@ fn depths_of_stereo_are_read_from_float_maps() {
 #[test]
 fn nonsense_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    // Another of OpenCV's pictures, without a chart but with rows and columns of dots; and everything white.
+    // Another of OpenCV's images, without a chart but with rows and columns of dots; and a fully white image.
     let print = text(&root().join("tests/oracles/figures/checkerboard/pic4.png"));
     let white = picture(folder.path(), "white.png", SIZE, |_, _| 1.0);
     for file in [&print, &white] {

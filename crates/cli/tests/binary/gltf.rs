@@ -1,11 +1,11 @@
-//! glTF files beside our own keys: what the plan says, pictures against those of the same things in other formats, damaged files.
+//! glTF files with our own keys: the plan, images against those of the same objects in other formats, damaged files.
 
 use crate::support::{etendue, root, text};
 use etendue_testkit::skip::all_here;
 use std::fs;
 use std::path::Path;
 
-/// A camera 3 m in front of what stands at the origin, under an even sky.
+/// A camera 3 m in front of the origin, under a uniform sky.
 const JOB: &str = r#"format = 1
 [scene]
 MESHES
@@ -30,7 +30,7 @@ radiance = true
 variance = true
 "#;
 
-/// The job of a mesh's file.
+/// The job of a mesh file.
 fn job(file: &Path, axes: &str) -> String {
     let meshes = format!("[[scene.meshes]]\nname = \"m\"\nfile = {:?}\n{axes}", text(file));
     JOB.replace("MESHES", &meshes).replace("BODY", "mesh = \"m\"")
@@ -74,7 +74,7 @@ fn models_of_both_formats_give_the_same_picture() {
     }
 }
 
-/// The file of trimesh: a gold box, matt balls, a coated print.
+/// The file of trimesh: a gold box, diffuse balls, a coated print.
 fn scene_glb() -> std::path::PathBuf {
     root().join("tests/oracles/figures/gltf/scene.glb")
 }
@@ -95,7 +95,7 @@ fn the_plan_says_what_became_of_what() {
     }
 }
 
-/// A matt square of glTF against the same in our own words.
+/// A diffuse square from glTF against the same in our format.
 #[test]
 fn a_square_is_the_one_of_our_own_words() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -138,7 +138,7 @@ fn damaged_files_are_refused_with_their_place_in_the_job() {
     etendue(["plan", &text(&file)]).refused(&["job.toml:3:", "\"up_axis\" is missing"]);
 }
 
-/// A PLY file against a square of our own words; what it says of colours, and what stays unread, is told; half of it is refused.
+/// A PLY file against a square in our format; its colours and unread content are reported; a truncated file is refused.
 #[test]
 fn a_ply_file_is_a_mesh_without_materials() {
     let place = tempfile::tempdir().expect("a temporary folder");

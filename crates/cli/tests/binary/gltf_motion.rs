@@ -1,4 +1,4 @@
-//! Animations of glTF files as frames with keys: what is written, and whether pictures are those of the same file standing still.
+//! Animations of glTF files as frames with keys: the written files, and images against those of the same file without motion.
 
 use crate::support::{Ran, etendue, text};
 use serde_json::{Value, json};
@@ -14,14 +14,14 @@ const HALF: f32 = std::f32::consts::FRAC_1_SQRT_2;
 const TURNS: [f32; 12] =
     [0.258_819_04, 0.0, 0.0, 0.965_925_8, 0.258_819_04, 0.0, 0.0, 0.965_925_8, HALF, 0.0, 0.0, HALF];
 const SIZES: [f32; 9] = [1.0, 1.0, 2.0, 1.0, 1.0, 2.0, 1.0, 1.0, 1.0];
-/// Tangent before, value, tangent after of each place: those of PLACES, at rest at every key.
+/// In-tangent, value and out-tangent of each position: those of PLACES, at rest at every key.
 const CURVE: [f32; 27] = [
     0.0, 0.0, 0.0, 0.3, 0.2, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 0.2, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.3, 0.2,
     0.1, 0.0, 0.0, 0.0,
 ];
 
-/// A floor, and on a base that is turned and twice as large an arm that moves with a camera, a lamp and a hand that moves too. `is_still`: the same as it
-/// stands at the beginning.
+/// A floor, and on a rotated base of twice the size an arm that moves with a camera, a lamp and a moving hand. `is_still`: the same at its initial
+/// positions, without motion.
 fn scene(interpolation: &str, is_still: bool) -> Value {
     let mut arm = json!({ "name": "arm", "mesh": 0, "children": [2, 3, 4] });
     let mut hand = json!({ "name": "hand", "mesh": 0, "translation": [1.1, 0.4, 0.1], "rotation": [0, 0, HALF, HALF] });
@@ -113,7 +113,7 @@ fn rendered(folder: &Path, job: &Path, name: &str, seed: &str) -> String {
     );
     fs::write(job, small).expect("written");
     let out = text(&folder.join(name));
-    // Few bands: a difference shows in them soonest.
+    // Few bands: a difference shows most clearly in them.
     let sampling = [
         "--set=output.variance=true",
         "--set=render.replicates=32",
@@ -124,12 +124,13 @@ fn rendered(folder: &Path, job: &Path, name: &str, seed: &str) -> String {
         seed,
     ];
     etendue(["render", &text(job), "-o", &out].iter().copied().chain(sampling)).ok();
-    // Pictures of what moves have a number.
+    // Images of a moving scene have a number.
     let still = format!("{out}/eye/radiance.exr");
     if Path::new(&still).exists() { still } else { format!("{out}/eye/radiance.0000.exr") }
 }
 
-/// At the beginning all stands as in a file that does not move: meshes, the camera, the lamp, by every interpolation; where the arm stands elsewhere it is found.
+/// At the start everything is positioned as in a file without motion: meshes, the camera, the lamp, by every interpolation; a displaced arm is
+/// detected.
 #[test]
 fn what_moves_begins_where_its_first_keys_say() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -200,7 +201,7 @@ fn what_cannot_move_is_said_and_damage_is_refused() {
         (change("/animations/0/samplers/0/output", json!(2)), "translations"),
         (change("/animations/0/samplers/0/input", json!(0)), "times"),
         (change("/accessors/2/count", json!(2_000_000)), "more than 1000000 keys"),
-        // Zeros of the curve's tangents.
+        // Zero tangents of the curve.
         (
             change(
                 "/accessors/4",
@@ -215,7 +216,7 @@ fn what_cannot_move_is_said_and_damage_is_refused() {
     }
 }
 
-/// What moves may be called as the file, or as the part of it that stands still.
+/// A moving part may have the name of the file, or of a stationary part.
 #[test]
 fn what_moves_and_what_stands_have_names_apart() {
     let place = tempfile::tempdir().expect("a temporary folder");

@@ -1,21 +1,21 @@
 //! Stored results with mean and variance, compared by `etendue compare` with renders of another seed.
 //!
-//! The Z test's level is the program's default, 0.001 for a whole file over all its pixels and bands: the seeds are
-//! fixed, so that a test that passes passes for ever, and one in a thousand new seeds would not.
+//! The level of the Z test is the program's default, 0.001 for a whole file over all its pixels and bands. The seeds are fixed: a test that passes
+//! always passes, and one in a thousand new seeds would fail.
 
 use crate::support::{bless, etendue, root, tests, text};
 use std::path::{Path, PathBuf};
 
-/// A stored result and how it is made again.
+/// A stored result and its settings.
 struct Golden {
     name: &'static str,
     job: &'static str,
     options: &'static [&'static str],
-    /// A change of the scene that must be found.
+    /// A change of the scene that must be detected.
     change: &'static str,
 }
 
-/// Sixteen replicates, coarse bands; 30 pixels a row hold what a test needs and little else.
+/// Sixteen replicates, coarse bands; 30 pixels per row hold little more than a test needs.
 const COMMON: [&str; 10] = [
     "--set",
     "render.replicates=16",
@@ -97,7 +97,7 @@ impl Golden {
         tests().join(format!("goldens/{}.exr", self.name))
     }
 
-    /// Renders into a folder; gives the radiance image.
+    /// Renders into a folder; returns the path of the radiance image.
     fn render(&self, folder: &Path, further: &[&str]) -> String {
         let start = ["render", self.job, "-o"].map(str::to_owned);
         let options = COMMON.iter().chain(self.options).chain(further).map(|s| (*s).to_owned());
@@ -129,7 +129,7 @@ impl Golden {
     }
 }
 
-/// Writes image, reference and difference where a developer finds them; says where.
+/// Writes image, reference and difference for a developer; returns their paths.
 fn keep(name: &str, golden: &str, found: &str) -> String {
     let folder = root().join("target/golden-differences").join(name);
     etendue(["compare", golden, found, "--difference", &text(&folder)]);
@@ -173,7 +173,7 @@ fn comparing_a_result_with_itself_finds_nothing_and_says_so_in_json() {
     assert!(channels.len() == 4 && channels.iter().all(|c| c["unequal"] == 0), "{}", ran.out);
 }
 
-/// The difference of a darker scene and a brighter one is negative; with the two exchanged it has the opposite sign and the same magnitude.
+/// The difference of a darker scene and a brighter one is negative; exchanged it has the opposite sign and the same magnitude.
 #[test]
 fn a_comparison_states_which_result_is_subtracted() {
     let place = tempfile::tempdir().expect("a temporary folder");

@@ -1,8 +1,8 @@
-//! What the program says of itself.
+//! Help texts of the program.
 
 use crate::support::{etendue, root};
 
-/// What it does, one verb each.
+/// Verbs.
 const VERBS: &[&str] = &[
     "render",
     "rig",
@@ -23,7 +23,7 @@ const VERBS: &[&str] = &[
     "characterise",
     "laboratory",
 ];
-/// Those whose options are their subcommands'.
+/// Verbs whose options belong to their subcommands.
 const GROUPS: [&str; 2] = ["chart", "measure"];
 
 #[test]
@@ -35,7 +35,7 @@ fn help_names_every_verb_and_the_exit_statuses() {
     }
 }
 
-/// That all packages of the workspace have it is a rule of the house (`tests/tests/house/tidy.rs`).
+/// `tests/tests/house/tidy.rs` checks that all packages of the workspace have this version.
 #[test]
 fn the_version_is_the_newest_of_the_change_log() {
     let changes = std::fs::read_to_string(root().join("CHANGELOG.md")).expect("the change log");
@@ -51,7 +51,7 @@ fn every_option_explains_itself() {
         let options = help.lines().filter(|line| line.trim_start().starts_with("--")).count();
         let lines: Vec<&str> = help.lines().collect();
         let is_option = |line: &str| line.trim_start().starts_with("--");
-        // The words stand beside the option or below it.
+        // The text is next to the option or below it.
         let explained =
             lines.windows(2).filter(|w| is_option(w[0]) && (w[0].contains("   ") || !w[1].trim().is_empty()));
         assert_eq!(options, explained.count(), "{help}");
@@ -65,7 +65,7 @@ fn a_lens_is_measured_as_text_and_as_json() {
     let json: serde_json::Value =
         serde_json::from_str(&etendue(["measure", "lens", "telephoto", "--json", "--fields", "4"]).ok().out)
             .expect("JSON");
-    // The patent's lens is one of 100 mm.
+    // The lens of the patent has a focal length of 100 mm.
     assert!((json["focal_length_mm"].as_f64().expect("a number") - 100.0).abs() < 2.0, "{json}");
     assert_eq!(json["fields"].as_array().map(Vec::len), Some(4));
     assert!(text.contains("ghosts of a far point") && !text.contains("-0.0000 "), "{text}");
@@ -115,7 +115,7 @@ fn schemas_are_json_that_names_the_keys() {
     }
 }
 
-/// Words in backticks are keys of files here, although one of them is the name of an argument too (`time_s`, `--time`).
+/// Words in backticks are keys of files here, although one of them is also the name of an argument (`time_s`, `--time`).
 #[test]
 fn schemas_keep_the_words_of_files() {
     let schema = etendue(["schema", "job"]).ok().out;

@@ -1,4 +1,4 @@
-//! Files and arguments that would hang the program or fill the memory.
+//! Files and arguments that could hang the program or fill the memory.
 
 use crate::bad_input::Spoilt;
 use crate::support::{etendue, text};
@@ -11,7 +11,7 @@ fn pipe(path: &Path) -> String {
     text(path)
 }
 
-/// Reading any of them would wait for ever.
+/// Reading any of them would block indefinitely.
 #[test]
 fn pipes_in_the_place_of_files_are_refused() {
     const PIPE: &str = "this is a pipe, not a file on a disk; save what it gives as a file and name that";
@@ -38,7 +38,7 @@ fn pipes_in_the_place_of_files_are_refused() {
     etendue(["inspect", "/dev/zero"]).refused(&["/dev/zero", "this is a device"]);
 }
 
-/// What nothing uses is not read, and need not be there.
+/// Unused files are not read, and need not exist.
 #[test]
 fn unused_files_need_not_exist() {
     let spoilt = Spoilt::new();

@@ -1,4 +1,4 @@
-//! Output folders that cannot be used, links in them, and names that do not suit files.
+//! Unusable output folders, links in them, and names unsuitable for files.
 
 use crate::bad_input::Spoilt;
 use crate::support::{contents, etendue, rendered, small, text};
@@ -10,7 +10,7 @@ use std::path::Path;
 
 const LIGHT: [&str; 2] = ["--spp", "2"];
 
-/// What cannot be written is refused before anything is rendered, with the path.
+/// Unwritable paths are refused before anything is rendered, and are named.
 #[test]
 fn folders_that_cannot_be_are_refused_before_the_work() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -24,13 +24,13 @@ fn folders_that_cannot_be_are_refused_before_the_work() {
     refused(&file, "expected a folder for the results, but this is a file");
     etendue(["render", &small(), "-o", &text(&file.join("deep"))].iter().chain(&endless)).refused(&[&text(&file)]);
     assert_eq!(fs::read(&file).expect("a file"), b"theirs");
-    // The kernel's own folder takes nothing, not even of root.
+    // The kernel's own folder accepts no files, even from root.
     if cfg!(target_os = "linux") {
         refused(Path::new("/proc/etendue"), "this output folder cannot be made");
         refused(Path::new("/proc"), "this output folder cannot be written to");
     }
     refused(&place.path().join("n".repeat(300)), "this output folder cannot be made: File name too long");
-    // A file where a camera's folder shall be, and a folder where a file shall be.
+    // A file in place of a camera's folder, and a folder in place of a file.
     let out = place.path().join("out");
     fs::create_dir_all(out.join("front/radiance.exr")).expect("made");
     etendue(["render", &small(), "-o", &text(&out), "--overwrite"].iter().chain(&endless))
@@ -41,7 +41,7 @@ fn folders_that_cannot_be_are_refused_before_the_work() {
         .refused(&["front", "expected a folder for the results, but this is a file"]);
 }
 
-/// Permission bits stop nobody who is root: this is looked at where the tests run as another.
+/// Permission bits do not apply to root: this is only tested under another user.
 #[test]
 fn a_read_only_folder_is_refused_before_the_work() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -83,7 +83,7 @@ fn links_are_replaced_and_never_written_through() {
     assert_eq!(contents(&foreign).len(), 1);
 }
 
-/// The state of a progressive run is in a folder within: a link in its place leads nowhere, whatever a run would do there.
+/// The state of a progressive run is in a subfolder: a link in its place is never followed.
 #[test]
 fn a_link_in_the_place_of_the_state_is_refused_and_nothing_is_deleted_behind_it() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -133,7 +133,7 @@ fn names_of_cameras_are_names_of_files_on_every_system() {
     assert!(out.join(&long).join("radiance.exr").exists());
 }
 
-/// Names of objects are in no file's name: whatever they are, the side-car tells them as they are.
+/// Names of objects are in no file name; the side-car states them unchanged.
 #[test]
 fn names_of_objects_may_be_anything() {
     let strange = ["../../x", ".", "-rf", "two\nlines \"and\" quotes", "nul\0", "\u{202e}straße 🚗", &"n".repeat(5000)];

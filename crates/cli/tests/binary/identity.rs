@@ -1,4 +1,4 @@
-//! The plan's hash names what was rendered, and headers name what they stand on.
+//! The plan's hash identifies a result, and headers state their origin.
 
 use crate::support::{etendue, rendered, small, text};
 use std::fs;
@@ -9,7 +9,7 @@ fn hash(job: &str, options: &[&str]) -> String {
     plan.lines().next().expect("a plan has lines").to_owned()
 }
 
-/// A job whose reflectance is tabulated in `paint.csv` beside it.
+/// A job whose reflectance is tabulated in `paint.csv` next to it.
 const TABLED: &str = "format = 1\n[scene]\nmaterials = [{ name = \"m\", type = \"diffuse\", reflectance = { spectrum = \
                       \"paint.csv\" } }]\n[[scene.objects]]\nname = \"o\"\nshape = { type = \"sphere\", radius_m = 1 }\n\
                       material = \"m\"\n[[cameras]]\nname = \"c\"\nposition_m = [-4, 0, 0]\nlook_at_m = [0, 0, 0]\n\
@@ -41,7 +41,7 @@ fn what_decides_the_result_changes_the_hash_and_what_does_not_leaves_it() {
     assert_eq!(plain, hash(&small(), &["--set", "render.tile_px=8"]));
 }
 
-/// The text of a header's fact, from its bytes.
+/// Text of a fact in a header, from its bytes.
 fn fact(exr: &[u8], name: &str) -> String {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("a.exr");

@@ -1,4 +1,4 @@
-//! Scenes of other programs: what they become, and whether their light is what closed forms say.
+//! Scenes of other programs: the converted scene, and its light against closed forms.
 
 use crate::support::{etendue, text};
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ const SIN_20: f64 = 0.342_020_143_325_668_7;
 const COS_20: f64 = 0.939_692_620_785_908_4;
 const SIN_40: f64 = 0.642_787_609_686_539_4;
 
-/// A matt floor of reflectance 0.5 in y = 0, a light 2 m above it, and two cameras that look straight down on the origin from 3 m.
+/// A diffuse floor of reflectance 0.5 in y = 0, a light 2 m above it, and two cameras that look straight down on the origin from 3 m.
 fn floor(light: &Value, rotation: [f64; 4]) -> Value {
     let down = [-std::f64::consts::FRAC_1_SQRT_2, 0.0, 0.0, std::f64::consts::FRAC_1_SQRT_2];
     json!({
@@ -39,7 +39,7 @@ fn floor(light: &Value, rotation: [f64; 4]) -> Value {
     })
 }
 
-/// Writes a file and imports it into `made` beside it; what was said.
+/// Writes a file and imports it into `made` next to it; returns the output.
 fn imported(folder: &Path, file: &Value) -> crate::support::Ran {
     let floats: Vec<u8> =
         [-50_f32, 0., 50., 50., 0., 50., 50., 0., -50., -50., 0., -50.].iter().flat_map(|v| v.to_le_bytes()).collect();
@@ -59,7 +59,7 @@ fn smaller(folder: &Path) -> PathBuf {
     job
 }
 
-/// The mean luminance of a radiance file by its preview in linear sRGB, cd/m².
+/// Mean luminance of a radiance file by its preview in linear sRGB, cd/m².
 fn luminance(folder: &Path, camera: &str) -> f64 {
     let told = etendue(["inspect", &text(&folder.join(format!("out/{camera}/radiance.exr")))]).ok();
     let mean = |channel: &str| -> f64 {
@@ -69,8 +69,8 @@ fn luminance(folder: &Path, camera: &str) -> f64 {
     0.2126 * mean("R") + 0.7152 * mean("G") + 0.0722 * mean("B")
 }
 
-/// What lamps throw on the floor at the origin, by I·cos³/h² and E·cos. The cameras see 6 mm of it, over which light varies by 0.4 % and evenly; noise
-/// is that of wavelengths alone: 0.05 % of a mean of 96 pixels of 64 samples (measured from seed to seed), of which six are allowed.
+/// Illumination of the floor at the origin, by I·cos³/h² and E·cos. The cameras see 6 mm of it, over which light varies by 0.4 % and linearly; only
+/// wavelengths cause noise: 0.05 % of a mean of 96 pixels of 64 samples (measured from seed to seed); six standard deviations are allowed.
 #[test]
 fn lights_of_gltf_have_the_levels_of_closed_forms() {
     let (height, distance2) = (2.0_f64, 0.25 + 4.0 + 2.25_f64);
@@ -120,7 +120,7 @@ fn an_import_says_what_became_of_what() {
     assert!(job.contains("rotation_deg = [180, 90, 0]"), "{job}");
     etendue(["import", &text(&place.path().join("floor.gltf")), "-o", &text(&place.path().join("made"))])
         .refused(&["scene.toml", "--overwrite"]);
-    // Without lights and cameras there is something to see all the same.
+    // Without lights and cameras the scene is still visible.
     file["nodes"] = json!([{ "mesh": 0 }]);
     file["scenes"] = json!([{ "nodes": [0] }]);
     fs::remove_dir_all(place.path().join("made")).expect("removed");
@@ -164,7 +164,7 @@ fn scenes_that_cannot_be_imported_are_refused_and_nothing_is_written() {
     etendue(["import", &text(&place.path().join("a.blend")), "-o", &made]).refused(&["a.blend", ".glb"]);
 }
 
-/// A scene in pbrt's format: a camera 3 m above the origin of a matt floor, z upwards.
+/// A scene in pbrt's format: a camera 3 m above the origin of a diffuse floor, z upwards.
 fn pbrt(lights: &str) -> String {
     format!(
         "LookAt 0 0 3  0 0 0  1 0 0\nCamera \"perspective\" \"float fov\" 0.2\n\
@@ -174,8 +174,8 @@ fn pbrt(lights: &str) -> String {
     )
 }
 
-/// pbrt's `power` is in lm and its `illuminance` in lx, and what has neither is by the unit: 1 of white light is 1 cd, 1 lx, 1 cd/m². Noise as above; of the
-/// disc, sampled at random, 0.3 % more: E = π·L·r²/(h² + r²) on the axis of a disc of radius r in the height h.
+/// pbrt's `power` is in lm and its `illuminance` in lx; other values are in these units: 1 of white light is 1 cd, 1 lx, 1 cd/m². Noise as above; for
+/// the disc, sampled at random, 0.3 % more: E = π·L·r²/(h² + r²) on the axis of a disc of radius r at height h.
 #[test]
 fn lights_of_pbrt_have_the_levels_of_closed_forms() {
     let pi = std::f64::consts::PI;
@@ -224,8 +224,8 @@ fn lights_of_pbrt_have_the_levels_of_closed_forms() {
     }
 }
 
-/// A black disc of alpha 0.25 in the way of parallel light takes a quarter of it; one of alpha 0 is not there, and a camera that is not understood has one in
-/// its place. Each ray meets the disc or not: 24 576 of them know three quarters to 0.4 %, of which four are allowed.
+/// A black disc of alpha 0.25 in parallel light absorbs a quarter of it; one of alpha 0 is absent, and a camera of an unknown type is replaced. Each
+/// ray meets the disc or not: 24 576 of them give three quarters to 0.4 %; four standard deviations are allowed.
 #[test]
 fn alpha_of_pbrt_is_opacity() {
     let disc = |alpha: &str| {
@@ -254,7 +254,7 @@ fn alpha_of_pbrt_is_opacity() {
     assert!(told.err.contains("the camera \"realistic\" is not understood: a perspective of 40°"), "{}", told.err);
 }
 
-/// The scenes of scenes/import against the same written down by hand, by the Z test of `compare`; a lamp that is a tenth brighter is found.
+/// The scenes of scenes/import against the same written by hand, by the Z test of `compare`; a lamp that is a tenth brighter is detected.
 #[test]
 fn scenes_of_pbrt_are_those_of_our_own_words() {
     for name in ["shapes", "smoke"] {
@@ -285,7 +285,7 @@ fn scenes_of_pbrt_are_those_of_our_own_words() {
     }
 }
 
-/// What reads it brings a library that compresses PNGs otherwise, so that it is no part of what is tested by default (`just usd`).
+/// The reader needs a library that compresses PNGs differently, so it is not tested by default (`just usd`).
 #[cfg(not(feature = "usd"))]
 #[test]
 fn stages_of_usd_need_a_program_that_is_built_for_them() {

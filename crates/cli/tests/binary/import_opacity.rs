@@ -1,5 +1,5 @@
-//! `alpha` of pbrt's shapes and masks of Mitsuba, numbers and pictures, pixel by pixel: against the share of light that they let through, and against
-//! opacity in our own words.
+//! `alpha` of pbrt's shapes and masks of Mitsuba, numbers and images, pixel by pixel: against the fraction of transmitted light, and against opacity
+//! in our format.
 
 use crate::mitsuba::pixels;
 use crate::support::{etendue, text};
@@ -11,10 +11,10 @@ use std::path::Path;
 
 const WIDTH: usize = 24;
 const HEIGHT: usize = 16;
-/// Of the even light behind the card, cd/m².
+/// Uniform light behind the card, cd/m².
 const SKY: f64 = 100.0;
 
-/// A black card, seen alone, between a camera and an even light: z upwards, its picture upright.
+/// A black card, seen alone, between a camera and uniform light: z upwards, its image upright.
 fn pbrt(alpha: &str, picture: &str) -> String {
     format!(
         "LookAt 3 0 0  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 30\n\
@@ -28,10 +28,10 @@ fn pbrt(alpha: &str, picture: &str) -> String {
     )
 }
 
-/// The same in our words, whose y points the other way.
+/// The same in our format, whose y points the other way.
 fn own(opacity: &str) -> String {
     let pitch = 50_000.0 / HEIGHT as f64;
-    // The shorter side holds 30°.
+    // The shorter side covers 30°.
     let focal = 25.0 / 0.267_949_192_431_122_7;
     format!(
         "format = 1\n[scene]\nenvironment = {{ type = \"uniform\", luminance_cd_m2 = {SKY:.1}, illuminant = \"D65\" }}\n\
@@ -45,10 +45,10 @@ fn own(opacity: &str) -> String {
     )
 }
 
-/// Greys of the quarters of the picture: top left, top right, bottom left, bottom right.
+/// Greys of the quarters of the image: top left, top right, bottom left, bottom right.
 const GREYS: [u8; 4] = [255, 188, 0, 137];
 
-/// Opacities of the quarters: greys of pictures of 8 bits are sRGB's in pbrt and Mitsuba (IEC 61966-2-1).
+/// Opacities of the quarters: greys of 8-bit images are sRGB in pbrt and Mitsuba (IEC 61966-2-1).
 fn shares() -> [f64; 4] {
     // ((188/255 + 0.055)/1.055)^2.4 and the same of 137.
     [1.0, 0.502_886, 0.0, 0.250_158]
@@ -58,7 +58,7 @@ fn files_in(folder: &Path) {
     let grey = |i: usize| GREYS[2 * usize::from(i / 16 >= 8) + usize::from(i % 16 >= 8)];
     let texels: Vec<u8> = (0..256).map(grey).collect();
     fs::write(folder.join("holes.png"), encode_grey8(16, 16, &texels).expect("a PNG")).expect("written");
-    // The same as the opacity of a white picture, and as the greys of one that is there all over.
+    // The same as the opacity of a white image, and as the greys of a fully opaque one.
     let share = |i: usize| shares()[2 * usize::from(i / 16 >= 8) + usize::from(i % 16 >= 8)] as f32;
     let (shares, ones): (Vec<f32>, Vec<f32>) = ((0..256).map(share).collect(), vec![1.0; 256]);
     for (name, alpha, grey) in [("leaf.exr", &shares, &ones), ("whole.exr", &ones, &shares)] {
@@ -79,7 +79,7 @@ fn rendered(job: &Path, seed: &str) -> Vec<f64> {
     pixels.iter().map(|[r, g, b]| 0.2126 * r + 0.7152 * g + 0.0722 * b).collect()
 }
 
-/// Standard errors of a mean that a pixel of 1 024 rays, each through or not, may be off by: of 768 tests together 1 in 1 000 fails.
+/// Allowed standard errors for a pixel of 1 024 rays, each transmitted or not: of 768 tests together 1 in 1 000 fails.
 const CRITICAL: f64 = 5.5;
 
 #[track_caller]
@@ -88,7 +88,7 @@ fn agrees(found: &[f64], other: &[f64], opacity: impl Fn(usize, usize) -> Option
         // Between quarters texels are blended.
         let Some(opacity) = opacity(i % WIDTH, i / WIDTH) else { continue };
         let error = SKY * (opacity * (1.0 - opacity) / 1024.0).sqrt();
-        // Of wavelengths 0.3 % of the light.
+        // Noise of wavelengths is 0.3 % of the light.
         let (through, even) = (SKY * (1.0 - opacity), 0.003 * SKY);
         assert!((found - through).abs() <= CRITICAL * error + even, "{what}, pixel {i}: {found} for {through}");
         let apart = CRITICAL * error * std::f64::consts::SQRT_2 + even;
@@ -96,7 +96,7 @@ fn agrees(found: &[f64], other: &[f64], opacity: impl Fn(usize, usize) -> Option
     }
 }
 
-/// The opacity of a pixel that lies within a quarter, `scale` times that of the picture: its middle is the card's.
+/// Opacity of a pixel within a quarter, `scale` times that of the image: its middle is the card's.
 fn quarter(scale: f64) -> impl Fn(usize, usize) -> Option<f64> {
     move |x: usize, y: usize| {
         let beside = |at: usize, middle: usize| at + 2 < middle || at > middle + 1;
@@ -105,7 +105,7 @@ fn quarter(scale: f64) -> impl Fn(usize, usize) -> Option<f64> {
     }
 }
 
-/// What a scene file becomes, and what our own opacity does.
+/// Results of a scene file, and of our own opacity.
 fn both(file: &str, scene: &str, opacity: &str) -> [Vec<f64>; 2] {
     let place = tempfile::tempdir().expect("a temporary folder");
     files_in(place.path());
@@ -131,7 +131,7 @@ fn alpha_of_pbrt_lets_through_what_our_own_opacity_does() {
     agrees(&theirs, &ours, quarter(0.5), "half a picture");
 }
 
-/// The same card in Mitsuba's words.
+/// The same card for Mitsuba.
 fn mitsuba(opacity: &str) -> String {
     format!(
         "<scene version=\"3.0.0\"><sensor type=\"perspective\" id=\"camera\"><float name=\"fov\" value=\"30\"/>\

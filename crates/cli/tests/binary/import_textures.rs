@@ -1,4 +1,4 @@
-//! Pictures on the shapes of other programs, and spectra given inline: the levels that those programs give.
+//! Images on shapes of other programs, and inline spectra: the levels of those programs.
 
 use crate::support::{etendue, text};
 use etendue_core::Plane;
@@ -22,7 +22,7 @@ fn four(folder: &Path) {
     fs::write(folder.join("four.png"), bytes).expect("written");
 }
 
-/// The mean of the preview in linear sRGB of a scene's middle, in uniform light of 1, and what the import says.
+/// Returns the mean of the preview in linear sRGB in the middle of a scene, in uniform light of 1, and the messages of the import.
 fn mean(scene: &str) -> ([f64; 3], String) {
     let place = tempfile::tempdir().expect("a folder");
     four(place.path());
@@ -44,8 +44,8 @@ fn mean(scene: &str) -> ([f64; 3], String) {
 
 const PICTURE: &str = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"four.png\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\n";
 
-/// Figures of pbrt-v4 where none is derived. Spectra of saturated reflectances differ between the programs by up to 1 %, and the noise of wavelengths at 64
-/// samples of 144 pixels is 0.3 %: 0.02 is allowed.
+/// Values of pbrt-v4 where no derivation is given. Spectra of saturated reflectances differ between the programs by up to 1 %, and the noise of
+/// wavelengths at 64 samples of 144 pixels is 0.3 %: 0.02 is allowed.
 fn assert_mean(scene: &str, expected: [f64; 3]) {
     let (found, _) = mean(scene);
     let is_near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.02);
@@ -57,11 +57,11 @@ fn pictures_lie_on_round_shapes_of_pbrt_as_there() {
     let sphere = |turn: &str, part: &str| format!("{PICTURE}{turn} Shape \"sphere\" \"float radius\" 1 {part}");
     assert_mean(&sphere("", ""), [0.5, 0.5, 0.992]);
     assert_mean(&sphere("Rotate -90 1 0 0\nRotate 30 0 0 1", ""), [0.5, 0.0, 0.501]);
-    // Of a cap about the pole the lower half of the picture lies on the inner half of the angle.
+    // For a cap about the pole the lower half of the image covers the inner half of the angle.
     assert_mean(&sphere("", "\"float zmax\" -0.9"), [0.5, 0.5, 0.992]);
     // A disc has v = 1 in its middle: red and green.
     assert_mean(&format!("{PICTURE}Shape \"disk\" \"float radius\" 1"), [0.5, 0.5, 0.0]);
-    // A cylinder about y from the side: a quarter of a turn, where the picture is red above blue.
+    // A cylinder about y from the side: a quarter of a turn, where the image is red above blue.
     let tube = format!("{PICTURE}Rotate -90 1 0 0\nShape \"cylinder\" \"float zmin\" -1 \"float zmax\" 1");
     assert_mean(&tube, [0.5, 0.0, 0.5]);
 }

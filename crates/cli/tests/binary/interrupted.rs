@@ -1,11 +1,11 @@
-//! Runs that a full disk or a signal ends: nothing half-written has a final name, and the next run gives the bytes of an undisturbed one.
+//! Runs ended by a full disk or a signal: no incomplete file has a final name, and the next run gives the bytes of an undisturbed one.
 
 use crate::support::{contents, etendue, small, text};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// Runs the program by a shell that first does `before`; gives its exit status and what it said.
+/// Runs the program from a shell that first executes `before`; returns its exit status and output.
 fn after(before: &str, arguments: &[&str]) -> (Option<i32>, String) {
     let mut shell = Command::new("sh");
     shell.args(["-c", &format!("{before}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_etendue")]).args(arguments);
@@ -17,7 +17,7 @@ fn after(before: &str, arguments: &[&str]) -> (Option<i32>, String) {
 fn a_disk_that_fills_leaves_no_file_under_its_final_name() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = text(&place.path().join("out"));
-    // Files of more than 8 blocks of 512 bytes cannot be written, as on a disk that is full; the signal that says so first is passed over.
+    // Files of more than 8 blocks of 512 bytes cannot be written, as on a full disk; the signal that reports it first is ignored.
     let (status, told) = after("trap '' XFSZ; ulimit -f 8", &["render", &small(), "-o", &out, "--spp", "2"]);
     assert_eq!(status, Some(1), "{told}");
     assert!(told.contains("error") && told.contains(&out), "{told}");

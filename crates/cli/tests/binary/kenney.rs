@@ -1,11 +1,11 @@
-//! Models made elsewhere: the city and the trucks of the shared assets.
+//! Models from elsewhere: the city and the trucks of the shared assets.
 
 use crate::support::{contents, etendue, root, tests, text};
 use etendue_io::exr::{ExrFile, Samples, read_exr};
 use etendue_testkit::skip::all_here;
 use std::path::Path;
 
-/// The job, where the models are at hand.
+/// The job, if the models are available.
 fn job() -> Option<String> {
     let assets = root().join("../shared/assets");
     let folders = ["kenney-city", "kenney-vehicles", "hdri"].map(|folder| assets.join(folder));
@@ -25,7 +25,7 @@ fn range(values: &[f32]) -> (f32, f32) {
     values.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
 }
 
-/// Tolerances: a pixel of the 120 across 66° sees 0.17 m at the trucks, so that an edge is found within 0.2 m.
+/// Tolerances: a pixel of the 120 across 66° covers 0.17 m at the trucks, so that an edge is found within 0.2 m.
 #[test]
 fn a_city_made_elsewhere_stands_upright_in_colour_and_in_scale() {
     let Some(job) = job() else { return };
@@ -49,7 +49,7 @@ fn a_city_made_elsewhere_stands_upright_in_colour_and_in_scale() {
     assert!((right + 3.375).abs() < 0.2 && (left + 0.225).abs() < 0.2, "from {right} to {left} m");
     let (ground, top) = seen("truck-red", "P.Z");
     assert!((-0.01..0.9).contains(&ground) && (top - 2.73).abs() < 0.2, "from {ground} to {top} m");
-    // The road lies flat on the ground, its pavements half a metre higher; houses stand on it.
+    // The road is flat on the ground, its pavements half a metre higher, with houses on it.
     let (low, high) = seen("road", "P.Z");
     assert!(low > -1e-4 && high < 0.501, "road from {low} to {high} m");
     let (low, high) = seen("house-c", "P.Z");
@@ -68,7 +68,7 @@ fn identities(sidecar: &[u8]) -> impl Fn(&str) -> Vec<u32> + use<> {
     }
 }
 
-/// The palette picture came through: red and purple houses, a green tree, not one grey.
+/// The palette image is used: red and purple houses, a green tree, not one grey.
 fn coloured(output: &str) {
     let picture = etendue_io::picture::read_picture(Path::new(&format!("{output}/front/picture.0000.png")));
     let etendue_scene::asset::ImagePixels::Rgb8(pixels) = picture.expect("the picture").pixels else {

@@ -1,8 +1,8 @@
-//! Runs that are killed at random moments, again and again, and then rerun or resumed: what has its final name is whole at every moment, and in the end there are the
-//! bytes of a run that nobody disturbed and nothing else.
+//! Runs killed repeatedly at random moments, and then rerun or resumed: files with a final name are complete at every moment, and the final bytes are
+//! those of an undisturbed run, without further files.
 //!
-//! `ETENDUE_KILLS=1000` kills that often in all, in the place of some times, and writes the figures to `target/kills.md` (`just kills`; docs/robustness.md has them);
-//! `ETENDUE_KILLS_SEED` gives other moments. The few kills are a section of docs/extremes.md.
+//! `ETENDUE_KILLS=1000` kills that often in all, instead of a few times, and writes the results to `target/kills.md` (`just kills`;
+//! docs/robustness.md has them); `ETENDUE_KILLS_SEED` gives other moments. The few kills are a section of docs/extremes.md.
 
 use crate::support::{assert_same, contents, etendue, root, small, tests, text};
 use etendue_io::exr::read_exr;
@@ -14,16 +14,16 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Kills of the quick part, of all kinds of runs.
+/// Number of kills in the quick part, over all kinds of runs.
 const FEW: usize = 12;
 
 /// A kind of run.
 struct Kind {
     name: &'static str,
     arguments: Vec<String>,
-    /// What a run that follows on a killed one is told.
+    /// Further arguments of a run that follows a killed one.
     again: &'static str,
-    /// Whether files are replaced by better ones while it runs.
+    /// True if files are replaced by refined ones during the run.
     refines: bool,
 }
 
@@ -50,7 +50,7 @@ impl Kind {
         ]
     }
 
-    /// What so many kills found: a file that is not whole, or another end, has failed the run before.
+    /// Result of this many kills: an incomplete file, or different final bytes, has failed the run before.
     fn row(&self, count: &Count, kills: usize) -> Row {
         Row {
             extreme: format!("{}, killed, then begun again with `{}`", self.name, self.again),
@@ -68,7 +68,7 @@ impl Kind {
     }
 }
 
-/// A generator of moments: SplitMix64 (Steele, Lea and Flood 2014).
+/// A generator of random moments: SplitMix64 (Steele, Lea and Flood 2014).
 struct Moments(u64);
 
 impl Moments {
@@ -79,26 +79,26 @@ impl Moments {
         z ^ (z >> 31)
     }
 
-    /// From 0 to 1.
+    /// Returns a number from 0 to 1.
     fn share(&mut self) -> f64 {
         self.next() as f64 / u64::MAX as f64
     }
 }
 
-/// What kills of one kind of run found.
+/// Results of kills of one kind of run.
 #[derive(Default)]
 struct Count {
     killed: usize,
     /// Runs that ended before their moment.
     too_late: usize,
-    /// Kills after which nothing had its final name, some files had, or temporary files were left.
+    /// Kills after which no file had its final name, some files had, or temporary files were left.
     nothing: usize,
     some: usize,
     leftovers: usize,
     completed: usize,
 }
 
-/// Whether a file is as its writer made it, as far as its format tells.
+/// True if a file is as its writer made it, as far as its format shows.
 fn is_readable(path: &Path, bytes: &[u8]) -> bool {
     match path.extension().and_then(|ending| ending.to_str()) {
         Some("exr") => read_exr(path).is_ok(),
@@ -108,7 +108,7 @@ fn is_readable(path: &Path, bytes: &[u8]) -> bool {
     }
 }
 
-/// Kills a run of a kind after a time; whether it was still running.
+/// Kills a run of a kind after a time; returns true if it was still running.
 fn kill(kind: &Kind, out: &Path, is_again: bool, after: Duration) -> bool {
     let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
     command.current_dir(root()).args(kind.arguments(out, is_again)).stdout(Stdio::null()).stderr(Stdio::null());
@@ -120,7 +120,7 @@ fn kill(kind: &Kind, out: &Path, is_again: bool, after: Duration) -> bool {
     is_running
 }
 
-/// Every file that has its final name is whole.
+/// Asserts that every file with its final name is complete.
 #[track_caller]
 fn check(kind: &Kind, out: &Path, expected: &BTreeMap<String, Vec<u8>>, count: &mut Count) {
     let (mut finals, mut hidden) = (0, 0);
@@ -156,7 +156,7 @@ fn disturb(kind: &Kind, kills: usize, moments: &mut Moments) -> Count {
             false => count.too_late += 1,
         }
         check(kind, &out, &expected, &mut count);
-        // A run that had ended leaves nothing to go on with; others are killed again in half of all cases.
+        // A run that had ended leaves nothing to resume; others are killed again in half of all cases.
         is_again = true;
         if count.killed == kills || moments.next().is_multiple_of(2) {
             etendue(kind.arguments(&out, true)).ok();

@@ -1,9 +1,9 @@
-//! Lens files as other programs write them: what `measure lens` makes of each, against the right values of its first order.
+//! Lens files as written by other programs: `measure lens` of each, against the correct first-order values.
 
 use crate::support::{etendue, text};
 use serde_json::Value;
 
-/// A biconvex singlet of N-BK7 as Zemax writes it: 49.04 mm, f/9.81.
+/// A biconvex singlet of N-BK7 as written by Zemax: 49.04 mm, f/9.81.
 fn zmx(front: &str, glass: &str) -> String {
     format!(
         "VERS 140124 258 36214\nMODE SEQ\nUNIT MM X W X CM MR CPMM\nENPD 5\nGCAT SCHOTT\nFTYP 0 0 2 1 0 0 0\nYFLN 0 10\nXFLN 0 0\n\
@@ -30,7 +30,7 @@ impl Measured {
         list.iter().filter_map(Value::as_str).collect::<Vec<_>>().join("\n")
     }
 
-    /// A key's value to the last digit that is stated.
+    /// Asserts a key's value to the last stated digit.
     #[track_caller]
     fn is(&self, key: &str, right: f64, digit: f64) {
         let found = self.number(key);
@@ -66,7 +66,7 @@ fn an_aperture_on_a_plane_in_air_clips() {
     let plane = |aperture: &str| {
         zmx(&format!("SURF 1\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 20\n  DIAM 2 1 0 0 1 \"\"\n{aperture}"), BK7)
     };
-    // The size that a plane is drawn with is no aperture.
+    // The drawing size of a plane is no aperture.
     let drawn = measured("drawn.zmx", &plane(""));
     drawn.is("f_number", 9.81, 1e-2);
     for aperture in ["  CLAP 0 2 0\n", "  FLAP 0 2 0\n"] {
@@ -77,10 +77,10 @@ fn an_aperture_on_a_plane_in_air_clips() {
         let message = "surface 1 (line 16), not the stop, limits the bundle on the axis: f/12.261, where the stop alone would give f/9.809";
         assert!(clipped.remarks().contains(message), "{}", clipped.remarks());
     }
-    // A larger one is there, and clips nothing on the axis.
+    // A larger aperture exists, and clips nothing on the axis.
     let wide = measured("wide.zmx", &plane("  CLAP 0 4 0\n"));
     wide.is("f_number", 9.81, 1e-2);
-    // The stop's own aperture clips too.
+    // The stop's own aperture also clips.
     let stop = zmx("", BK7).replacen("DIAM 6 1", "CLAP 0 2 0\n  DIAM 6 1", 1);
     let stop = measured("stop.zmx", &stop);
     stop.is("f_number", 12.26, 1e-2);
@@ -95,13 +95,13 @@ fn a_rim_smaller_than_the_bundle_clips_it() {
         1,
     );
     let lens = measured("rim.zmx", &file);
-    // The ray that meets the rear rim at 12 mm from the axis enters at 12.09 mm: it falls by 0.087 over the 1 mm of glass that is left there.
+    // The ray that meets the edge of the rear surface at 12 mm from the axis enters at 12.09 mm: it falls by 0.087 over the remaining 1 mm of glass.
     lens.is("f_number", 2.03, 1e-2);
     lens.is("entrance_pupil_diameter_mm", 24.18, 2e-2);
     assert!(lens.remarks().contains("surface 2 (line 23), not the stop, limits"), "{}", lens.remarks());
 }
 
-/// A biconvex singlet of N-BK7 as CODE V writes it: 49.04 mm.
+/// A biconvex singlet of N-BK7 as written by CODE V: 49.04 mm.
 fn seq(front: &str, rear: &str, edits: &str) -> String {
     format!(
         "RDM;LEN\nEPD 5.0\nDIM M\nWL 656.3 587.6 486.1\nREF 2\nYAN 0 7 10\nSO 0.0 1e13\nS {front}\n STO\n CIR 6\nS {rear}\n CIR 6\n\
@@ -121,7 +121,7 @@ fn edits_of_codev_files_are_followed() {
     ] {
         measured("lens.seq", &file).is("focal_length_mm", right, 1e-3);
     }
-    // The term of r¹⁸ is 15 µm at the rim of the bundle, and moves its rays.
+    // The term of r¹⁸ is 15 µm at the edge of the bundle, and moves its rays.
     let spot = |h: &str| {
         let front = format!("{front}\n ASP\n K 0.0\n A 0;B 0;C 0;D 0;E 0;F 0;G 0;H {h};J 0");
         measured("lens.seq", &seq(&front, rear, "")).report["fields"][0]["spot_radius_mm"].as_f64().expect("a spot")
@@ -129,7 +129,7 @@ fn edits_of_codev_files_are_followed() {
     assert!(spot("-1e-9") - spot("0") > 0.5, "{} for {}", spot("-1e-9"), spot("0"));
 }
 
-/// First-order figures are of the file's primary wavelength, say so, and are of another where that is asked for.
+/// First-order values refer to the file's primary wavelength, state it, and refer to another on request.
 #[test]
 fn first_order_figures_are_of_the_primary_wavelength() {
     let (front, rear) = ("50 4 NBK7_SCHOTT", "-50 47");
@@ -154,7 +154,7 @@ fn first_order_figures_are_of_the_primary_wavelength() {
         .replace("WAVM 1 0.58756 1\nPWAV 1", "WAVM 1 0.58756 1\nWAVM 2 0.55 1\nPWAV 2")
         .replace("0 0 2 1 0 0 0", "0 0 2 2 0 0 0");
     measured("lens.zmx", &zemax).is("focal_length_mm", focal(550.0), 2e-8);
-    // An f-number is of that wavelength too.
+    // An f-number also refers to that wavelength.
     let fast = measured("lens.zmx", &zemax.replace("ENPD 5", "FNUM 10 0"));
     fast.is("entrance_pupil_diameter_mm", focal(550.0) / 10.0, 2e-8);
     let (_folder, words) = arguments("lens.zmx", &zemax, &["--json", "--wavelength-nm", "486.1"]);
@@ -175,7 +175,7 @@ fn what_a_codev_file_changes_in_an_unknown_way_is_refused_with_its_line() {
     }
 }
 
-/// A keyword of a surface that is not read is noted once, with its first line; keywords of drawing are not noted.
+/// An unread keyword of a surface is noted once, with its first line; drawing keywords are not noted.
 #[test]
 fn keywords_of_a_surface_that_are_not_read_are_noted() {
     let lens = zmx("", BK7).replace("  CURV", "  COMM front\n  COAT AR\n  CURV");

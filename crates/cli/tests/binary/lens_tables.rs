@@ -1,4 +1,4 @@
-//! Tables that lens programs export, of distortion and of modulation, drive a camera that follows them, and bad ones are told.
+//! Tables exported by lens programs, of distortion and of modulation, determine a camera, and invalid ones are reported.
 
 use crate::black_boxes::{irradiance, job, plan};
 use crate::support::{etendue, text};
@@ -8,7 +8,7 @@ use std::path::Path;
 
 const FOCAL_MM: f64 = 6.0;
 
-/// What is modelled: a barrel of 0.08 tan² θ, or of 0.1 θ².
+/// Modelled distortion: a barrel of 0.08 tan² θ, or of 0.1 θ².
 fn distortion(theta: bool, angle: f64) -> f64 {
     if theta { -0.1 * angle * angle } else { -0.08 * tan(angle) * tan(angle) }
 }
@@ -17,7 +17,7 @@ fn radius_mm(theta: bool, angle: f64) -> f64 {
     FOCAL_MM * if theta { angle } else { tan(angle) } * (1.0 + distortion(theta, angle))
 }
 
-/// An export of field curvature and distortion as OpticStudio writes it: two wavelengths, the other with none of it.
+/// An export of field curvature and distortion as written by OpticStudio: two wavelengths, the second without distortion.
 fn export(theta: bool, says_focal_length: bool) -> String {
     let kind = if theta { "F-Theta" } else { "F-Tan(Theta)" };
     let table = |um: f64, share: f64, focal_mm: f64| {
@@ -49,7 +49,7 @@ fn calibrated(projection: &str) -> String {
     format!("type = \"calibrated\"\nf_number = 2\nprojection = {{ type = \"table\", {projection} }}")
 }
 
-/// The angle from the axis at which each pixel of the middle row looks, rad, and its place, mm.
+/// Viewing angle of each pixel of the middle row from the axis, rad, and its position, mm.
 fn angles(folder: &Path, job: &str) -> Vec<(f64, f64)> {
     std::fs::write(folder.join("job.toml"), job).expect("written");
     let out = folder.join("out");
@@ -72,7 +72,7 @@ fn pixels_look_where_zemax_s_distortion_says() {
         let job = job("", SENSOR, &calibrated("file = \"d.txt\""), 2) + "rays = true\n";
         for (angle, place_mm) in angles(folder.path(), &job) {
             let expected = radius_mm(theta, angle);
-            // Directions are 32-bit floats, which know small angles from the axis by their components.
+            // Directions are 32-bit floats, which represent small angles from the axis by their components.
             assert!((place_mm - expected).abs() < 2e-5 * FOCAL_MM, "{angle}: {place_mm} for {expected}");
         }
         let said = plan(folder.path(), &job).ok().out;
@@ -81,7 +81,7 @@ fn pixels_look_where_zemax_s_distortion_says() {
             assert!(said.contains(phrase), "no {phrase} in\n{said}");
         }
     }
-    // The same by hand.
+    // The same table inline.
     let list = |of: &dyn Fn(u32) -> f64| (1..=40).map(|d| format!("{:.12}", of(d))).collect::<Vec<_>>().join(", ");
     let radii = list(&|degrees| radius_mm(false, f64::from(degrees).to_radians()));
     let keys = format!("angle_deg = [{}], radius_mm = [{radii}]", list(&f64::from));
@@ -121,7 +121,7 @@ fn exports_of_distortion_that_cannot_be_used_are_told_with_their_line() {
     }
 }
 
-/// The camera that ships with both tables.
+/// The shipped camera with both tables.
 #[test]
 fn the_shipped_camera_is_measured_as_its_tables_say() {
     let camera = text(&crate::support::root().join("scenes/cameras/measured-lens.toml"));
@@ -137,9 +137,9 @@ fn the_shipped_camera_is_measured_as_its_tables_say() {
 
 const SIDE: usize = 40;
 const PIXEL_MM: f64 = 0.005;
-/// Where the edge lies, rows from the top.
+/// Position of the edge, rows from the top.
 const EDGE_PX: f64 = 20.3;
-/// What is modelled: two Gaussians, their shares and widths, mm.
+/// Modelled spread: two Gaussians, their fractions and widths, mm.
 const SPREADS: [(f64, f64); 2] = [(0.7, 0.0055), (0.3, 0.012)];
 
 fn modulation(f: f64) -> f64 {
@@ -167,7 +167,7 @@ fn mtf_export() -> String {
     )
 }
 
-/// The light of each row beside an edge between black above and light below.
+/// Light of each row next to an edge between black above and light below.
 fn edge(folder: &Path, effects: &str) -> Vec<f64> {
     let (far_m, size_m) = (1e6, 2e6);
     let above = size_m / 2.0 - (EDGE_PX - 0.5 * SIDE as f64) * PIXEL_MM / 8.0 * far_m;
@@ -179,7 +179,7 @@ fn edge(folder: &Path, effects: &str) -> Vec<f64> {
     let sensor = format!("width_px = {SIDE}, height_px = {SIDE}, pixel_pitch_um = 5");
     let lens = format!("type = \"pinhole\"\nfocal_length_mm = 8\nf_number = 4\n{effects}");
     let [lit, whole] = [&black[..], ""].map(|objects| irradiance(folder, &job(objects, &sensor, &lens, 128)));
-    // Away from the sides, beyond which nothing is rendered. Samples that are displaced are noisy: the mean over columns.
+    // Away from the sides, beyond which nothing is rendered. Displaced samples are noisy: the mean over columns.
     let mean = |of: &[f64], row: usize| of[row * SIDE + 8..(row + 1) * SIDE - 8].iter().sum::<f64>();
     (0..SIDE).map(|row| mean(&lit, row) / mean(&whole, row)).collect()
 }
@@ -191,7 +191,7 @@ fn edges_have_the_modulation_of_the_table() {
     let (frequencies, modulations): (Vec<String>, Vec<String>) =
         (1..=12).map(|i| 10.0 * f64::from(i)).map(|f| (format!("{f:.1}"), format!("{:.9}", modulation(f)))).unzip();
     let by_hand = format!("cycles_per_mm = [{}], modulation = [{}]", frequencies.join(", "), modulations.join(", "));
-    // The edge's light over a pixel: a normal distribution gathered in steps of a hundredth.
+    // Light of the edge over a pixel: a normal distribution integrated in steps of a hundredth.
     let normal = |x: f64| {
         let steps = 4000;
         let step = (x + 8.0) / f64::from(steps);

@@ -1,4 +1,4 @@
-//! Lenses from files on disk, what their results say, and unusable lenses: each is told with its file, line and key.
+//! Lenses from files on disk, their results, and unusable lenses: each is reported with file, line and key.
 
 use crate::bad_input::Spoilt;
 use crate::support::{contents, etendue, text};
@@ -6,11 +6,11 @@ use etendue_io::exr::{ExrFile, Samples, read_exr};
 use serde_json::Value;
 use std::path::Path;
 
-/// The lens of the small job, which tests replace.
+/// The lens of the small job, replaced by tests.
 const THIN: &str = "type = \"thin\"\nfocal_length_mm = 6\nf_number = 2\nfocus_distance_m = 5\ntransmittance = 0.9\n\
                     distortion = { k1 = -0.1, k2 = 0.01, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }\n";
 
-/// A biconvex singlet behind its stop, as Zemax, CODE V and this project write it.
+/// A biconvex singlet behind its stop, as written by Zemax, CODE V and this project.
 const ZMX: &str = "MODE SEQ\nNAME singlet\nUNIT MM X W X CM MR CPMM\nENPD 2.0\nWAVM 1 5.875618E-1 1\nPWAV 1\n\
 SURF 0\n  TYPE STANDARD\n  CURV 0.0\n  DISZ INFINITY\n\
 SURF 1\n  STOP\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 1.0\n  DIAM 1 1 0 0 1 \"\"\n\
@@ -30,7 +30,7 @@ fn calibrated(source: &str) -> String {
     format!("type = \"calibrated\"\nf_number = 2\n{source}\n")
 }
 
-/// The small job before another lens, without a spectrum, which files of tests do not need.
+/// The small job with another lens, without a spectrum, which files of tests do not need.
 fn with_lens(lens: &str) -> Spoilt {
     let spoilt = Spoilt::new();
     spoilt.spoil("small.toml", THIN, lens);
@@ -41,7 +41,7 @@ fn with_lens(lens: &str) -> Spoilt {
     spoilt
 }
 
-/// What the plan says of a job's lens.
+/// The plan's line on a job's lens.
 fn lens_line(spoilt: &Spoilt) -> String {
     let plan = etendue(["plan", &spoilt.job()]).ok().out;
     plan.lines().find(|line| line.starts_with("  lens ")).expect("a lens").to_owned()
@@ -52,10 +52,10 @@ fn a_prescription_in_a_file_is_the_lens_of_its_surfaces() {
     let in_place = lens_line(&with_lens(&prescription(SURFACES)));
     assert!(in_place.contains("prescription, 19.") && in_place.contains(" at 587.56 nm"), "{in_place}");
     for (name, file) in [("lens.zmx", ZMX), ("lens.seq", SEQ)] {
-        // The file's own image distance would govern otherwise.
+        // The image distance of the file would otherwise apply.
         let spoilt = with_lens(&prescription(&format!("file = \"{name}\"\ndefocus_mm = 0")));
         spoilt.write(name, file);
-        // The files name the d line to four decimals.
+        // The files state the d line to four decimals.
         assert_eq!(lens_line(&spoilt).replace(" at 587.5618 nm", " at 587.56 nm"), in_place, "{name}");
     }
 }
@@ -67,7 +67,7 @@ const COLMAP: &str = "1 OPENCV_FISHEYE 46 30 25 26 23 14.5 0.01 0.002 0 0\n";
 const F_THETA: &str = "{\"Model\": \"ftheta\", \"width\": 46, \"height\": 30, \"cx\": 22.5, \"cy\": 14, \"polynomial\": \"0 0.04\", \
 \"polynomial-type\": \"pixeldistance-to-angle\"}";
 
-/// What a run writes, its side-car and its folder.
+/// Renders; returns the side-car and the folder.
 fn rendered(spoilt: &Spoilt) -> (Value, std::path::PathBuf) {
     let out = spoilt.folder().join("rendered");
     etendue(["render", &spoilt.job(), "-o", &text(&out)]).ok();
@@ -105,7 +105,7 @@ fn vectors(file: &ExrFile, names: [&str; 3]) -> Vec<[f64; 3]> {
     x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect()
 }
 
-/// Every pixel goes back into space by its ray and its distance; how many saw a surface.
+/// Converts every pixel to space by its ray and its distance; returns the number of pixels with a surface.
 fn put_back(folder: &Path, pose: &Value) -> usize {
     let (rays, truth) = (read_exr(&folder.join("rays.exr")), read_exr(&folder.join("ground_truth.exr")));
     let (rays, truth) = (rays.expect("readable"), truth.expect("readable"));
@@ -123,7 +123,7 @@ fn put_back(folder: &Path, pose: &Value) -> usize {
         let point: [f64; 3] = std::array::from_fn(|i| origin[i] + distance[0] * direction[i]);
         for (i, position) in position.iter().enumerate() {
             let world = number(i, 3) + (0..3).map(|j| number(i, j) * point[j]).sum::<f64>();
-            // Direction, distance and position are rounded to 6e-8 of themselves.
+            // Direction, distance and position have a relative rounding of 6e-8.
             assert!((world - position).abs() < 4e-7 * (1.0 + distance[0]), "{world} for {position}");
         }
     }
@@ -146,7 +146,7 @@ fn rays_and_distances_put_every_pixel_back_and_so_do_the_undistorted_twin_s() {
     }
 }
 
-/// The job before such a lens is refused at the line of `key` in the job, with all of `phrases`.
+/// Asserts that the job with such a lens is refused at the line of `key` in the job, with all of `phrases`.
 #[track_caller]
 fn refused(lens: &str, key: &str, phrases: &[&str]) {
     let spoilt = with_lens(lens);
@@ -172,7 +172,7 @@ fn a_glass_that_no_catalogue_has() {
 
 #[test]
 fn total_reflection_of_the_axial_bundle() {
-    // A hemisphere of high index, flat side to the light: rays beyond 1/n of the radius do not come out.
+    // A hemisphere of high index, flat side to the light: rays beyond 1/n of the radius are not transmitted.
     let ball = SURFACES
         .replace("semi_aperture_mm = 1, stop", "semi_aperture_mm = 4.5, stop")
         .replace("radius_mm = 20, thickness_mm = 2", "thickness_mm = 6")
@@ -244,7 +244,7 @@ fn a_lens_file_s_image_aperture_and_glasses_govern_and_are_told() {
                 && remarks(&focused).contains("the file's image stands at 18.0000 mm")
         );
     }
-    // The entrance pupil opens the stop beyond the radius that is kept for drawing, and closes it.
+    // The entrance pupil opens the stop beyond the radius for drawing, and closes it.
     for (enpd, pupil_mm) in [("ENPD 2.4", 2.4), ("ENPD 1.0", 1.0), ("FLOA", 2.0)] {
         let report = measured("lens.zmx", &ZMX.replace("ENPD 2.0", enpd), &[]);
         let found = report["entrance_pupil_diameter_mm"].as_f64().expect("a number");

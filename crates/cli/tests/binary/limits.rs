@@ -1,10 +1,10 @@
-//! What files may cost, and how to let them cost more.
+//! Limits of input files, and how to raise them.
 
 use crate::bad_input::Spoilt;
 use crate::support::{etendue, root, text};
 use std::fs;
 
-/// The head of a PNG of so many grey pixels, which is all there is of it.
+/// Header of a PNG of this many grey pixels, without any pixels.
 pub(crate) fn png_head(width: u32, height: u32) -> Vec<u8> {
     let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
     png.extend([width.to_be_bytes(), height.to_be_bytes()].concat());
@@ -30,12 +30,12 @@ fn a_picture_of_many_pixels_in_few_bytes_is_refused_by_its_head() {
         "or raise the limit: --limit picture-mib=1908 (named at ",
         "small.toml:6",
     ]);
-    // With the limit raised it is looked at, and found to be damaged.
+    // With the limit raised the file is read, and found to be damaged.
     let raised = ["--limit", "picture-mib=1908", "--limit", "texture-cache-mib=65536"];
     spoilt.render(&raised).refused(&["checker.png: not a readable picture"]);
     spoilt.write("checker.png", png_head(3000, 3000));
     spoilt.render(&["--limit", "picture-mib=8"]).refused(&["checker.png: unpacks to 9 MiB", "picture-mib=9"]);
-    // What is measured is kept as floats.
+    // Measurements store images as floats.
     let picture = text(&spoilt.folder().join("checker.png"));
     etendue(["--limit", "picture-mib=34", "measure", "sfr", &picture]).refused(&["unpacks to 35 MiB"]);
     etendue(["inspect", &picture, "--limit", "picture-mib=34"]).refused(&["unpacks to 35 MiB"]);

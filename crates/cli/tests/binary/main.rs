@@ -1,6 +1,6 @@
-//! The binary as its users meet it: bytes, refusals, plans, golden results.
+//! The binary as users run it: bytes, refusals, plans, golden results.
 //!
-//! `ETENDUE_BLESS=1` writes plan snapshots and golden results anew.
+//! `ETENDUE_BLESS=1` rewrites plan snapshots and golden results.
 
 mod adaptive_sampling;
 mod bad_fronts;

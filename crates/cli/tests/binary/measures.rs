@@ -1,4 +1,4 @@
-//! `etendue measure` on pictures.
+//! `etendue measure` on images.
 
 use crate::support::{etendue, root, text};
 use etendue_core::Plane;
@@ -9,7 +9,7 @@ use etendue_io::png::{encode_display, encode_raw16};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// The reference program's own stacks and figures: tests/oracles/photon_transfer.py.
+/// Stacks and results of the reference program: tests/oracles/photon_transfer.py.
 fn oracle() -> PathBuf {
     root().join("tests/oracles/figures/emva1288")
 }
@@ -23,7 +23,7 @@ fn figure(report: &Value, key: &str) -> f64 {
     report["figures"][key]["value"].as_f64().unwrap_or_else(|| panic!("{key} is missing in {report}"))
 }
 
-/// A raw picture of 16 bits.
+/// A 16-bit raw image.
 fn raw(folder: &Path, name: &str, size: (usize, usize), reading: impl Fn(usize, usize) -> f64) -> String {
     let samples = (0..size.0 * size.1).map(|i| reading(i % size.0, i / size.0).round().clamp(0.0, 65_535.0) as u32);
     let plane = Plane::<DigitalNumber>::from_samples(size.0, size.1, samples.collect()).expect("a rectangle");
@@ -32,14 +32,14 @@ fn raw(folder: &Path, name: &str, size: (usize, usize), reading: impl Fn(usize, 
     text(&file)
 }
 
-/// A number in −1 to 1 that differs from place to place and frame to frame.
+/// A number from −1 to 1 that differs by position and frame.
 fn scatter(x: usize, y: usize, frame: usize) -> f64 {
     let mixed = (x * 73_856_093) ^ (y * 19_349_663) ^ (frame * 83_492_791 + 12_345);
     let mixed = (mixed ^ (mixed >> 13)).wrapping_mul(0x5bd1_e995) % 65_537;
     mixed as f64 / 32_768.0 - 1.0
 }
 
-/// Within 1 %, as the bench asks; figures of the reference program in its own units.
+/// Within 1 %, the tolerance of the bench; results of the reference program are in its own units.
 #[test]
 fn photon_transfer_agrees_with_the_reference_program_on_its_own_stacks() {
     let report = json(&["ptc", &text(&oracle().join("EMVA1288descriptor.txt"))]);
@@ -97,7 +97,7 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     std::fs::write(&file, encode_display(&colour, &Encoding::Srgb).expect("a picture")).expect("a temporary file");
     let coloured = stored.replacen(&format!("{images}image4.png"), &text(&file), 1);
     describe(coloured).refused(&["colour.png", "linear raw is needed"]);
-    // Readings beyond the bits stated, as of grabbers that store 12 bits in the upper part of 16.
+    // Readings beyond the stated bits, as of grabbers that store 12 bits in the upper part of 16.
     describe(stored.replace("n 12 48 40", "n 8 48 40")).refused(&["the descriptor says 8 bits, which end at 255"]);
     let upper: Vec<u32> = (0..48 * 40).map(|i| 16 * (2000 + i % 2000)).collect();
     let upper = Plane::<DigitalNumber>::from_samples(48, 40, upper).expect("a rectangle");
@@ -109,7 +109,7 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
         "the descriptor says 12 bits",
     ]);
     describe(stored.replace("i ", "j ")).refused(&["line 4", "v, n, b, d or i"]);
-    // Frames of one channel without a side-car: which pixels are green is not known, and nobody says it.
+    // Frames of one channel without a side-car: the positions of green pixels are unknown and not stated.
     std::fs::write(folder.path().join("descriptor.txt"), &stored).expect("a temporary file");
     let descriptor = text(&folder.path().join("descriptor.txt"));
     etendue(["measure", "ptc", &descriptor, "--channel", "green"]).refused(&["--channel green", "give --cfa"]);
@@ -137,7 +137,7 @@ fn what_was_found_is_written_as_keys_of_a_camera_file() {
     etendue(again.into_iter().chain(["--overwrite"])).ok();
     let written = std::fs::read_to_string(&camera).expect("a file");
     assert!(written.contains("[lens.relative_illumination]") && written.contains("ratio = [1.000000, "), "{written}");
-    // The green pixels of a mosaic reach as far as the picture: 64 √2 px of 5 µm.
+    // The green pixels of a mosaic extend as far as the image: 64 √2 px of 5 µm.
     let mosaic = raw(folder.path(), "mosaic.png", (128, 128), |x, y| 9000.0 + 50.0 * scatter(x, y, 0));
     let green = ["measure", "vignetting", &mosaic, "--cfa", "RGGB", "--channel", "G", "--pixel-pitch-um", "5"];
     etendue(green.into_iter().chain(["--camera-out", &text(&camera), "--overwrite"])).ok();
@@ -181,7 +181,7 @@ fn stars_and_textures_give_their_response() {
     let places = ["--centre-px", "64,64", "--cycles", "24", "--inner-px", "15", "--outer-px", "55"];
     let report = json(&[&["star", star.as_str()], &places[..]].concat());
     let circles = report["tables"]["circles"].as_array().expect("circles");
-    // Sampled at points, nothing is lost.
+    // With point samples nothing is lost.
     assert!(circles.iter().all(|c| (c["response"]["value"].as_f64().expect("a value") - 1.0).abs() < 0.01), "{report}");
     let even = raw(folder.path(), "even.png", (128, 128), |_, _| 20_000.0);
     etendue([&["measure", "star", even.as_str()], &places[..]].concat()).refused(&["star"]);
@@ -211,7 +211,7 @@ fn a_flat_field_gives_its_fall_off_and_a_saturated_one_none() {
     assert!((figure(&report, "corner_percent") - 70.0).abs() < 0.1, "{report}");
     let drawn = std::fs::read_to_string(&plot).expect("a plot");
     assert!(drawn.starts_with("<svg"));
-    // The page has the same curves, each figure with its unit, and each row of each table.
+    // The page has the same curves, each result with its unit, and each row of each table.
     let page = std::fs::read_to_string(&page).expect("a page");
     assert!(page.starts_with("<!doctype html>") && page.contains(&drawn));
     let figures = report["figures"].as_object().expect("figures").len();
@@ -232,7 +232,7 @@ fn a_flat_field_gives_its_fall_off_and_a_saturated_one_none() {
 #[test]
 fn a_slanted_edge_gives_its_response() {
     let folder = tempfile::tempdir().expect("a folder");
-    // The box of a pixel, 5.7° steep: tan = 0.1, along rows exactly a ramp.
+    // The box filter of a pixel, 5.7° steep: tan = 0.1, along rows exactly a ramp.
     let edge = |x: usize, y: usize| (x as f64 + 0.5 - 30.0 - 0.1 * (y as f64 - 31.5) + 0.5).clamp(0.0, 1.0);
     let file =
         raw(folder.path(), "edge.png", (64, 64), |x, y| 5_000.0 + 40_000.0 * edge(x, y) + 20.0 * scatter(x, y, 0));
@@ -248,13 +248,13 @@ fn a_slanted_edge_gives_its_response() {
     let ends = r#""chart":"slanted-edges","sizes":{},"seen":{"fills_the_field":true},"light":{"luminance_cd_m2":1,"xyz":[1,1,1]},"inks":[],"features":[{"kind":"edge"},{"kind":"edge"}],"cameras":[{"name":"a","dark":false,"picture_px":[64,64],"features_px":[[[26.8,0],[33.2,64]],[null,null]]}]"#;
     std::fs::write(&truth, format!("{{{ends}}}")).expect("a temporary file");
     let told = json(&["sfr", &file, "--truth", &text(&truth)]);
-    // Once the edge that is seen: 0.5 of its length across it, 0.6 along it, about its middle.
+    // Only the visible edge: 0.5 of its length across it, 0.6 along it, about its middle.
     assert_eq!(told["tables"]["edges"].as_array().map(Vec::len), Some(1), "{told}");
     assert_eq!(told["tables"]["edges"][0]["at_px"], "14,13", "{told}");
-    // Of a mosaic every other pixel is read.
+    // In a mosaic every other pixel is used.
     let mosaic = json(&["sfr", &file, "--truth", &text(&truth), "--cfa", "RGGB", "--channel", "R"]);
     assert_eq!(mosaic["tables"]["edges"][0]["at_px"], "14,13", "{mosaic}");
-    // A second edge that the truth tells and the picture does not show is listed with its reason.
+    // A second edge in the reference data that the image does not show is listed with the reason.
     let told = std::fs::read_to_string(&truth).expect("a truth").replace("[null,null]", "[[50,2],[54,42]]");
     let two = folder.path().join("two.json");
     std::fs::write(&two, told).expect("a temporary file");
@@ -277,7 +277,7 @@ fn a_slanted_edge_gives_its_response() {
     etendue(["measure", "sfr", &file, "--full-scale", "44000"]).refused(&["edge.png", "saturated"]);
     etendue(["measure", "sfr", &file, "--camera-out", "x.toml", "--edge", "0,0,9999,9"]).refused(&["--camera-out"]);
     let mosaic = json(&["sfr", &file, "--cfa", "RGGB", "--channel", "R"]);
-    // In cycles a pixel, whatever the colour's own steps: sinc(0.5 cos θ).
+    // In cycles per pixel, independent of the colour's own spacing: sinc(0.5 cos θ).
     let half = mosaic["tables"]["edges"][0]["response_at_half"]["value"].as_f64().expect("a response");
     assert!((half - 0.639_78).abs() < 0.01, "{half}");
 }
@@ -320,7 +320,7 @@ fn patches_give_noise_flare_and_contrast() {
     let files: Vec<String> = (0..8).map(|i| raw(folder.path(), &format!("{i}.png"), (60, 20), patches(i))).collect();
     let names: Vec<&str> = std::iter::once("noise").chain(files.iter().map(String::as_str)).collect();
     let noise = json(&[&names[..], &["--region", "20,0,20,20"]].concat());
-    // Even over ±300: 300/√3.
+    // Uniform over ±300: 300/√3.
     assert!((figure(&noise, "temporal_noise") / 173.2 - 1.0).abs() < 0.05, "{noise}");
     etendue(["measure", "noise", &files[0], &files[1]]).refused(&["at least 8 frames"]);
     let flare = json(&["flare", &files[0], "--trap", "0,0,20,20", "--white", "40,0,20,20", "--black", "300"]);
@@ -364,7 +364,7 @@ fn a_colour_chart_needs_colours() {
         .refused(&["grey.png", "channels R, G and B"]);
 }
 
-/// Light that one frame does not hold at all has a modulation of 1 without scatter: the frame is named.
+/// Light absent from one frame has a modulation of 1 without scatter: the frame is named.
 #[test]
 fn flicker_names_frames_that_are_black_or_cut() {
     let folder = tempfile::tempdir().expect("a folder");

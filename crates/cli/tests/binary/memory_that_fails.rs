@@ -1,10 +1,10 @@
-//! Runs to which the system gives too little memory: no file under a final name is half-written, and the next run is as if there had been none.
+//! Runs with too little memory from the system: no file under a final name is incomplete, and the next run has the result of a first one.
 
 use crate::support::{assert_same, contents, rendered, root, small, text};
 use std::path::Path;
 use std::process::Command;
 
-/// Runs the program with so much address space, KiB; its status (`None`: a signal ended it) and what it said.
+/// Runs the program with this much address space, KiB; returns its status (`None`: ended by a signal) and output.
 fn within(kib: u32, arguments: &[&str]) -> (Option<i32>, String) {
     let mut shell = Command::new("sh");
     shell.args(["-c", &format!("ulimit -c 0; ulimit -v {kib}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_etendue")]);
@@ -31,7 +31,7 @@ fn a_film_without_enough_memory_is_refused_before_the_render() {
     assert!(!Path::new(&out).exists(), "{:?}", contents(Path::new(&out)).keys());
 }
 
-/// The film fits into memory, and the products of it do not: ground truth and spectra of 1 million pixels take 112 MB.
+/// The film fits into memory, and its products do not: ground truth and spectra of 1 million pixels take 112 MB.
 #[test]
 fn products_made_after_the_render_count_in_the_check_before_it() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -44,8 +44,8 @@ fn products_made_after_the_render_count_in_the_check_before_it() {
     assert!(!Path::new(&out).exists(), "nothing is written");
 }
 
-/// The planned memory is at least the peak that the kernel reports, and at most 20 % above it, apart from the bounds of 64 MiB each on rows
-/// that wait to be written and on freed blocks that the C library keeps.
+/// The planned memory is at least the peak that the kernel reports, and at most 20 % above it, apart from the bounds of 64 MiB each on rows that wait
+/// to be written and on freed blocks that the C library keeps.
 #[test]
 fn a_plan_states_the_memory_of_the_whole_run() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -99,7 +99,7 @@ radiance = true
 ground_truth = true
 "#;
 
-/// Wherever the memory ends, from the start of the program to the last file.
+/// Memory may be exhausted at any point, from the start of the program to the last file.
 #[test]
 fn no_allocation_that_fails_leaves_half_a_file() {
     let expected = rendered(&small(), &["--spp", "2"]);
@@ -110,7 +110,8 @@ fn no_allocation_that_fails_leaves_half_a_file() {
         let (status, stderr) =
             within(kib, &["render", &small(), "-o", &text(&out), "--spp", "2", "--overwrite", "--threads", "1"]);
         ends[usize::from(status == Some(0))] += 1;
-        // Small allocations that fail end the process at once (SIGABRT), as Rust has it; below some limit the system does not even begin it.
+        // Failed small allocations end the process at once (SIGABRT), as in Rust's standard library; below some limit the system does not even start
+        // it.
         let is_reported = status.is_none_or(|status| status == 0) || stderr.contains("error");
         assert!(is_reported, "{kib} KiB: {status:?} {stderr}");
         for (name, bytes) in contents(&out) {

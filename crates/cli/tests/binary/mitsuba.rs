@@ -1,7 +1,7 @@
-//! Scenes of Mitsuba's format, and of pbrt's, against Mitsuba's own pictures of them.
+//! Scenes of Mitsuba's format, and of pbrt's, against Mitsuba's own renders of them.
 //!
-//! tests/oracles/mitsuba_scenes.py rendered scenes/import/*.xml; figures/mitsuba_scenes.json keeps the means of linear sRGB over boxes of 12 by 12 pixels
-//! with their standard errors. A unit of Mitsuba's is 1 cd/m² here.
+//! tests/oracles/mitsuba_scenes.py rendered scenes/import/*.xml; figures/mitsuba_scenes.json stores the means of linear sRGB over boxes of 12 by 12
+//! pixels with their standard errors. A unit of Mitsuba is 1 cd/m² here.
 
 use crate::support::{etendue, root, text};
 use etendue_io::mesh::read_mesh;
@@ -11,9 +11,9 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Student's bound of 144 tests together at 1 in 1 000: Mitsuba's standard errors are of 16 pictures.
+/// Student's bound of 144 tests together at 1 in 1 000: Mitsuba's standard errors are from 16 images.
 const CRITICAL: f64 = 6.71;
-/// Independent pictures of ours.
+/// Number of our independent images.
 const SEEDS: usize = 3;
 
 /// Means of linear sRGB over boxes, cd/m², and their standard errors.
@@ -31,15 +31,15 @@ fn stored(name: &str) -> Boxes {
     Boxes { mean: list("mean"), error: list("standard_error") }
 }
 
-/// The pixels of a radiance file by its preview, linear sRGB in cd/m².
+/// Pixels of a radiance file by its preview, linear sRGB in cd/m².
 pub(crate) fn pixels(file: &Path) -> (usize, Vec<[f64; 3]>) {
     let image = read_picture(file).expect("a picture");
     let ImagePixels::Rgb32F(pixels) = image.pixels else { panic!("linear colours are expected") };
     (image.width as usize, pixels.iter().map(|p| p.map(f64::from)).collect())
 }
 
-/// Means over boxes of `side` pixels. Pixels are independent of each other: the variance of a box is the sum of those of its pixels, each of them known
-/// from `SEEDS` pictures.
+/// Means over boxes of `side` pixels. Pixels are independent of each other: the variance of a box is the sum of those of its pixels, each known from
+/// `SEEDS` images.
 fn boxes(pictures: &[(usize, Vec<[f64; 3]>)], side: usize) -> Boxes {
     let (width, first) = &pictures[0];
     let (columns, rows) = (width / side, first.len() / width / side);
@@ -80,19 +80,20 @@ fn rendered(folder: &Path, file: &Path) -> Boxes {
     boxes(&pictures, 12)
 }
 
-/// What the models of two programs differ by: of every box's luminance, and in some boxes more.
+/// Difference between the models of two programs: a fraction of every box's luminance, and more in some boxes.
 #[derive(Clone, Copy)]
 struct Share {
     plain: f64,
-    /// Boxes by their numbers, row by row, and their shares.
+    /// Boxes by their numbers, row by row, and their fractions.
     boxes: &'static [(usize, f64)],
 }
 
-/// The same models.
+/// Equal models.
 const NONE: Share = Share { plain: 0.0, boxes: &[] };
 
-/// Colours become spectra by two rules, which agree under D65 and to 0.2 % after two bounces here. Spheres of rough plastic are brighter than Mitsuba's, whose rough borders
-/// lose light: at α = 0.3 the base has 0.310 of 0.366 left (blue, of which most comes from the base, by 14 % of the luminance). Gold is of two tables.
+/// Colours are converted to spectra by two rules, which agree under D65 and to 0.2 % after two bounces here. Spheres of rough plastic are brighter
+/// than Mitsuba's, whose rough interfaces lose light: at α = 0.3 the base retains 0.310 of 0.366 (blue, of which most comes from the base, by 14 % of
+/// the luminance). Gold is from two tables.
 const SHAPES: Share = Share {
     plain: 0.002,
     boxes: &[
@@ -108,7 +109,8 @@ const SHAPES: Share = Share {
     ],
 };
 
-/// The largest distance of a mean from Mitsuba's in standard errors beyond what is allowed for, and the relative distance of the whole pictures' luminances.
+/// Largest deviation of a mean from Mitsuba's beyond the allowed difference, in standard errors, and the relative difference of the whole images'
+/// luminances.
 fn apart(ours: &Boxes, theirs: &Boxes, share: Share) -> (f64, f64) {
     let luminance = |rgb: &[f64; 3]| 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
     let mut largest = 0.0_f64;
@@ -120,7 +122,7 @@ fn apart(ours: &Boxes, theirs: &Boxes, share: Share) -> (f64, f64) {
             let allowed = own * luminance(&theirs.mean[i]);
             let (own, other) = (ours.error[i][channel], theirs.error[i][channel]);
             let error = (own * own + other * other).sqrt();
-            // Both are zero where nothing is seen; figures are kept to 1e-6.
+            // Both are zero where nothing is seen; values are stored to 1e-6.
             let beyond = (difference - allowed).max(0.0) / error.max(1e-6);
             largest = largest.max(beyond);
         }
@@ -129,7 +131,7 @@ fn apart(ours: &Boxes, theirs: &Boxes, share: Share) -> (f64, f64) {
     (largest, sum(ours) / sum(theirs) - 1.0)
 }
 
-/// Compares a scene of scenes/import with Mitsuba's picture, the whole picture within `whole` of its luminance.
+/// Compares a scene of scenes/import with Mitsuba's image, the whole image within `whole` of its luminance.
 fn agrees(file: &str, name: &str, share: Share, whole: f64) {
     agrees_as(&root().join("scenes/import").join(file), name, share, whole);
 }
@@ -142,7 +144,7 @@ fn agrees_as(source: &Path, name: &str, share: Share, whole: f64) {
     let critical = CRITICAL;
     assert!(largest < critical, "{file}: {largest} standard errors, where {critical} are allowed");
     assert!(mean.abs() < whole, "{file}: the whole picture is {mean} brighter");
-    // A test that could not fail would be of no use: light by a twentieth, and the picture the other way round.
+    // The test must be able to fail: light changed by a twentieth, and the image mirrored.
     let brighter = Boxes { mean: ours.mean.iter().map(|m| m.map(|v| 1.05 * v)).collect(), error: ours.error.clone() };
     let mirrored = |list: &[[f64; 3]]| list.chunks(8).flat_map(|row| row.iter().rev().copied()).collect();
     let mirrored = Boxes { mean: mirrored(&ours.mean), error: mirrored(&ours.error) };
@@ -150,13 +152,13 @@ fn agrees_as(source: &Path, name: &str, share: Share, whole: f64) {
     assert!(apart(&mirrored, &theirs, share).0 > critical, "{file}: a mirrored picture is found");
 }
 
-/// Spectra of surfaces and of the lamp, turned and scaled cubes, parameters, an included file: nothing in which the programs differ.
+/// Spectra of surfaces and of the lamp, rotated and scaled cubes, parameters, an included file: without differences between the programs.
 #[test]
 fn a_box_of_measured_colours_is_mitsubas() {
     agrees("cornell.xml", "cornell", NONE, 0.01);
 }
 
-/// A lens, a picture of light that is turned, a point, a parallel light, a mirrored rectangle with a picture, coats, metal, glass, a mask.
+/// A lens, a rotated image of light, a point, a parallel light, a mirrored rectangle with an image, coats, metal, glass, a mask.
 #[test]
 fn glossy_clear_and_pierced_things_are_mitsubas() {
     agrees("studio.xml", "studio", NONE, 0.01);
@@ -168,7 +170,7 @@ fn shapes_of_pbrt_and_mitsuba_are_mitsubas() {
     agrees("shapes.pbrt", "shapes", SHAPES, 0.01);
 }
 
-/// An orthographic camera, smoke, instances of a mesh; of pbrt's file without its spot, whose edge Mitsuba has otherwise.
+/// An orthographic camera, smoke, instances of a mesh; of pbrt's file without its spot, whose edge differs in Mitsuba.
 #[test]
 fn smoke_of_pbrt_and_mitsuba_is_mitsubas() {
     agrees("smoke.xml", "smoke", NONE, 0.01);
@@ -183,7 +185,7 @@ fn smoke_of_pbrt_and_mitsuba_is_mitsubas() {
     agrees_as(&file, "smoke", NONE, 0.01);
 }
 
-/// Writes a scene of Mitsuba's and imports it.
+/// Writes a Mitsuba scene and imports it.
 fn imported(body: &str) -> (tempfile::TempDir, crate::support::Ran) {
     let place = tempfile::tempdir().expect("a temporary folder");
     let file = place.path().join("a.xml");
@@ -264,7 +266,7 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
     }
 }
 
-/// What shines reflects nothing where it has no surface; many blends of blends are looked at once each; a volume that is the same everywhere is its value.
+/// Emitters without a surface model reflect nothing; many blends of blends are read once each; a homogeneous volume is its value.
 #[test]
 fn lights_without_a_surface_are_black_and_blends_of_blends_are_quick() {
     let blend = |i: usize| {
@@ -291,7 +293,7 @@ fn lights_without_a_surface_are_black_and_blends_of_blends_are_quick() {
     etendue(["plan", &text(&place.path().join("made/job.toml"))]).ok();
 }
 
-/// As Mitsuba's own -D; and a mesh is sought where a `<path>` leads before it is sought beside the scene, as Mitsuba 3.9.1 does.
+/// As Mitsuba's own -D; a mesh is searched in the folders of `<path>` before the folder of the scene, as in Mitsuba 3.9.1.
 #[test]
 fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
     let place = tempfile::tempdir().expect("a temporary folder");

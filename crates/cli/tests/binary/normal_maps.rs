@@ -1,8 +1,8 @@
-//! Normal maps against the closed form of a tilted surface, on pictures that lie as they are, mirrored and upside down.
+//! Normal maps against the closed form of a tilted surface, on images in normal orientation, mirrored and upside down.
 //!
-//! A matt card under parallel light of E lx from l gives off ρ E n·l/π cd/m², n its normal. A map of one colour (x, y, z) tilts it to
-//! n = x·T + y·B + z·N, normalised: T leads to the right of the picture, B to its top (glTF: the bitangent cross(N, T)·w, w = −1 where the
-//! picture lies mirrored), N is the card's own. Of Mitsuba B is N × T whatever the picture does, as its version 3.9.1 renders it.
+//! A diffuse card under parallel light of E lx from l has the luminance ρ E n·l/π cd/m², where n is its normal. A map of one colour (x, y, z) tilts
+//! it to n = x·T + y·B + z·N, normalised: T points to the right of the image, B to its top (glTF: the bitangent cross(N, T)·w, w = −1 where the image
+//! is mirrored), N is the card's own. In Mitsuba B is N × T for any orientation of the image, as rendered by version 3.9.1.
 
 use crate::mitsuba::pixels;
 use crate::support::{etendue, text};
@@ -13,18 +13,18 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-/// Towards the light, in the card's right, up and normal.
+/// Direction to the light, in the card's right, up and normal.
 const LIGHT: [f64; 3] = [0.36, 0.48, 0.8];
 const ILLUMINANCE: f64 = 1000.0;
 const REFLECTANCE: f64 = 0.5;
 
-/// Maps of one colour: tilted to the right of the picture, and to its top.
+/// Maps of one colour: tilted to the right of the image, and to its top.
 const MAPS: [(&str, [u8; 3]); 2] = [("right.png", [204, 128, 230]), ("top.png", [128, 204, 230])];
 
 /// The corners of the card, seen from its front: bottom left, bottom right, top right, top left.
 const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-/// How a picture lies on the card: places of the corners in it (to the right, upwards), and where its right and its top are on the card.
+/// Orientation of an image on the card: positions of the corners in it (to the right, upwards), and directions of its right and its top on the card.
 struct Lie {
     name: &'static str,
     places: [[f64; 2]; 4],
@@ -46,9 +46,9 @@ fn maps_in(folder: &Path) {
     }
 }
 
-/// The luminance of the card whose normal a map tilts, cd/m².
+/// Luminance of the card with a normal tilted by a map, cd/m².
 fn expected(colour: [u8; 3], right: [f64; 2], top: [f64; 2]) -> f64 {
-    // Bytes of 127 and 128 both stand for 0.
+    // Bytes of 127 and 128 both represent 0.
     let [x, y, z] = colour.map(|c| if c == 128 { 0.0 } else { f64::from(c) / 127.5 - 1.0 });
     let normal = [x * right[0] + y * top[0], x * right[1] + y * top[1], z];
     let length = normal.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -56,7 +56,7 @@ fn expected(colour: [u8; 3], right: [f64; 2], top: [f64; 2]) -> f64 {
     REFLECTANCE * ILLUMINANCE * cosine / PI
 }
 
-/// The mean luminance of the only camera of a job that sees nothing but the card.
+/// Mean luminance of the only camera of a job that sees nothing except the card.
 fn luminance(job: &Path, camera: &str) -> f64 {
     let out = job.with_file_name("out");
     etendue(["render", &text(job), "-o", &text(&out), "--overwrite", "--spp", "64"]).ok();
@@ -65,7 +65,7 @@ fn luminance(job: &Path, camera: &str) -> f64 {
     bright / pixels.len() as f64
 }
 
-/// Noise is that of wavelengths alone: 0.05 % of a mean of 96 pixels of 64 samples, of which six are allowed.
+/// Only wavelengths cause noise: 0.05 % of a mean of 96 pixels of 64 samples; six standard deviations are allowed.
 #[track_caller]
 fn same(found: f64, expected: f64, what: &str) {
     assert!((found - expected).abs() <= 0.003 * expected, "{what}: {found} cd/m² for {expected}");
@@ -123,7 +123,7 @@ fn gltf(places: &[[f64; 2]; 4], map: &str, mirrored: bool) -> (Value, Vec<u8>) {
     let mut bytes: Vec<u8> = floats.flat_map(f32::to_le_bytes).collect();
     bytes.extend([0, 1, 2, 0, 2, 3]);
     let [x, y, z] = LIGHT;
-    // From +z to the light: a light shines along its −z.
+    // From +z to the light: a light emits along its −z.
     let long = (2.0 * (1.0 + z)).sqrt();
     let file = json!({
         "asset": { "version": "2.0" },
@@ -153,7 +153,7 @@ fn gltf(places: &[[f64; 2]; 4], map: &str, mirrored: bool) -> (Value, Vec<u8>) {
     (file, bytes)
 }
 
-/// Of the last a mirrored node mirrors what its picture does.
+/// For the last orientation a mirrored node replaces the mirrored image.
 #[test]
 fn maps_of_gltf_tilt_the_card() {
     for Lie { name, places, right, top } in LIES {
@@ -174,7 +174,7 @@ fn maps_of_gltf_tilt_the_card() {
     }
 }
 
-/// One shape of Mitsuba's under a map, the front of which is seen; the camera looks along −z, x to the right, y up.
+/// A Mitsuba shape under a map, seen from the front; the camera looks along −z, x to the right, y up.
 fn mitsuba(shape: &str, map: &str) -> String {
     let [x, y, z] = LIGHT.map(|c| -c);
     format!(

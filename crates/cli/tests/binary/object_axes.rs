@@ -1,4 +1,4 @@
-//! Boxes stand along the axes of their object, x forward and z up, whatever axes the file of its mesh has.
+//! Boxes are aligned with the axes of their object, x forward and z up, for any axes of its mesh file.
 
 use crate::support::{etendue, text};
 use etendue_core::maths::f64::sin_cos;
@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// Length, width and height of a car, m.
 pub(crate) const SIZE_M: DVec3 = DVec3::new(2.8, 1.5, 1.3);
-/// The axes of a file that point forward and upwards: z up, y up as in every glTF, and less usual ones.
+/// Axes of a file that point forward and up: z up, y up as in every glTF, and less common ones.
 pub(crate) const AXES: [(&str, &str); 5] = [("x", "z"), ("z", "y"), ("-z", "y"), ("-x", "y"), ("y", "-z")];
 
 fn axis(name: &str) -> DVec3 {
@@ -48,7 +48,7 @@ pub(crate) fn job(forward: &str, up: &str, turn_deg: f64) -> String {
     )
 }
 
-/// The numbers of a KITTI label behind its type.
+/// Numbers of a KITTI label after its type.
 pub(crate) fn label(folder: &Path) -> Vec<f64> {
     let file = folder.join("kitti/front/training/label_2/000000.txt");
     let text = fs::read_to_string(file).expect("a label");
@@ -75,7 +75,7 @@ fn boxes_do_not_depend_on_the_axes_of_the_file() {
             fs::write(&file, job(forward, up, turn_deg)).expect("written");
             let out = place.path().join("set");
             etendue(["dataset", &text(&file), "-o", &text(&out), "--format", "kitti", "--samples", "0..1"]).ok();
-            // Height, width, length; the middle of the bottom, x right, y down, z forward; the turn about y of the forward axis from x.
+            // Height, width, length; the middle of the bottom, x right, y down, z forward; the rotation about y of the forward axis from x.
             let heading = (-90.0 - turn_deg).to_radians();
             assert_near(&label(&out)[7..14], &[1.3, 1.5, 2.8, -2.0, 1.5, 10.0, heading], &about);
 
@@ -92,7 +92,7 @@ fn boxes_do_not_depend_on_the_axes_of_the_file() {
     }
 }
 
-/// A car beside the camera, 1.7 m to its right, that leaves the picture to the right: its label is about the part within the picture.
+/// A car next to the camera, 1.7 m to its right, that leaves the image to the right: its label covers the part within the image.
 #[test]
 fn a_car_beside_the_camera_is_cut_at_the_border_of_the_picture() {
     let place = tempfile::tempdir().expect("a folder");
@@ -112,8 +112,8 @@ fn a_car_beside_the_camera_is_cut_at_the_border_of_the_picture() {
     fs::write(&file, format!("{before}[[scene.objects]]\nname = \"car\"\n{car}")).expect("written");
     let out = place.path().join("set");
     etendue(["dataset", &text(&file), "-o", &text(&out), "--format", "kitti", "--samples", "0..1"]).ok();
-    // 200 px of focal length about (100, 60): the near upper edge, 1.7 m to the right and 0.3 m above, meets the border in a depth of 3.4 m. The
-    // image's left edge is that of the far end, 5.05 m ahead. Coordinates are those of pixel centres, and the last of the picture are 199 and 119.
+    // 200 px of focal length about (100, 60): the near upper edge, 1.7 m to the right and 0.3 m above, meets the border at a depth of 3.4 m. The
+    // image's left edge is that of the far end, 5.05 m ahead. Coordinates are those of pixel centres, and the last of the image are 199 and 119.
     let left = 100.0 + 200.0 * 1.7 / 5.05 - 0.5;
     let top = 60.0 - 200.0 * 0.3 / 3.4 - 0.5;
     let found = &label(&out)[3..7];

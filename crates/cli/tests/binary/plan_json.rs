@@ -1,4 +1,4 @@
-//! `etendue plan --json`: one document, whose every key is explained.
+//! `etendue plan --json`: one document, with an explanation of every key.
 
 use crate::support::{etendue, root, small};
 use serde_json::Value;
@@ -21,7 +21,7 @@ fn keys(value: &Value, found: &mut BTreeSet<String>) {
     }
 }
 
-/// The effect of an id of the first camera.
+/// Effect of the first camera with this id.
 fn effect<'p>(plan: &'p Value, id: &str) -> &'p Value {
     let effects = plan["cameras"][0]["effects"].as_array().expect("a list");
     effects.iter().find(|effect| effect["id"] == id).expect("every plan lists all effects")

@@ -1,4 +1,4 @@
-//! The plan of every job that ships, word for word.
+//! The plan of every shipped job, word for word.
 
 use crate::support::{bless, etendue, root, tests, text, whole};
 use std::path::PathBuf;
@@ -49,7 +49,7 @@ fn the_plans_of_all_jobs_are_as_they_were() {
     assert!(changed.is_empty(), "{}\n(ETENDUE_BLESS=1 accepts)", changed.join("\n"));
 }
 
-/// What the command line says supersedes what it makes meaningless, a line for each of its words.
+/// Keys overridden by the command line are reported, one line for each of its words.
 #[test]
 fn every_job_takes_any_integrator_and_any_samples() {
     for (place, (job, _)) in jobs().into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Charts of points by lists (CSV), by their truth, and views that do not belong.
+//! Charts of points from lists (CSV), from reference data, and views that do not belong together.
 
 use crate::support::{etendue, text};
 use etendue_core::maths::f64::sin_cos;
@@ -21,12 +21,12 @@ fn figure(report: &Value, key: &str) -> [f64; 2] {
     ]
 }
 
-/// A hundredth of a pixel that looks like noise.
+/// Noise-like displacement of a hundredth of a pixel.
 fn jitter(i: usize, k: usize) -> f64 {
     0.02 * (((i * 7919 + k * 104_729) % 1009) as f64 / 1009.0 - 0.5)
 }
 
-/// Points of 9 × 7 steps of 30 mm, seen at 600 mm and turned about two axes; by r = f tan θ or, of a fisheye, r = f θ, f = 500 px.
+/// Points of 9 × 7 steps of 30 mm, seen at 600 mm and turned about two axes; by r = f tan θ or, for a fisheye, r = f θ, f = 500 px.
 fn list(folder: &Path, name: &str, [about_x, about_y]: [f64; 2], fisheye: bool, skewed: bool) -> String {
     let ((sx, cx), (sy, cy)) = (sin_cos(about_x), sin_cos(about_y));
     let mut lines = "column,row,x_px,y_px,uncertainty_px\n".to_owned();
@@ -102,7 +102,7 @@ fn a_model_that_does_not_suit_is_told_with_one_that_does() {
     assert!(!found["notes"].to_string().contains("warning"), "{found}");
 }
 
-/// One view from the front: 500 px at 600 mm, whose last digit is a millimetre.
+/// One frontal view: 500 px at 600 mm, with a last digit of a millimetre.
 #[test]
 fn a_distance_is_known_to_its_last_digit() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -113,7 +113,7 @@ fn a_distance_is_known_to_its_last_digit() {
         assert!((value - 500.0).abs() < 2.0 * u, "{value} ± {u}");
         u
     };
-    // 500/√12 of 1/600; the points' noise adds some per cent.
+    // 500/√12 of 1/600; the points' noise adds a few per cent.
     let rounded = focal(&["--distance-mm", "600"]);
     assert!((rounded / 0.2406 - 1.0).abs() < 0.05, "{rounded}");
     let stated = focal(&["--distance-mm", "600", "--distance-uncertainty-mm", "0.6"]);

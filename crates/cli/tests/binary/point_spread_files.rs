@@ -1,4 +1,4 @@
-//! Zemax's listings of point spreads over the field drive a camera that follows them, and bad ones are told.
+//! Zemax's listings of point spreads over the field determine a camera, and invalid ones are reported.
 
 use crate::black_boxes::{irradiance, job, plan};
 use crate::support::{etendue, root, text};
@@ -7,11 +7,11 @@ use std::path::Path;
 
 const LENS: &str = "type = \"pinhole\"\nfocal_length_mm = 8\nf_number = 4\n[cameras.effects]\npsf = { files = [";
 const PIXEL_MM: f64 = 0.005;
-/// Samples of a listing, and their distance, µm.
+/// Samples of a listing, and their spacing, µm.
 const SIDE: usize = 64;
 const SPACING_UM: f64 = 2.0;
 
-/// A listing of "Huygens PSF": the light at an offset outwards of the point and across it, µm, of a field of y.
+/// A listing of "Huygens PSF": irradiance at an offset outwards of the point and across it, µm, for a field of y.
 fn listing(y_mm: f64, light_um: &str, light: impl Fn(f64, f64) -> f64) -> String {
     let outwards = if y_mm < 0.0 { -1.0 } else { 1.0 };
     let value = |row: usize, column: usize| {
@@ -45,17 +45,17 @@ fn write(folder: &Path, listings: impl IntoIterator<Item = String>) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Widths along the radius and across it, µm, of what is modelled at a distance from the axis, mm.
+/// Modelled widths along the radius and across it, µm, at a distance from the axis, mm.
 fn widths_um(radius_mm: f64) -> [f64; 2] {
     [7.0 + 6.0 * radius_mm * radius_mm, 7.0 + 2.0 * radius_mm]
 }
 
-/// The light of a point at the end of the picture where edges are: rows of 40, so far from the axis.
+/// Height of images near the end of the field, at this distance from the axis, rows.
 const ROWS: usize = 40;
 const AXIS_ROW: f64 = -160.0;
 const EDGE_PX: f64 = 20.3;
 
-/// The light of each row beside an edge between black above and light below.
+/// Light of each row next to an edge between black above and light below.
 fn edge(folder: &Path, lens: &str, axis_row: f64) -> Vec<f64> {
     let (far_m, size_m) = (1e6, 2e6);
     let above = size_m / 2.0 - (EDGE_PX - axis_row) * PIXEL_MM / 8.0 * far_m;
@@ -71,7 +71,7 @@ fn edge(folder: &Path, lens: &str, axis_row: f64) -> Vec<f64> {
     (0..ROWS).map(|row| mean(&lit, row) / mean(&whole, row)).collect()
 }
 
-/// The share of a Gaussian below a place, in its widths.
+/// Fraction of a Gaussian below a position, in its widths.
 fn normal(x: f64) -> f64 {
     let step = (x.clamp(-8.0, 8.0) + 8.0) / 4000.0;
     let at = |i: i32| step * (f64::from(i) + 0.5) - 8.0;
@@ -90,7 +90,7 @@ fn edges_are_as_wide_as_the_files_say_of_their_place() {
         }),
     );
     let lens = format!("{LENS}{files}] }}");
-    // Below the axis the edge lies across the radius; upon it functions are narrower.
+    // Below the axis the edge is perpendicular to the radius; on it functions are narrower.
     for axis_row in [AXIS_ROW, EDGE_PX] {
         let found = edge(folder.path(), &lens, axis_row);
         let width_um = |row: usize| widths_um((row as f64 + 0.5 - axis_row).abs() * PIXEL_MM)[0];
@@ -109,12 +109,12 @@ const WIDE: usize = 241;
 /// Lamps, columns and rows from the axis.
 const LAMPS: [[i32; 2]; 9] = [[0, 0], [75, 75], [-75, 75], [-75, -75], [75, -75], [80, 0], [-80, 0], [0, 80], [0, -80]];
 
-/// How far outwards a blob with a seventh of the light lies at a distance from the axis.
+/// Outward distance of a blob with a seventh of the light, by distance from the axis.
 fn blob_um(radius_mm: f64) -> f64 {
     20.0 * radius_mm
 }
 
-/// Of each lamp its light and the centroid from where it is, µm.
+/// For each lamp its light and the displacement of the centroid from its position, µm.
 fn lamps(folder: &Path, lens: &str) -> Vec<(f64, [f64; 2])> {
     let px_m = 100.0 * PIXEL_MM / 8.0;
     let lamp = |(i, [x, y]): (usize, &[i32; 2])| {
@@ -160,7 +160,7 @@ fn tails_of_lamps_point_away_from_the_axis_as_in_the_files() {
             if coordinates { made } else { made.replace("Center coordinates", "Kept to itself") }
         });
         let files = write(folder.path(), made);
-        // Without a margin the film's samples are those of the picture without effects.
+        // Without a margin the film's samples are those of the image without effects.
         let lens = LENS.replace("psf", "margin = 0\npsf");
         let found = lamps(folder.path(), &format!("{lens}{files}] }}"));
         for ((lamp, before), after) in LAMPS.iter().zip(&sharp).zip(&found) {
@@ -243,7 +243,7 @@ fn files_that_make_no_table_are_told() {
         "absent.txt",
         "no such point spread file",
     ]);
-    // Of two wavelengths, all fields there, on the route at the pupil and through `expose`.
+    // With two wavelengths and all fields, on the route at the pupil and through `expose`.
     let files = write(folder.path(), [axis, off, round(0.0, "0.4800"), round(0.5, "0.4800")]);
     let job = job("", SMALL, &format!("{LENS}{files}], patches = [3, 3] }}"), 2)
         .replace("[output]", "route = \"pupil\"\n[output]\nradiance = true");
@@ -257,7 +257,7 @@ fn files_that_make_no_table_are_told() {
     etendue(["expose", &format!("{out}/eye/radiance.exr"), "--camera", &camera, "-o", &taken]).ok();
 }
 
-/// The camera that ships with listings draws its dots by all of them.
+/// The shipped camera with listings renders its dots with all of them.
 #[test]
 fn the_shipped_camera_has_its_point_spreads() {
     let folder = tempfile::tempdir().expect("a temporary folder");

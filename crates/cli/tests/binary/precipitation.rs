@@ -1,4 +1,4 @@
-//! Rain and snow: frames, shards and ground truth, and what is refused.
+//! Rain and snow: frames, shards and ground truth, and refusals.
 
 use crate::support::{contents, etendue, text};
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 const RAIN: &str = "type = \"rain\", rate_mm_h = 100, smallest_px = 0.05";
 
-/// A job of a wall in weather; `falls` is what falls, or nothing.
+/// A job of a wall in weather; `falls` is the precipitation, or nothing.
 struct Weather {
     place: TempDir,
 }

@@ -1,4 +1,4 @@
-//! Light in passes: the same bits however they came about, also after a kill; and as many as a time allows.
+//! Light in passes: equal bits for any sequence of runs, also after a kill; and as many passes as a time allows.
 
 use crate::support::{Ran, assert_same, contents, etendue, rendered, root, small, tests, text};
 use etendue_io::exr::{Samples, read_exr};
@@ -17,13 +17,13 @@ fn render(job: &str, folder: &Path, options: &[&str]) -> Ran {
     etendue(["render", job, "-o", &text(folder)].into_iter().chain(options.iter().copied()))
 }
 
-/// Columns and rows of a picture that can be read.
+/// Columns and rows of a readable image.
 fn image_size(file: &Path) -> (u32, u32) {
     let picture = read_picture(file).expect("a whole picture");
     (picture.width as u32, picture.height as u32)
 }
 
-/// The floats of the channels of a picture, which an EXR's facts are no part of.
+/// Floats of the channels of an image, without the facts of the EXR.
 fn channels(file: &Path) -> BTreeMap<String, Vec<u32>> {
     let file = read_exr(file).expect("an EXR");
     let bits = |samples: &Samples| samples.to_floats().iter().map(|value| value.to_bits()).collect();
@@ -65,13 +65,13 @@ fn passes_are_the_same_in_shards_and_with_a_part_of_the_pixels() {
     assert_same(&rendered(&small(), &set), &contents(&folder("whole")), "two shards");
 }
 
-/// A run that is killed as soon as its state holds a pass more than before, or that is done.
+/// A run that is killed as soon as its state holds one more pass, or that has ended.
 fn kill_after_a_pass(arguments: &[String], output: &Path) {
     let before = state(output);
     kill_when(arguments, || state(output) != before);
 }
 
-/// A run that is killed at a moment, or that is done.
+/// A run that is killed at a moment, or that has ended.
 fn kill_when(arguments: &[String], is_time: impl Fn() -> bool) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
     command.current_dir(root()).args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
@@ -79,12 +79,12 @@ fn kill_when(arguments: &[String], is_time: impl Fn() -> bool) {
     while child.try_wait().expect("a child").is_none() && !is_time() {
         std::thread::sleep(Duration::from_millis(2));
     }
-    // SIGKILL: nothing of the program runs after it.
+    // SIGKILL: no code of the program runs after it.
     child.kill().expect("a child can be killed");
     child.wait().expect("a child");
 }
 
-/// Films of the state that have their names.
+/// Films of the state under their final names.
 fn state(output: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = contents(&output.join(".progress"));
     files.retain(|name, _| name.ends_with(".film.exr"));
@@ -117,7 +117,7 @@ fn a_killed_run_leaves_whole_pictures_and_a_state_that_is_not_lost_by_accident()
     let arguments = ["render", &job, "-o", &output].into_iter().chain(options).map(str::to_owned);
     let picture = out.join("front/picture.0000.png");
     kill_when(&arguments.collect::<Vec<_>>(), || picture.exists());
-    // The pictures of an early pass, and no side-car yet.
+    // The images of an early pass, and no side-car yet.
     let radiance = read_exr(&out.join("front/radiance.exr")).expect("a whole file");
     assert!(radiance.provenance().further["passes"].starts_with("[4, 4, 8,"), "{:?}", radiance.attributes);
     assert!(image_size(&picture) == (radiance.width as u32, radiance.height as u32));
@@ -128,7 +128,7 @@ fn a_killed_run_leaves_whole_pictures_and_a_state_that_is_not_lost_by_accident()
     assert!(state(&out).is_empty() && out.join("front/radiance.exr").exists());
 }
 
-/// Seconds and options that a timed run tells: "10.02 s of light (--time 10): …; --set … gives the same bytes".
+/// Seconds and options reported by a timed run: "10.02 s of light (--time 10): …; --set … gives the same bytes".
 fn told(run: &Ran) -> (f64, Vec<String>) {
     let line = run.err.lines().find(|line| line.contains("s of light (--time")).expect("a note of the time");
     let (seconds, options) = line.strip_prefix("note: ").and_then(|line| line.split_once(" s of light")).expect("both");
@@ -139,7 +139,7 @@ fn told(run: &Ran) -> (f64, Vec<String>) {
     (seconds.parse().expect("seconds"), vec!["--set".to_owned(), replicates, "--set".to_owned(), passes])
 }
 
-/// Cornell's box at 48 × 48 px. A machine that stands still for a second at the end may miss the time, three times running it does not.
+/// Cornell's box at 48 × 48 px. A machine that stalls for a second at the end may miss the time, but not three times in a row.
 #[test]
 fn a_timed_run_keeps_its_time_and_its_passes_give_its_bytes() {
     let job = "scenes/cornell/cornell.toml";
@@ -156,7 +156,7 @@ fn a_timed_run_keeps_its_time_and_its_passes_give_its_bytes() {
     assert_same(&contents(&out), &rendered(job, &options), "the passes that were told");
 }
 
-/// The same job, killed twice. Guided paths: each pass learns the same wherever the run was cut.
+/// The same job, killed twice. Guided paths: each pass learns the same wherever the run was interrupted.
 #[test]
 fn a_timed_run_that_was_killed_takes_the_time_that_was_left() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -175,7 +175,7 @@ fn a_timed_run_that_was_killed_takes_the_time_that_was_left() {
     let run = etendue(&arguments).ok();
     let took_s = begin.elapsed().as_secs_f64();
     let (seconds, options) = told(&run);
-    // How long a loaded machine takes is the other test's matter.
+    // The duration on a loaded machine is tested elsewhere.
     assert!(seconds > 9.0 && took_s < seconds + 5.0, "{took_s} s for {seconds} s");
     let options: Vec<&str> = options.iter().map(String::as_str).chain(size).collect();
     assert_same(&contents(&out), &rendered(job, &options), "the passes that were told");

@@ -1,4 +1,4 @@
-//! Raw files in other programs (tests/oracles/raw_files.py): what those found, and that the files are still those.
+//! Raw files in other programs (tests/oracles/raw_files.py): their results, and equality of the files.
 
 use crate::support::{contents, etendue, root, text};
 use serde_json::{Value, json};
@@ -49,7 +49,7 @@ fn numbers(file: &[u8]) -> Vec<u64> {
     file[from..from + length].chunks(2).map(|b| u64::from(u16::from_le_bytes([b[0], b[1]]))).collect()
 }
 
-/// What LibRaw saw: phase, levels, area, numbers; and its own development beside ours.
+/// LibRaw's phase, levels, area and numbers; and its own development next to ours.
 #[test]
 fn a_raw_reader_shows_the_right_picture() {
     let figures = figures();
@@ -61,9 +61,9 @@ fn a_raw_reader_shows_the_right_picture() {
         assert_eq!((&found["white"], &found["visible"]), (&json!(15_256), &json!([4, 6, 144, 96])), "{phase}");
         assert_eq!(found["raw_is_tiff"], true, "{phase}");
         let number = |key: &str| found[key].as_f64().expect("a number");
-        // Two demosaics and roundings of a noisy picture of 8 bits: a third of what is just seen.
+        // Two demosaicing methods and roundings of a noisy 8-bit image: a third of the visibility threshold.
         assert!(number("delta_e_mean") < 0.25 && number("delta_e_worst") < 0.5, "{phase}: {found}");
-        // Means of 144 pixels whose noise is 1 %, of a quarter of them for red and blue; no factor of brightness.
+        // Means of 144 pixels with 1 % of noise, of a quarter of them for red and blue; no factor of brightness.
         assert!(number("neutral_off") < 0.015 && (number("scale") - 1.0).abs() < 0.002, "{phase}: {found}");
     }
     let mono = &figures["mono"];
@@ -90,7 +90,7 @@ fn the_files_that_it_read_are_still_those() {
         let (tags, numbers) = (tags(dng), numbers(dng));
         let sums = [numbers.iter().sum::<u64>(), numbers.iter().map(|n| n * n).sum()];
         assert_eq!(json!(sums), figures["bayer"][phase]["sum_and_sum_of_squares"], "{phase}");
-        // The tile's size and colours; from the first pixel of the active area, which holds whole tiles.
+        // Size and colours of the tile; from the first pixel of the active area, which holds complete tiles.
         assert_eq!(longs(&tags[&33_421]), [2, 2]);
         assert_eq!(
             tags[&33_422].1.iter().map(|b| u64::from(*b)).collect::<Vec<_>>(),
@@ -112,7 +112,7 @@ fn odd_rows_and_columns_of_optical_black_stand_before_a_mono_picture() {
         let chosen: Vec<u64> = (0..numbers.len()).filter(|i| part(i % 149, i / 149)).map(|i| numbers[i]).collect();
         chosen.iter().sum::<u64>() as f64 / chosen.len() as f64
     };
-    // Beside the area there is the black level, read noise 1.5 DN and DSNU 1 DN over 912 pixels; within even the darkest patch is lit.
+    // Outside the area there is the black level, read noise 1.5 DN and DSNU 1 DN over 912 pixels; within it even the darkest patch is lit.
     assert!((mean(&|x, y| x < 5 || y < 3) - 256.0).abs() < 0.3);
     assert!(mean(&|x, y| x == 5 && y >= 3) > 300.0 && mean(&|x, y| x >= 5 && y == 3) > 300.0);
 }

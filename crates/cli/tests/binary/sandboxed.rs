@@ -1,4 +1,4 @@
-//! Untrusted jobs: no file outside their folder is read, whoever names it and by whatever way.
+//! Untrusted jobs: no file outside their folder is read, whichever file names it and by any path.
 
 use crate::bad_input::Spoilt;
 use crate::support::{Ran, contents, etendue, text};
@@ -9,9 +9,9 @@ use tempfile::TempDir;
 
 const OUT: &str = "this path leads out of the job's folder";
 
-/// A job in a folder beside which others' files lie.
+/// A job in a folder next to files of others.
 struct Foreign {
-    /// Files that are none of the job's.
+    /// Files that do not belong to the job.
     secrets: TempDir,
     job: Spoilt,
 }
@@ -31,7 +31,7 @@ impl Foreign {
         text(&self.secrets.path().join(name))
     }
 
-    /// The way to a secret through the parents of the job's folder.
+    /// Path to a secret through the parents of the job's folder.
     fn climbing(&self, name: &str) -> String {
         let up = "../".repeat(self.job.folder().components().count());
         format!("{up}{}", self.secret(name).trim_start_matches('/'))
@@ -41,7 +41,7 @@ impl Foreign {
         etendue(["plan", &self.job.job(), "--sandboxed"].iter().chain(options))
     }
 
-    /// Refused in the sandbox at that file, and good without or with its folder allowed.
+    /// Asserts a refusal in the sandbox at that file, and success without the sandbox or with its folder allowed.
     #[track_caller]
     fn refused(&self, options: &[&str], place: &str) {
         self.plan(options).refused(&[place, OUT, "--allow-outside"]);
@@ -104,7 +104,7 @@ fn material_libraries_and_their_pictures_lead_out() {
     let library = foreign.climbing("tower.mtl");
     foreign.job.spoil("tower.obj", "mtllib tower.mtl", &format!("mtllib {library}"));
     foreign.refused(&[], "tower.obj:2");
-    // What is not there is told as what is.
+    // A missing file is reported like an existing one.
     foreign.job.spoil("tower.obj", "tower.mtl", "none.mtl");
     foreign.plan(&[]).refused(&["tower.obj:2", OUT]);
     let foreign = Foreign::new();

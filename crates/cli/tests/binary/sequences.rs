@@ -1,4 +1,4 @@
-//! Frames whose light depends on time: the same bytes alone, in a sequence, in shards, and after a run that was interrupted.
+//! Frames with time-dependent light: equal bytes alone, in a sequence, in shards, and after an interrupted run.
 
 use crate::support::{contents, etendue, tests, text};
 use etendue_io::picture::read_picture;
@@ -88,7 +88,7 @@ fn what_is_made_of_all_frames_says_what_the_frames_say() {
     let head = b"YUV4MPEG2 W40 H24 F20:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
     assert!(video.starts_with(head));
     assert_eq!(video.len(), head.len() + 3 * ("FRAME\n".len() + 3 * 40 * 24));
-    // The first pixel's luma, of the picture's own numbers.
+    // Luma of the first pixel, in the image's own numbers.
     let place = tempfile::tempdir().expect("a temporary folder");
     let file = place.path().join("picture.png");
     fs::write(&file, &all["left/picture.0002.png"]).expect("a file");
@@ -128,7 +128,7 @@ fn what_needs_more_than_is_there_is_refused() {
     told("cameras.left.sensor.shutter.row_time_us=20000", &slow);
 }
 
-/// Two cameras that nothing joins are rectified at first, and the right one turns by 2° from key to key.
+/// Two unconnected cameras are rectified at first, and the right one turns by 2° between keys.
 #[test]
 fn pairs_that_come_apart_are_not_rectified() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -156,7 +156,7 @@ fn pairs_that_come_apart_are_not_rectified() {
     refused(2.0).refused(&["cameras.left.output.disparity_to", "at 1 s", "not rectified"]);
 }
 
-/// What a run leaves that is killed within frame 2: whole frames 0 and 1, a file of frame 2 that has its name, no side-cars.
+/// State after a kill within frame 2: complete frames 0 and 1, a file of frame 2 under its final name, no side-cars.
 #[test]
 fn a_run_that_was_interrupted_goes_on_to_the_same_bytes() {
     let expected = rendered(&["--frames", "0..4"]);
@@ -173,7 +173,7 @@ fn a_run_that_was_interrupted_goes_on_to_the_same_bytes() {
     assert_eq!(kept, now, "whole frames are not rendered again");
 }
 
-/// The file of a frame states the digests of all others: files that are gone, cut, changed or exchanged are made anew.
+/// A frame's file states the digests of all others: missing, truncated, changed or exchanged files are made again.
 #[test]
 fn a_run_that_goes_on_believes_no_file_that_is_not_whole() {
     let expected = rendered(&["--frames", "0..3"]);
@@ -234,7 +234,7 @@ fn a_frame_of_another_plan_is_no_part_of_the_run() {
     etendue(options).refused(&["frame.0000.json", "another plan"]);
 }
 
-/// Of a camera whose light is steady only the side-car tells of which plan it is.
+/// For a camera with constant light only the side-car states the plan.
 #[test]
 fn a_steady_camera_of_another_plan_is_no_part_of_the_run() {
     let place = tempfile::tempdir().expect("a temporary folder");

@@ -1,10 +1,10 @@
-//! Shards of other machines: the files that they need, film by film, and the way back.
+//! Shards on other machines: their input files, film by film, and merging.
 
 use crate::support::{BALL, assert_same, contents, etendue, rendered, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The ball before two cameras of lights of their own, one of which sees it move over three frames; the second stands in a file.
+/// The ball in front of two cameras with lights of their own, one of which sees it move over three frames; the second is in a file.
 fn job(folder: &Path) -> PathBuf {
     fs::create_dir_all(folder.join("jobs")).expect("made");
     fs::create_dir_all(folder.join("cameras")).expect("made");

@@ -1,11 +1,11 @@
-//! Cameras of a job that see the same light: rendered once, and each as it is alone.
+//! Cameras of a job with the same light: rendered once, each with the result that it has alone.
 
 use crate::support::{BALL, assert_same, contents, etendue, rendered, text};
 use etendue_io::exr::{Samples, read_exr};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// How the light of all cameras is sampled.
+/// Sampling of the light of all cameras.
 const RENDER: &str = r#"
 [render]
 spp = 8
@@ -18,12 +18,12 @@ electrons = true
 variance = true
 "#;
 
-/// The scene of [`BALL`], and its camera.
+/// Returns the scene of [`BALL`], and its camera.
 fn parts() -> (&'static str, &'static str) {
     BALL.split_at(BALL.find("[[cameras]]").expect("a camera"))
 }
 
-/// A camera of the job: its name, what its tables say in place of `KEY = VALUE`, and what comes beside them.
+/// A camera of the job: its name, replacements of `KEY = VALUE`, and further tables.
 fn camera(name: &str, changes: &[(&str, &str)], further: &str) -> String {
     let own = parts().1.replace("\"front\"", &format!("\"{name}\"")).replace("exposure_s = 2e-6", "exposure_s = 1e-5");
     let mut text = format!("{own}[cameras.isp]\nwhite_balance = \"D65\"\n{further}");
@@ -34,7 +34,7 @@ fn camera(name: &str, changes: &[(&str, &str)], further: &str) -> String {
     text
 }
 
-/// The job of all cameras, in a folder.
+/// Writes the job of all cameras into a folder.
 fn job(folder: &Path) -> String {
     let cameras = [
         camera("first", &[], ""),
@@ -57,7 +57,7 @@ fn all() -> (tempfile::TempDir, String) {
     (place, job)
 }
 
-/// What the plan says of a camera.
+/// Returns the part of the plan about a camera.
 fn block<'a>(plan: &'a str, name: &str) -> &'a str {
     let start = plan.find(&format!("camera {name}\n")).expect("the camera");
     let rest = &plan[start..];

@@ -1,4 +1,4 @@
-//! Measurements of pictures whose pixels shared paths: the side-car states how many errors are alike.
+//! Measurements of images whose pixels shared paths: the side-car states the size of blocks with correlated errors.
 
 use crate::support::{etendue, text};
 use etendue_core::Plane;
@@ -7,14 +7,14 @@ use etendue_io::png::encode_companded16;
 use serde_json::Value;
 use std::path::Path;
 
-/// A number from 0 to 1 for a block.
+/// A number from 0 to 1 for each block.
 fn scatter(x: usize, y: usize) -> f64 {
     let mixed = (x as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (y as u64 + 1).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
     let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xff51_afd7_ed55_8ccd);
     (mixed >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// A dark left half and a bright right one, each with errors that blocks of 4 × 4 pixels share.
+/// A dark left half and a bright right one, with errors that blocks of 4 × 4 pixels share.
 fn picture(folder: &Path, correlated_block_px: u32) -> String {
     let number = |x: usize, y: usize| (if x < 48 { 2_000.0 } else { 20_000.0 }) + 400.0 * scatter(x / 4, y / 4);
     let samples = (0..96 * 48).map(|i| number(i % 96, i / 96) as u32).collect();
@@ -41,7 +41,7 @@ fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
         (figure["value"].as_f64().expect("a value"), figure["standard_uncertainty"].as_f64().expect("one"))
     };
     let (shared, alone) = (flare(16), flare(1));
-    // Nine blocks' worth with a scatter of 400/√12 each: ±38 of the 20 200 of the white.
+    // Nine blocks with a spread of 400/√12 each: ±38 of the 20 200 of the white.
     let truth = 100.0 * 38.0 / 20_200.0;
     assert!(shared.0 == alone.0 && shared.1 > truth && alone.1 < 0.9 * truth, "{shared:?} {alone:?} {truth}");
     let picture = picture(folder.path(), 16);

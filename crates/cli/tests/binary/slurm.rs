@@ -1,10 +1,10 @@
-//! The script for Slurm, as Slurm would call it.
+//! The script for Slurm, called as by Slurm.
 
 use crate::support::{assert_same, contents, rendered, root, small, text};
 use std::path::Path;
 use std::process::Command;
 
-/// Runs the script with the variables of a task of an array: (index, count, largest index); its status and what it says.
+/// Runs the script with the variables of an array task: (index, count, largest index); returns its status and output.
 fn run(arguments: &[&str], task: Option<(u32, u32, u32)>) -> (i32, String) {
     let mut command = Command::new("bash");
     command
@@ -26,7 +26,7 @@ fn run(arguments: &[&str], task: Option<(u32, u32, u32)>) -> (i32, String) {
 fn an_array_of_tasks_and_a_merge_give_the_bytes_of_one_run() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (small(), text(&place.path().join("with blank/out")));
-    // The second is requeued.
+    // The second task is requeued.
     for index in [2, 1, 0, 1] {
         let (status, said) = run(&[&job, &out, "--spp", "4", "--frames", "0..2"], Some((index, 3, 2)));
         assert_eq!(status, 0, "{said}");

@@ -1,4 +1,4 @@
-//! Running the binary and looking at what it leaves.
+//! Runs the binary and inspects its results.
 
 use assert_cmd::Command;
 use std::collections::BTreeMap;
@@ -14,12 +14,12 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("crates/cli lies two folders deep").to_path_buf()
 }
 
-/// The job with a little of everything.
+/// The job with many features.
 pub(crate) fn small() -> String {
     text(&tests().join("jobs/small/small.toml"))
 }
 
-/// A ball on a floor under an even sky, before a small colour camera: a job to which its rendering is added.
+/// A ball on a floor under a uniform sky, in front of a small colour camera: a job to which render settings are added.
 pub(crate) const BALL: &str = r#"format = 1
 [scene]
 [scene.environment]
@@ -63,12 +63,12 @@ black_level_dn = 64
 bits = 12
 "#;
 
-/// Whether stored results shall be written anew.
+/// True if stored results are to be rewritten.
 pub(crate) fn bless() -> bool {
     std::env::var_os("ETENDUE_BLESS").is_some_and(|value| value == "1")
 }
 
-/// Whether studies are made in full, of which CI makes a part (`just whole`).
+/// True if studies are complete, of which CI runs a part (`just whole`).
 pub(crate) fn whole() -> bool {
     std::env::var_os("ETENDUE_WHOLE").is_some_and(|value| value == "1")
 }
@@ -88,7 +88,7 @@ pub(crate) fn text(path: &Path) -> String {
     path.to_str().expect("the tests' paths are UTF-8").to_owned()
 }
 
-/// What a run said and how it ended.
+/// Output and status of a run.
 #[derive(Debug)]
 pub(crate) struct Ran {
     pub(crate) status: i32,
@@ -97,14 +97,14 @@ pub(crate) struct Ran {
 }
 
 impl Ran {
-    /// The run was a success.
+    /// Asserts success.
     #[track_caller]
     pub(crate) fn ok(self) -> Self {
         assert_eq!(self.status, 0, "{}", self.err);
         self
     }
 
-    /// Refused: status 2, nothing on stdout, and every one of these phrases on one line of stderr.
+    /// Asserts a refusal: status 2, nothing on stdout, and every one of these phrases on one line of stderr.
     #[track_caller]
     pub(crate) fn refused(self, phrases: &[&str]) -> Self {
         assert_eq!(self.status, 2, "{self:?}");
@@ -112,7 +112,7 @@ impl Ran {
         self.says(phrases)
     }
 
-    /// One line of stderr holds all of these.
+    /// Asserts that one line of stderr contains all of these.
     #[track_caller]
     pub(crate) fn says(self, phrases: &[&str]) -> Self {
         let found = self.err.lines().any(|line| phrases.iter().all(|phrase| line.contains(phrase)));
@@ -152,7 +152,7 @@ fn ran(mut command: Command) -> Ran {
     Ran { status: output.status.code().expect("it ends by itself"), out: utf8(output.stdout), err: utf8(output.stderr) }
 }
 
-/// All files below a folder with their bytes, by relative name.
+/// Returns all files below a folder with their bytes, by relative name.
 pub(crate) fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
     collect(folder, folder, &mut files);
@@ -172,7 +172,7 @@ fn collect(root: &Path, folder: &Path, files: &mut BTreeMap<String, Vec<u8>>) {
     }
 }
 
-/// Renders a job into a temporary folder and gives its files.
+/// Renders a job into a temporary folder and returns its files.
 #[track_caller]
 pub(crate) fn rendered(job: &str, options: &[&str]) -> BTreeMap<String, Vec<u8>> {
     rendered_with(job, options, &[])
@@ -188,7 +188,7 @@ pub(crate) fn rendered_with(job: &str, options: &[&str], environment: &[(&str, &
     contents(Path::new(&output))
 }
 
-/// Both runs left the same files with the same bytes.
+/// Asserts that both runs left the same files with the same bytes.
 #[track_caller]
 pub(crate) fn assert_same(a: &BTreeMap<String, Vec<u8>>, b: &BTreeMap<String, Vec<u8>>, what: &str) {
     let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();

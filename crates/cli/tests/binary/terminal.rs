@@ -1,4 +1,4 @@
-//! Text on a terminal: of files with its control characters escaped, and an error where results cannot be printed.
+//! Text on a terminal: control characters of files are escaped, and unprintable results are an error.
 
 use crate::support::{BALL, etendue, root, small, text};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// Control characters, and the override that turns text round.
+/// Control characters, and the override that reverses text.
 const STRANGE: &str = "\u{1b}[31m\u{1b}]0;owned\u{7}\u{9b}2J\u{202e}\u{7f}";
 
 #[track_caller]
@@ -16,7 +16,7 @@ fn assert_plain(what: &str, printed: &str) {
     assert!(found.is_empty(), "{what}: {found:?} in {printed:?}");
 }
 
-/// An EXR file of one pixel with a strange channel and a strange comment.
+/// An EXR file of one pixel with an unusual channel and comment.
 fn strange_exr() -> Vec<u8> {
     let attribute = |name: &str, kind: &str, value: &[u8]| {
         let length = (value.len() as u32).to_le_bytes();
@@ -100,7 +100,7 @@ fn shell(line: &str, arguments: &[&str]) -> Output {
     command.current_dir(root()).stdin(Stdio::null()).output().expect("a shell")
 }
 
-/// Every verb prints something: without a standard output none begins its work.
+/// Every verb prints something: without a standard output none starts its work.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_standard_output_that_is_closed_is_an_error_of_every_verb() {
@@ -124,7 +124,7 @@ fn a_standard_output_that_is_closed_is_an_error_of_every_verb() {
     }
     assert!(!Path::new(&out).exists());
     assert!(shell("exec \"$0\" \"$@\" >/dev/null", &["schema", "job"]).status.success());
-    // As Python's subprocess.DEVNULL has it, for reading and writing.
+    // As with Python's subprocess.DEVNULL, for reading and writing.
     assert!(shell("exec \"$0\" \"$@\" 1<>/dev/null", &["schema", "job"]).status.success());
 }
 

@@ -1,4 +1,4 @@
-//! Textures that need more memory than they may take: kept in tiles on the disk, the same bytes of every result.
+//! Textures beyond their memory limit: stored in tiles on disk, with equal bytes of every result.
 
 use crate::support::{assert_same, etendue, etendue_with, rendered, text};
 use etendue_core::Plane;
@@ -8,7 +8,7 @@ use etendue_io::png::encode_display;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Three pictures on three quads, near and far: as colours by coordinates, as colours from three sides, as a roughness.
+/// Three images on three quads, near and far: as colours by coordinates, as colours from three sides, as a roughness.
 const JOB: &str = r#"format = 1
 [render]
 spp = 4
@@ -47,7 +47,7 @@ lens = { type = "pinhole", focal_length_mm = 6, f_number = 8 }
 sensor = { width_px = 48, height_px = 32, pixel_pitch_um = 150 }
 "#;
 
-/// A folder with the job, and pictures of 23 MB at all resolutions: 5.3 MB each of bytes, and 12.2 MB of the scaled numbers.
+/// A folder with the job, and images of 23 MB at all resolutions: 5.3 MB each of bytes, and 12.2 MB of the scaled numbers.
 struct Place {
     folder: tempfile::TempDir,
 }
@@ -70,7 +70,7 @@ impl Place {
         text(&self.path("job.toml"))
     }
 
-    /// The files of tiles, in the order of their names.
+    /// The files of tiles, ordered by name.
     fn tiles(&self) -> Vec<PathBuf> {
         let entries = fs::read_dir(self.path("cache")).expect("a folder of tiles");
         let mut files: Vec<_> = entries.map(|entry| entry.expect("readable").path()).collect();
@@ -98,7 +98,7 @@ fn the_result_does_not_depend_on_the_memory_of_textures() {
     assert_same(&held, &rendered(&job, &small), "tiles that are made");
     assert_eq!(place.tiles().len(), 3);
     assert_same(&held, &rendered(&job, &[&small[..], &["--threads", "1"]].concat()), "tiles that are there");
-    // Of three of 5.3 MB, as their heads tell it, one fits into half of it.
+    // Of three of 5.3 MB, as stated by their headers, one fits into half of it.
     let some = rendered(&job, &["--texture-memory", "11", "--cache", &cache]);
     assert_same(&held, &some, "one picture in memory");
     let plan = etendue(["plan", &job, "--texture-memory", "1", "--cache", &cache]).ok().out;
@@ -106,7 +106,7 @@ fn the_result_does_not_depend_on_the_memory_of_textures() {
     assert!(plan.split_whitespace().collect::<Vec<_>>().join(" ").contains(told), "{plan}");
 }
 
-/// Describing a job leaves nothing on the disk, and a sandboxed job keeps its tiles where its results are.
+/// Describing a job leaves nothing on disk, and a sandboxed job stores its tiles with its results.
 #[test]
 fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder() {
     let place = Place::new();
@@ -125,7 +125,7 @@ fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder()
     let held = rendered(&job, &[]);
     held.iter()
         .for_each(|(name, bytes)| assert!(fs::read(out.join(name)).is_ok_and(|found| found == *bytes), "{name}"));
-    // What the job itself needs is more than the limit: refused before a picture is unpacked.
+    // The job itself needs more than the limit: refused before an image is unpacked.
     let limited = ["--limit", "texture-cache-mib=10"];
     let told = ["scene.textures", "the cache of textures may have 10 MiB", "--limit texture-cache-mib="];
     etendue(["plan", &job].iter().chain(&small).chain(&limited)).refused(&told);
@@ -162,7 +162,7 @@ fn damaged_tiles_are_made_anew() {
     shorten(short).expect("shortened");
     fs::write(strange, b"no tiles").expect("written");
     assert_same(&held, &rendered(&job, &small), "files that are not whole");
-    // Of each tile the first byte: whichever is looked up first is not what was written.
+    // Changes the first byte of each tile, so that the first tile read differs from the written one.
     let mut bytes = fs::read(damaged).expect("tiles");
     let middle = bytes.len() / 3;
     bytes[middle..].iter_mut().for_each(|byte| *byte ^= 1);

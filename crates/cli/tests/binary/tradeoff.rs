@@ -1,9 +1,9 @@
-//! Time against error: what a study writes, that its job files are jobs, and what it refuses.
+//! Time against error: files of a study, validity of its job files, and refusals.
 
 use crate::support::{BALL, contents, etendue, text};
 use std::path::Path;
 
-/// What the job says beside its scene and camera.
+/// Tables of the job in addition to scene and camera.
 const RENDER: &str = "[render]\nspp = 32\nmax_bounces = 6\n[output]\nground_truth = false\n";
 
 fn job(folder: &Path) -> String {
@@ -42,12 +42,12 @@ fn a_study_tells_times_and_errors_and_writes_jobs() {
     let ways = study["ways"].as_array().expect("ways");
     assert_eq!((&ways[0]["way"]["integrator"], &ways[0]["way"]["max_bounces"]), (&"path".into(), &6.into()));
     let of = |integrator: &str| ways.iter().find(|w| w["way"]["integrator"] == integrator).expect("looked at");
-    // A white floor and ball without shadows or light from each other: about 8 % of the light, most of it in the two or three of twelve tiles about the
-    // ball (all tiles are looked at, so that it is the same every time).
+    // A white floor and ball without shadows or mutual illumination: about 8 % of the light, most of it in two or three of twelve tiles around the
+    // ball (all tiles are examined, so that it is the same every time).
     let bias = &of("flat")["bias"]["squares"]["relative"];
     let (value, uncertainty) = (bias["value"].as_f64().expect("known"), bias["uncertainty"].as_f64().expect("known"));
     assert!(value > 1e-4 && value > 2.0 * uncertainty, "{bias}");
-    // Its standing in for all bounces is a small part of that, and there are no caustics to lose.
+    // The replacement of all bounces is a small part of that, and there are no caustics to lose.
     let caustics = ways.iter().find(|w| w["way"]["caustics"] == false && w["way"]["max_bounces"] == 64);
     assert_eq!(caustics.expect("looked at")["bias"]["squares"]["relative"]["value"], 0.0);
     for (name, samples) in [("draft", 4), ("standard", 4), ("reference", 64)] {
@@ -69,14 +69,14 @@ fn effects_are_left_out_one_after_the_other() {
     let found: serde_json::Value = serde_json::from_str(&told).expect("JSON");
     let dropped = found["dropped"].as_array().expect("a list");
     let of = |name: &str| dropped.iter().find(|d| d["effect"] == name).unwrap_or_else(|| panic!("{name} in {told}"));
-    // A white floor lights a white ball from below: without it a large part of the picture is darker, and no ray goes elsewhere.
+    // A white floor lights a white ball from below: without it a large part of the image is darker, and no ray takes another path.
     let indirect = of("indirect light");
     let light = indirect["light"]["value"].as_f64().expect("known");
     assert!((0.02..1.0).contains(&light) && light > 3.0 * indirect["light"]["uncertainty"].as_f64().expect("known"));
     assert_eq!((&indirect["instances"], &indirect["direction_px"]), (&0.0.into(), &0.0.into()));
     let read = of("read noise");
     assert_eq!(read["light"]["value"], 0.0);
-    // 4 e⁻ at 0.05 DN/e⁻ are 0.2 DN: a part of the numbers is rounded otherwise.
+    // 4 e⁻ at 0.05 DN/e⁻ are 0.2 DN: some numbers are rounded differently.
     assert!((0.05..1.0).contains(&read["raw_dn"].as_f64().expect("known")), "{read}");
     let files = contents(Path::new(&out));
     assert!(files.contains_key("ablation.txt") && !files.contains_key("tradeoff.json"));
@@ -103,19 +103,20 @@ fn keys_are_varied_one_after_the_other() {
         (light["value"].as_f64().expect("known"), light["uncertainty"].as_f64().expect("known"))
     };
     assert_eq!(varied[0]["set"], serde_json::json!(["render.wavelengths_per_path=1", "render.max_bounces=5"]));
-    // A bounce less than the job's six takes little, five less take what the floor throws on the ball.
+    // One bounce less than the job's six has little effect; five less remove the light from the floor on the ball.
     let (few, none) = (light(0), light(1));
     assert!(few.0 < 0.02 + 3.0 * few.1 && none.0 > 0.02 && none.0 > 3.0 * none.1, "{few:?} {none:?}");
-    // The ball is lit alike, whichever way its light is kept; sharp edges share their pixels otherwise.
+    // The ball is lit equally, however its light is stored; sharp edges are distributed differently between their pixels.
     assert!(light(2).0 < 0.5, "{:?}", light(2));
-    // What the route at the pupil keeps of every pixel is a spectrum.
+    // The route at the pupil stores a spectrum for every pixel.
     let memory = |value: &serde_json::Value| value["memory_bytes"].as_f64().expect("known");
     assert!(memory(&varied[2]) > memory(&found), "{told}");
     let files = contents(Path::new(&out));
     assert!(files.contains_key("variations.txt") && !files.contains_key("draft.toml"));
 }
 
-/// In focus only the pixel's aperture of width a blurs an edge, by sin(πaf)/(πaf), which is one half at af = 0.6034; a longer exposure changes no edge, corner or contrast.
+/// In focus only the pixel's aperture of width a blurs an edge, by sin(πaf)/(πaf), which is one half at af = 0.6034; a longer exposure changes no
+/// edge, corner or contrast.
 #[test]
 fn edges_and_corners_tell_of_a_change() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -138,7 +139,7 @@ fn edges_and_corners_tell_of_a_change() {
         let estimate = found["varied"][change].pointer(pointer).unwrap_or_else(|| panic!("{pointer} in {told}"));
         (estimate["value"].as_f64().expect("known"), estimate["uncertainty"].as_f64().expect("known"))
     };
-    // 3 % for the measurement's own: edges of some twenty pixels.
+    // 3 % for the measurement itself: edges of about twenty pixels.
     let agrees = |(value, uncertainty): (f64, f64), expected: f64| {
         assert!((value - expected).abs() < 0.03 * expected + 3.0 * uncertainty, "{value} ± {uncertainty}, {expected}");
         assert!(uncertainty < 0.1 * expected, "{value} ± {uncertainty}");

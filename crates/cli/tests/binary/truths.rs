@@ -1,4 +1,4 @@
-//! From a chart to a number: drawn, rendered, measured where its truth says, against the known answer.
+//! From a chart to a result: generated, rendered, measured at the positions of its reference data, against the known answer.
 
 use crate::extremes;
 use crate::support::{Ran, etendue, text};
@@ -6,7 +6,7 @@ use etendue_testkit::page::check;
 use serde_json::Value;
 use std::path::PathBuf;
 
-/// A small camera whose response is the pixel's aperture alone: its readings are 500 + 1.5 electrons.
+/// A small camera whose response is only the pixel's aperture: its readings are 500 + 1.5 electrons.
 const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 16\nf_number = 4\n[sensor]\nwidth_px = \
                       160\nheight_px = 120\npixel_pitch_um = 8\nexposure_s = 0.01\nfull_well_e = 40000\nread_noise_e = \
                       5\ndark_current_e_s = 0\ngain_dn_per_e = 1.5\nblack_level_dn = 500\nbits = 16\n";
@@ -14,7 +14,7 @@ const MONO: &str = "cfa = \"mono\"\nquantum_efficiency = 0.5\n";
 const BAYER: &str = "cfa = \"rggb\"\nquantum_efficiency = { camera = \"nikon-d5100\", peak = 0.35 }\n[isp]\nwhite_balance = \
                      \"D65\"\ncolour_matrix = { fit = \"D65\" }\n";
 
-/// A chart with its pictures.
+/// A chart with its images.
 struct Shot {
     folder: tempfile::TempDir,
     output: String,
@@ -45,7 +45,7 @@ impl Shot {
         format!("{}/{name}", self.output)
     }
 
-    /// Measures pictures by the chart's truth.
+    /// Measures images with the chart's reference data.
     fn measure(&self, kind: &str, pictures: &[&str], options: &[&str]) -> Ran {
         let pictures: Vec<String> = pictures.iter().map(|name| self.picture(name)).collect();
         let (truth, plot) = (self.truth(), text(&self.path("plot.svg")));
@@ -54,7 +54,7 @@ impl Shot {
         etendue(["measure", kind].into_iter().chain(pictures).chain(told).chain(options.iter().copied()))
     }
 
-    /// Of the first picture.
+    /// Measures the first image.
     fn json(&self, kind: &str, options: &[&str]) -> Value {
         self.series(kind, &["camera/raw.0000.png"], options)
     }
@@ -76,7 +76,7 @@ fn value(cell: &Value) -> f64 {
     cell["value"].as_f64().or(cell.as_f64()).expect("a number")
 }
 
-/// The truth's electrons of an ink in the middle of the picture.
+/// Electrons of an ink in the middle of the image, from the reference data.
 fn electrons(shot: &Shot, ink: usize) -> f64 {
     let truth: Value = serde_json::from_str(&std::fs::read_to_string(shot.truth()).expect("a truth")).expect("JSON");
     truth["inks"][ink]["electrons"]["mono"].as_f64().expect("electrons")
@@ -87,8 +87,8 @@ fn steps_and_exposures_give_the_line_of_the_sensor() {
     let shot = Shot::of("oecf-steps", MONO, &["--steps", "8", "--density", "1.5"], &["--spp", "64"]);
     let report = shot.json("oecf", &[]);
     assert_eq!(rows(&report, "points").len(), 8);
-    // 500 + 1.5 electrons a reading; the ring lies 40 px from the middle, cos⁴ of 1.1°: 0.07 % less. 64 samples leave half a per cent
-    // in a pixel, of some 100 to a step.
+    // 500 + 1.5 electrons per reading; the ring is 40 px from the middle, cos⁴ of 1.1°: 0.07 % less. 64 samples leave half a per cent of noise in a
+    // pixel, of about 100 per step.
     let truth: Value = serde_json::from_str(&std::fs::read_to_string(shot.truth()).expect("a truth")).expect("JSON");
     let ink = &truth["inks"][1];
     let slope = 1.5 * ink["electrons"]["mono"].as_f64().expect("electrons") / value(&ink["luminance_cd_m2"]);
@@ -126,7 +126,7 @@ fn patches_in_their_light_give_noise_and_contrast() {
     for pair in pairs {
         // Twelve patches over 1.5 decades: 10^(1.5/11) − 1 = 0.3689.
         assert!((value(&pair["scene_contrast"]) - 0.368_9).abs() < 1e-4, "{pair}");
-        // Shot noise of 1 700 electrons or more: the contrast is hardly ever out of 50 %.
+        // Shot noise of 1 700 electrons or more: the contrast is rarely off by more than 50 %.
         assert!(value(&pair["cdp"]) > 0.98 && (value(&pair["cta"]) - 1.0).abs() < 0.03, "{pair}");
     }
     let frames: Vec<String> = (0..8).map(|i| format!("camera/raw.{i:04}.png")).collect();
@@ -135,7 +135,7 @@ fn patches_in_their_light_give_noise_and_contrast() {
     assert_eq!(rows(&noise, "patches").len(), 12);
     for patch in rows(&noise, "patches") {
         let electrons = value(&patch["signal"]) / 1.5;
-        // Shot noise, 5 electrons of reading and a quantiser of one count.
+        // Shot noise, 5 electrons of read noise and quantisation by one count.
         let expected = (1.5 * 1.5 * (electrons + 25.0) + 1.0 / 12.0).sqrt();
         let (found, u) = (value(&patch["temporal_noise"]), &patch["temporal_noise"]["standard_uncertainty"]);
         assert!((found - expected).abs() < 4.0 * value(u), "{found} {expected} {patch}");
@@ -147,8 +147,8 @@ fn traps_and_stars_give_what_the_chart_sends() {
     let shot = Shot::of("flare", MONO, &["--columns", "3"], &["--spp", "64"]);
     let report = shot.json("flare", &[]);
     assert_eq!(rows(&report, "traps").len(), 6);
-    // A pinhole has no flare: what is left is the light of the traps' own insides, 0.01/(1 + 36)/0.9 = 0.03 % of the white from the bottom
-    // and as much again, or twice it, from the walls.
+    // A pinhole has no flare: the remaining light comes from the inside of the traps, 0.01/(1 + 36)/0.9 = 0.03 % of the white from the bottom and
+    // once or twice as much from the walls.
     assert!((0.0..0.15).contains(&figure(&report, "flare_percent")), "{report}");
     let shot = Shot::of("siemens-star", MONO, &["--cycles", "24"], &["--spp", "256"]);
     let report = shot.json("star", &[]);
@@ -156,7 +156,7 @@ fn traps_and_stars_give_what_the_chart_sends() {
         (figure(&report, "centre_x_px") - 80.0).abs() < 0.05 && (figure(&report, "centre_y_px") - 60.0).abs() < 0.05
     );
     let sinc = |x: f64| etendue_core::maths::f64::sin(x) / x;
-    // The square pixel over the directions of the tangent, over that at the rim.
+    // The square pixel along the tangent, over that at the edge.
     let aperture = |f: f64| {
         let part = |k: i32| {
             let (sine, cosine) = etendue_core::maths::f64::sin_cos(0.1 * f64::from(k) + 0.05);
@@ -175,18 +175,18 @@ fn traps_and_stars_give_what_the_chart_sends() {
     }
 }
 
-/// With the matrix that fits the patches best: raw and developed picture, in the light of the chart, not only in daylight.
+/// With the matrix that fits the patches best: raw and developed image, in the light of the chart, not only in daylight.
 #[test]
 fn a_colour_chart_is_seen_in_its_own_light() {
     let shot = Shot::of("colorchecker", BAYER, &["--illuminant", "A", "--white", "0.3"], &["--spp", "64"]);
     for picture in ["camera/raw.0000.png", "camera/picture.0000.png"] {
         let report = shot.series("colour", &[picture], &[]);
         assert_eq!(rows(&report, "patches").len(), 24);
-        // A camera that is no matrix of the eye: the least-squares matrix of the D5100's curves leaves about 1 (measured here, and 0.9 to 1.5
-        // in the literature for such cameras).
+        // A camera that does not satisfy the Luther condition: the least-squares matrix of the D5100's curves leaves about 1 (measured here, and 0.9
+        // to 1.5 in the literature for such cameras).
         let mean = figure(&report, "mean_delta_e00");
         assert!((0.3..2.0).contains(&mean), "{picture}: {mean}");
-        // True colours are those of the chart's light: L* of white is 95 to 97 in any.
+        // Reference colours are those in the chart's light: L* of white is 95 to 97 in any.
         let white = &rows(&report, "patches")[18];
         assert!(
             (value(&white["reference_l"]) - 96.0).abs() < 1.5 && value(&white["reference_b"]).abs() < 4.0,
@@ -210,7 +210,7 @@ fn a_colour_chart_is_seen_in_its_own_light() {
     small.measure("star", &["camera/raw.0000.png"], &[]).refused(&["the chart flat-field", "siemens-star"]);
 }
 
-/// Squares, by raw mosaic and developed picture, and a star: the pixel's aperture alone.
+/// Squares, by raw mosaic and developed image, and a star: only the pixel's aperture.
 #[test]
 fn slanted_edges_and_stars_give_the_pixels_aperture() {
     let pi = std::f64::consts::PI;
@@ -226,7 +226,7 @@ fn slanted_edges_and_stars_give_the_pixels_aperture() {
         // lp/mm of pixels of 8 µm.
         let (px, mm) = (value(&edge["mtf50_cycles_per_px"]), value(&edge["mtf50_lp_per_mm"]));
         assert!((mm / px / 125.0 - 1.0).abs() < 1e-9, "{edge}");
-        // Of the eye's 0.987 at 60 pixels a degree the aperture leaves 0.95 (by Simpson's rule on sinc).
+        // Of the eye's 0.987 at 60 pixels per degree the aperture leaves 0.95 (by Simpson's rule on sinc).
         assert!((value(&edge["acutance"]) - 0.945).abs() < 0.04, "{edge}");
     };
     let pitch = ["--pixel-pitch-um", "8"];
@@ -244,12 +244,12 @@ fn slanted_edges_and_stars_give_the_pixels_aperture() {
     assert_eq!(rows(&report, "planes")[0]["plane"], "every direction");
 }
 
-/// A raw picture of a shot, each pixel from another place: its file, in a folder of its own.
+/// A raw image from a shot, each pixel from another position: its file, in a folder of its own.
 fn redrawn(shot: &Shot, name: &str, size: [usize; 2], of: impl Fn([usize; 2], usize, usize) -> [usize; 2]) -> String {
     redrawn_into(shot, shot, name, size, of)
 }
 
-/// The same of another shot's picture.
+/// The same from another shot's image.
 fn redrawn_into(
     to: &Shot,
     shot: &Shot,
@@ -309,7 +309,7 @@ fn pictures_that_are_mirrored_turned_or_of_another_chart_are_named_as_such() {
 fn a_colour_chart_that_is_turned_is_named_as_such() {
     let shot = Shot::of("colorchecker", BAYER, &[], &["--spp", "64"]);
     let turned = redrawn(&shot, "turned.png", [160, 120], |[w, h], x, y| [w - 1 - x, h - 1 - y]);
-    // Of a mosaic that is turned the tile is, too.
+    // For a turned mosaic the tile is also turned.
     let run = ["measure", "colour", &turned, "--cfa", "BGGR", "--truth", &shot.truth()];
     etendue(run).refused(&["turned.png: is turned by 180°"]);
     let steps = Shot::of("oecf-steps", MONO, &["--steps", "8", "--density", "1.5"], &["--spp", "64"]);

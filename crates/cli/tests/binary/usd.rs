@@ -1,7 +1,7 @@
-//! Scenes of Universal Scene Description: what they become, against what usd-core computes of them.
+//! Scenes of Universal Scene Description: the converted scene, against values computed by usd-core.
 //!
-//! tests/oracles/usd_scenes.py wrote kinds.usdc and kinds.usdz of scenes/import/kinds.usda, and keeps in figures/usd_scenes.json what usd-core makes of all
-//! three. Lengths there are metres, axes the stage's: its z is our x, its x our y, its y our z.
+//! tests/oracles/usd_scenes.py wrote kinds.usdc and kinds.usdz of scenes/import/kinds.usda, and stores in figures/usd_scenes.json the values of
+//! usd-core for all three. Lengths there are metres, axes the stage's: its z is our x, its x our y, its y our z.
 
 use crate::support::{Ran, etendue, root, text};
 use etendue_core::maths::f64 as maths;
@@ -10,14 +10,14 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Places are written in 32 bits, figures with seven digits.
+/// Positions are written in 32 bits, values with seven digits.
 const NEAR_M: f64 = 2e-6;
 
 fn figures() -> Value {
     serde_json::from_str(include_str!("../../../../tests/oracles/figures/usd_scenes.json")).expect("JSON")
 }
 
-/// A scene as it was imported.
+/// An imported scene.
 struct Made {
     _place: tempfile::TempDir,
     folder: PathBuf,
@@ -43,12 +43,12 @@ impl Made {
         all.iter().find(|entry| entry["name"].as_str() == Some(name)).unwrap_or_else(|| panic!("{list}: no {name}"))
     }
 
-    /// The material of an object.
+    /// Material of an object.
     fn material(&self, object: &str) -> &toml::Value {
         self.entry("materials", self.entry("objects", object)["material"].as_str().expect("a name"))
     }
 
-    /// Corners of the triangles of all meshes whose name is this, or this with a number: places in the stage's axes, and texture coordinates.
+    /// Corners of the triangles of all meshes with this name, or this name with a number: positions in the stage's axes, and texture coordinates.
     fn triangles(&self, name: &str) -> Vec<[Corner; 3]> {
         let is_own = |own: &str| own.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'));
         let mut made = Vec::new();
@@ -95,7 +95,7 @@ fn same(found: f64, expected: f64, what: &str) {
     assert!((found - expected).abs() <= 1e-5 * expected.abs().max(1e-3), "{what}: {found}, expected {expected}");
 }
 
-/// Every one of both lists has one that is like it in the other.
+/// Asserts that every element of each list has an equal one in the other.
 fn alike(found: &[Vec<f64>], expected: &[Vec<f64>], what: &str) {
     let has = |all: &[Vec<f64>], one: &Vec<f64>| all.iter().any(|other| near(other, one, NEAR_M));
     found.iter().for_each(|one| assert!(has(expected, one), "{what}: {one:?} is not usd-core's"));
@@ -143,7 +143,7 @@ fn check_meshes(made: &Made, figures: &Value) {
     alike(&found, &expected, "instances");
 }
 
-/// Forward and up of a camera that is turned about z, y and x, in the stage's axes.
+/// Forward and up directions of a camera rotated about z, y and x, in the stage's axes.
 fn axes(rotation_deg: &[f64]) -> [Vec<f64>; 2] {
     let [(sa, ca), (sb, cb), (sc, cc)] = [0, 1, 2].map(|i| maths::sin_cos(rotation_deg[i].to_radians()));
     let ahead = [ca * cb, sa * cb, -sb];
@@ -175,7 +175,7 @@ fn check_cameras(made: &Made, figures: &Value) {
     }
 }
 
-/// Whether two colours are alike but for their strength.
+/// True if two colours are equal except for their strength.
 fn same_hue(found: &[f64], expected: &[f64], by: f64) -> bool {
     let [a, b] = [found, expected].map(|rgb| rgb.iter().map(|v| v / rgb.iter().sum::<f64>()).collect::<Vec<f64>>());
     near(&a, &b, by)
@@ -192,14 +192,14 @@ fn check_lights(made: &Made, figures: &Value) {
         1e-6
     ));
     assert_eq!(number(&made.material("Bulb")["emission"]["temperature_k"]), 3000.0);
-    // usd-core has the colours of black bodies by a curve through a table.
+    // usd-core has black-body colours from a curve through a table.
     let moon = &made.material("Moon")["emission"];
     let relative = number(&moon["luminance_cd_m2"]) / expected("Moon", "luminance");
     assert!((relative - 1.0).abs() < 0.02, "{relative}");
     assert!(same_hue(&list(&moon["rgb"]), &numbers(&figures["lights"]["Moon"]["color"]), 0.02), "{moon}");
     same(number(&made.entry("lights", "Sun")["illuminance_lx"]), expected("Sun", "lux"), "Sun");
     same(number(&made.entry("lights", "Sun")["elevation_deg"]), 40.0, "Sun");
-    // A sphere of radius r gives L · π r² from afar.
+    // From a distance a sphere of radius r gives L · π r².
     let beam = made.entry("lights", "Beam");
     same(number(&beam["intensity_cd"]), expected("Beam", "luminance") * std::f64::consts::PI * 9e-4, "Beam");
     assert_eq!([number(&beam["field_angle_deg"]), number(&beam["inner_angle_deg"])], [80.0, 60.0]);
@@ -231,12 +231,12 @@ fn check_materials(made: &Made, figures: &Value) {
     assert_eq!(list(&texture["uv_scale"]), [2.0, 3.0]);
     assert_eq!(list(&texture["uv_offset"]), [0.25, 0.5]);
     assert_eq!(texture["wrap"].as_str(), Some("mirror"));
-    // Numbers of a picture are written anew.
+    // Values of an image are rewritten.
     let opacity = made.entry("textures", paper["opacity"]["texture"].as_str().expect("a texture"));
     assert_eq!(opacity["encoding"].as_str(), Some("data"));
 }
 
-/// Text, crate and package alike.
+/// Text, crate and package give equal results.
 #[test]
 fn kinds_of_usd_are_what_usd_core_computes() {
     let figures = figures();
@@ -257,7 +257,7 @@ fn kinds_of_usd_are_what_usd_core_computes() {
     }
 }
 
-/// A scene against the same in our own words, by the Z test of `compare`; a brighter sky is found.
+/// A scene against the same in our format, by the Z test of `compare`; a brighter sky is detected.
 #[test]
 fn a_scene_of_usd_is_that_of_our_own_words() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -372,7 +372,7 @@ fn damaged_scenes_of_usd_are_refused_and_nothing_is_written() {
     }
 }
 
-/// Crates and packages that lie about their sizes, and those that are cut off.
+/// Crates and packages with wrong sizes, and truncated ones.
 #[test]
 fn crates_and_packages_that_lie_are_refused() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -384,7 +384,7 @@ fn crates_and_packages_that_lie_are_refused() {
     };
     let crate_bytes = fs::read(folder.join("kinds.usdc")).expect("a crate");
     refused("cut.usdc", &crate_bytes[..crate_bytes.len() / 2], "leads beyond its end");
-    // The table of sections stands at the place that bytes 16 to 24 say; sections have a name of 16 bytes and where they begin.
+    // The table of sections is at the offset in bytes 16 to 24; sections have a name of 16 bytes and their offset.
     let table = u64::from_le_bytes(crate_bytes[16..24].try_into().expect("eight")) as usize;
     for section in ["TOKENS", "STRINGS", "FIELDS", "FIELDSETS", "PATHS", "SPECS"] {
         let entry =

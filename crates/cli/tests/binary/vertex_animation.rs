@@ -1,4 +1,4 @@
-//! Meshes whose vertices move, from numbered files: frames alone and in a sequence, and what is refused.
+//! Meshes with moving vertices, from numbered files: single frames and sequences, and refusals.
 
 use crate::support::{contents, etendue, text};
 use std::fs;
@@ -48,7 +48,7 @@ impl Bending {
         contents(&out)
     }
 
-    /// Refused at this line of the job, with these phrases.
+    /// Asserts a refusal at this line of the job, with these phrases.
     #[track_caller]
     fn refused(&self, phrases: &[&str]) {
         let phrases = [&["job.toml:13", "vertex_animation"], phrases].concat();

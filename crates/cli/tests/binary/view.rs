@@ -1,4 +1,4 @@
-//! The page of a result: what is refused, and what Chromium reads from it.
+//! The page of a result: refusals, and the content read back by Chromium.
 
 use crate::browser::Browser;
 use crate::support::{BALL, etendue, root, text};
@@ -25,10 +25,10 @@ optical_flow = "exr"
 [cameras.isp]
 "#;
 
-/// The result of a small colour camera, with all kinds of layers.
+/// Renders the result of a small colour camera, with all kinds of layers.
 fn result(place: &Path, name: &str, seed: &str) -> PathBuf {
     let job = place.join("job.toml");
-    // Two bands of the spectrum would do; the default is what users have.
+    // Two bands of the spectrum would suffice; the default is the users' setting.
     fs::write(&job, format!("{BALL}{JOB}")).expect("written");
     let folder = place.join(name);
     etendue(["render", &text(&job), "-o", &text(&folder), "--seed", seed]).ok();
@@ -72,7 +72,7 @@ fn a_page_is_made_replaced_and_refused() {
     assert!(!other.exists(), "nothing is half-written");
 }
 
-/// A channel of a file at a pixel.
+/// Value of a channel of a file at a pixel.
 fn at(file: &ExrFile, name: &str, [x, y]: [usize; 2]) -> f64 {
     let samples = file.channel(name).unwrap_or_else(|| panic!("no channel {name}")).to_floats();
     f64::from(samples[y * file.width + x])
@@ -106,7 +106,7 @@ fn every_layer_is_drawn(browser: &mut Browser, page: &Path) {
     }
     for key in &keys {
         browser.look(&format!("layer={key}&boxes=1&arrows=1"));
-        // A copy of one pixel, as reading canvases that are drawn by the graphics card is complained of.
+        // A copy of one pixel, because reading canvases drawn by the graphics card gives warnings.
         let middle = "(() => { const c = document.querySelector('.pane canvas'), one = new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }); \
                       one.drawImage(c, -(c.width >> 1), -(c.height >> 1)); return one.getImageData(0, 0, 1, 1).data[3]; })()";
         assert_eq!(browser.value(middle), 255, "{key} is drawn");
@@ -135,7 +135,7 @@ fn values_are_those_of_the_files(browser: &mut Browser, page: &Path, files: &Pat
     assert_eq!(browser.numbers("signal"), [at(&parts, "signal", pixel)]);
     browser.look("layer=depth");
     browser.key("Escape");
-    // The cursor: the pixel under the middle of the pane is that of the middle of the picture, 40 × 28 pixels.
+    // The cursor: the pixel under the middle of the pane is that of the middle of the image, 40 × 28 pixels.
     let middle = "(() => { const box = document.querySelector('.pane').getBoundingClientRect(); return [box.x + box.width / 2 + 3, box.y + box.height / 2 + 3]; })()";
     let middle: [f64; 2] = serde_json::from_value(browser.value(middle)).expect("a place");
     browser.mouse(middle, false);
@@ -167,7 +167,7 @@ fn light_is_that_of_the_file(browser: &mut Browser, file: &ExrFile, pixel: [usiz
     assert_eq!(browser.value("document.querySelectorAll('#chart polygon').length"), 1, "the standard error");
 }
 
-/// As in a page whose sensors have other effects: planes that one result alone has move no other.
+/// As in a page whose sensors have different effects: planes of only one result do not shift the others.
 fn planes_are_subtracted_by_name(browser: &mut Browser) {
     let script = std::fs::read_to_string(root().join("crates/view/page/maps.js")).expect("the page's script");
     let (_, script) = script.split_once("const APART").expect("what a difference is made by");
@@ -176,7 +176,7 @@ fn planes_are_subtracted_by_name(browser: &mut Browser) {
             let planes = names.split(' ').map(|name| format!("{{ name: '{name}' }}")).collect::<Vec<_>>().join(", ");
             format!("{{ kind: '{kind}', width: 1, height: 1, planes: [{planes}] }}")
         };
-        // A plane's number is the length of its name, ten times that in B.
+        // A plane's number is the length of its name, and ten times that in B.
         let numbers = |names: &str, gain: usize| {
             format!("{:?}", names.split(' ').map(|name| [gain * name.len()]).collect::<Vec<_>>())
         };

@@ -11,7 +11,7 @@ const FOG: &str = "[[scene.media]]\nname = \"fog\"\nvisibility = { distance_m = 
                    phase = { type = \"isotropic\" }\n\n[[scene.lights]]\ntype = \"sun\"";
 const SUN: &str = "[[scene.lights]]\ntype = \"sun\"";
 
-/// The job with fog that is changed so is refused, at the place of its key.
+/// Asserts that the job with this change of its fog is refused, at the place of its key.
 #[track_caller]
 fn refused(from: &str, to: &str, phrases: &[&str]) {
     assert!(FOG.contains(from));
@@ -44,7 +44,7 @@ fn a_place_of_what_is_everywhere() {
 const WEATHER: &str = "format = 1\n[airlight]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 0.01\n\n[[fog]]\nname = \"fog\"\n\
                        visibility = { distance_m = 80, contrast = 0.05 }\n";
 
-/// Radiance as seen through fog is the scene's times the transmittance, and the airlight; it can be exposed; nothing is written over.
+/// Radiance through fog is the scene's times the transmittance, plus the airlight; it can be exposed; nothing is overwritten.
 #[test]
 fn fog_over_stored_radiance() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -89,7 +89,7 @@ fn fog_over_stored_radiance() {
 const RAIN: &str = "format = 1\nexposure_s = 0.01\n[airlight]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 0.01\n\n[precipitation]\ntype = \"rain\"\n\
                     rate_mm_h = 100\nsmallest_px = 0.05\n";
 
-/// Streaks change light and not distances, the same at every run; what has no effect or is missing is refused at its place.
+/// Streaks change light and not distances, equally in every run; ineffective or missing keys are refused at their place.
 #[test]
 fn streaks_over_stored_radiance() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -124,7 +124,7 @@ fn streaks_over_stored_radiance() {
     assert!(!folder.path().join("none").exists());
 }
 
-/// A mesh with a hole has no inside, and a scene without weather no layers of it.
+/// A mesh with a hole has no inside, and a scene without weather has no layers of it.
 #[test]
 fn open_meshes_and_layers_of_nothing() {
     let shape = "shape = { type = \"layer\", top_m = 60 }";

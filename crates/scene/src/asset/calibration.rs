@@ -1,13 +1,13 @@
-//! A calibrated camera, as another program wrote it.
+//! A calibrated camera, as written by another program.
 
 use etendue_projection::Calibration;
 
 use crate::reader::words;
 
 words! {
-    /// Whose calibration file it is.
+    /// Format of a calibration file.
     pub enum CalibrationFormat {
-        /// OpenCV's FileStorage as YAML or JSON: perspective, unless the file says that it is a fisheye or holds ξ.
+        /// OpenCV's FileStorage as YAML or JSON: perspective, unless the file states a fisheye or contains ξ.
         "opencv" => OpenCv,
         /// OpenCV's FileStorage with the coefficients of its fisheye module.
         "opencv_fisheye" => OpenCvFisheye,
@@ -24,12 +24,12 @@ words! {
     }
 }
 
-/// Which camera of a calibration file.
+/// Selection of a camera of a calibration file.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct CalibrationChoice {
-    /// Whose file it is.
+    /// Format of the file.
     pub format: CalibrationFormat,
-    /// The camera's name in a file of several.
+    /// Name of the camera in a file of several.
     pub camera: Option<String>,
 }
 
@@ -38,7 +38,7 @@ pub struct CalibrationChoice {
 pub struct CalibrationAsset {
     /// The camera, in raster coordinates.
     pub calibration: Calibration,
-    /// What was passed over, a sentence each.
+    /// Ignored content, one sentence each.
     pub report: Vec<String>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],

@@ -1,4 +1,4 @@
-//! The files that a description names, gathered record by record.
+//! The files that a description names, collected record by record.
 
 use std::path::PathBuf;
 
@@ -9,14 +9,14 @@ use crate::place::Placed;
 #[derive(Default)]
 pub(crate) struct FileList(Vec<AssetRequest>);
 
-/// What may name files of its own.
+/// A record that may name files.
 pub(crate) trait NamesFiles {
-    /// Requests every file that it names. Implementations take records apart without `..`, so that a key that is added is either
-    /// asked for its files or said to have none.
+    /// Requests every file that it names. Implementations destructure records without `..`, so that every new key is either requested or explicitly
+    /// without files.
     fn name_files(&self, files: &mut FileList);
 }
 
-/// Whether a record names files itself.
+/// True if a record names files itself.
 pub(crate) fn names_files(record: &impl NamesFiles) -> bool {
     let mut files = FileList::default();
     record.name_files(&mut files);
@@ -34,7 +34,7 @@ impl FileList {
         self.0
     }
 
-    /// A file to be read as a `kind`.
+    /// Requests a file as a `kind`.
     pub(crate) fn add(&mut self, kind: AssetKind, path: &Placed<PathBuf>) {
         if !self.0.iter().any(|r| r.kind == kind && r.path == path.value) {
             let (path, place) = (path.value.clone(), path.place.clone());
@@ -42,7 +42,7 @@ impl FileList {
         }
     }
 
-    /// A mesh; of a file that several meshes name, what all cover.
+    /// Requests a mesh; materials count as covered only if all meshes of the file cover them.
     pub(crate) fn mesh(&mut self, path: &Placed<PathBuf>, covered: Covered) {
         let known = self.0.iter_mut().find(|r| r.kind == AssetKind::Mesh && r.path == path.value);
         if let Some(known) = known {

@@ -1,4 +1,4 @@
-//! Pictures that are too large to be held: what is known of them without their pixels, and how these are read.
+//! Images too large for memory: their properties without pixels, and access to the pixels.
 
 use etendue_core::storage::BlockStore;
 use std::fmt::Debug;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::{ColourMatrix, ImagePixels};
 
-/// Which of [`ImagePixels`] a picture's are.
+/// Pixel format, one for each variant of [`ImagePixels`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PixelFormat {
     /// One channel of 8 bits.
@@ -24,19 +24,19 @@ pub enum PixelFormat {
 }
 
 impl PixelFormat {
-    /// Whether there is opacity.
+    /// True if there is opacity.
     #[must_use]
     pub fn has_opacity(self) -> bool {
         matches!(self, Self::Rgba8 | Self::Rgba32F)
     }
 
-    /// Whether a channel is a byte.
+    /// True if a channel is a byte.
     #[must_use]
     pub fn is_bytes(self) -> bool {
         matches!(self, Self::Gray8 | Self::Rgb8 | Self::Rgba8)
     }
 
-    /// Bytes that a pixel takes in memory.
+    /// Bytes of a pixel in memory.
     #[must_use]
     pub fn bytes(self) -> u32 {
         match self {
@@ -50,40 +50,40 @@ impl PixelFormat {
     }
 }
 
-/// Takes rows of a picture; its error ends the reading.
+/// Receives rows of an image; its error ends the reading.
 pub type TakeRows<'a> = &'a mut dyn FnMut(&ImagePixels) -> Result<(), String>;
 
-/// Reads a picture's pixels as often as it is asked to.
+/// Reads the pixels of an image, any number of times.
 pub trait PixelRows: Debug + Send + Sync {
-    /// Hands all rows over from the top, whole rows at a time.
+    /// Passes all rows from the top, whole rows at a time.
     ///
     /// # Errors
-    /// What is wrong with the file, in the words of reading a small picture; or the error of `take`.
+    /// The error of the file, in the words of reading a small image; or the error of `take`.
     fn read(&self, take: TakeRows<'_>) -> Result<(), String>;
 }
 
-/// A picture whose pixels stay in its file.
+/// An image whose pixels stay in its file.
 #[derive(Clone, Debug)]
 pub struct LargeImage {
-    /// Pixels in a row.
+    /// Width, px.
     pub width: u32,
-    /// Rows.
+    /// Height, px.
     pub height: u32,
-    /// What its pixels are.
+    /// Pixel format.
     pub format: PixelFormat,
-    /// What makes the file's colours those of Rec. 709; `None` where they are.
+    /// Conversion from the file's colours to Rec. 709; `None` if they are Rec. 709.
     pub to_rec_709: Option<ColourMatrix>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
-    /// Its pixels, with colours as the file has them.
+    /// Pixels, with the colours of the file.
     pub rows: Arc<dyn PixelRows>,
 }
 
-/// Where the texels of large pictures are kept, and how many of them in memory.
+/// Storage of the texels of large images, with a limited number in memory.
 #[derive(Clone, Debug)]
 pub struct TexelStore {
-    /// Keeps tiles of texels.
+    /// Stores tiles of texels.
     pub blocks: Arc<dyn BlockStore>,
-    /// Most bytes of tiles that are in memory at a time.
+    /// Maximum bytes of tiles in memory at a time.
     pub memory_bytes: u64,
 }

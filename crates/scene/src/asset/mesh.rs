@@ -1,4 +1,4 @@
-//! What meshes, pictures and spectra hold once read.
+//! Contents of meshes, images and spectra.
 
 use std::path::PathBuf;
 
@@ -9,35 +9,35 @@ use super::mtl::SlotMaterial;
 /// A triangle mesh in the axes and units of its file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshAsset {
-    /// What the vertices are relative to, in units of the file: zero, or the middle of a mesh that lies so far from the file's
-    /// origin that 32 bits would round its vertices noticeably.
+    /// Origin of the vertices, in units of the file: zero, or the middle of a mesh so far from the file's origin that 32 bits would round its
+    /// vertices noticeably.
     pub origin: [f64; 3],
-    /// Vertices less `origin`, in units of the file.
+    /// Vertices relative to `origin`, in units of the file.
     pub positions: Vec<[f32; 3]>,
-    /// Normals of the vertices, of any length above 0; none, or one a vertex.
+    /// Normals of the vertices, of any length above 0; none, or one per vertex.
     pub normals: Vec<[f32; 3]>,
-    /// Texture coordinates, v upwards; none, or one a vertex.
+    /// Texture coordinates, v upwards; none, or one per vertex.
     pub uvs: Vec<[f32; 2]>,
     /// Indices of vertices, counter-clockwise as seen from the front.
     pub triangles: Vec<[u32; 3]>,
     /// The material slot of each triangle: an index to `slot_materials`.
     pub slots: Vec<u16>,
-    /// The materials by the names that the file gives them.
+    /// Materials, by their names in the file.
     pub slot_materials: Vec<SlotMaterial>,
-    /// Pictures that came with the file, by their names among the images of the assets.
+    /// Images embedded in the file, by their names among the images of the assets.
     pub pictures: Vec<(PathBuf, ImageAsset)>,
-    /// What was read and not used, in sentences for the user: fields of no meaning here, dropped triangles.
+    /// Content that was read and not used, in sentences for the user: fields without meaning here, dropped triangles.
     pub report: Vec<String>,
-    /// What makes the picture another than the file might be taken to ask for, in sentences for the user.
+    /// Causes of differences from the appearance that the file intends, in sentences for the user.
     pub warnings: Vec<String>,
-    /// The material libraries that the file names and that do not exist, each in a sentence with its line.
+    /// Missing material libraries that the file names, one sentence each with its line.
     pub missing_libraries: Vec<String>,
     /// SHA-256 of the contents of the file and of the material files it names.
     pub hash: [u8; 32],
 }
 
 impl MeshAsset {
-    /// Whether each slot has a triangle; where no triangle says its slot, all count as having one.
+    /// True for each slot with a triangle; if no triangle states its slot, true for all.
     #[must_use]
     pub fn shown_slots(&self) -> Vec<bool> {
         let mut shown = vec![self.slots.is_empty(); self.slot_materials.len()];
@@ -50,16 +50,16 @@ impl MeshAsset {
     }
 }
 
-/// A picture; its first row is the top one.
+/// An image; its first row is the top one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImageAsset {
-    /// Pixels in a row.
+    /// Width, px.
     pub width: u32,
-    /// Rows.
+    /// Height, px.
     pub height: u32,
-    /// The pixels, row by row.
+    /// Pixels, row by row.
     pub pixels: ImagePixels,
-    /// What makes the file's colours those of Rec. 709; `None` where they are.
+    /// Conversion from the file's colours to Rec. 709; `None` if they are Rec. 709.
     pub to_rec_709: Option<ColourMatrix>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
@@ -79,7 +79,7 @@ impl ColourMatrix {
 }
 
 impl ImageAsset {
-    /// The picture with its colours in Rec. 709.
+    /// Converts the image's colours to Rec. 709.
     #[must_use]
     pub fn in_rec_709(mut self) -> Self {
         if let Some(matrix) = self.to_rec_709.take() {
@@ -97,7 +97,7 @@ impl ImageAsset {
     }
 }
 
-/// Pixels as the file holds them; what they mean is told by the description.
+/// Pixels as stored in the file; the description gives their meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ImagePixels {
     /// One channel, 0 … 255.
@@ -108,14 +108,14 @@ pub enum ImagePixels {
     Rgb8(Vec<[u8; 3]>),
     /// Red, green, blue, opacity, 0 … 255.
     Rgba8(Vec<[u8; 4]>),
-    /// Red, green, blue: linear numbers, or 0 … 1 as encoded in a picture of 16 bits.
+    /// Red, green, blue: linear values, or 0 … 1 as encoded in a 16-bit image.
     Rgb32F(Vec<[f32; 3]>),
-    /// As [`Self::Rgb32F`], with opacity: a linear number.
+    /// As [`Self::Rgb32F`], with opacity: a linear value.
     Rgba32F(Vec<[f32; 4]>),
 }
 
 impl ImagePixels {
-    /// How many pixels.
+    /// Number of pixels.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -128,14 +128,14 @@ impl ImagePixels {
         }
     }
 
-    /// Whether there are none.
+    /// True if there are no pixels.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// A tabulated spectrum, as the file has it. What it is outside of its points depends on what it is used for.
+/// A tabulated spectrum, as stored in the file. Its values outside the table depend on its use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SpectrumAsset {
     /// Wavelength in nm, increasing, and value.
@@ -145,11 +145,11 @@ pub struct SpectrumAsset {
 }
 
 impl SpectrumAsset {
-    /// The spectrum, continued as its use demands: emissions and sensitivities are zero outside of the table,
-    /// reflectances hold their end values.
+    /// Returns the spectrum, extended as its use requires: emissions and sensitivities are zero outside the table, reflectances hold their end
+    /// values.
     ///
     /// # Errors
-    /// Where the points are no function of the wavelength.
+    /// The points are no function of wavelength.
     pub fn spectrum(&self, outside: Outside) -> Result<Spectrum, SpectrumError> {
         Spectrum::from_points(&self.points, outside)
     }

@@ -1,34 +1,34 @@
-//! What one file of a mesh whose vertices move holds.
+//! Content of one file of a mesh with moving vertices.
 
-/// A mesh file as its faces say it: corner by corner, so that files of equal faces can be followed corner by corner.
+/// Faces of a mesh file, corner by corner, so that files with equal faces can be matched corner by corner.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshFrameAsset {
     /// Faces of one material and form, in the order of the mesh's.
     pub parts: Vec<MeshFramePart>,
     /// Vertices of the file.
     pub vertices: usize,
-    /// Triangles that the faces are cut into here, as in the mesh: numbers of corners, counted over all parts.
+    /// Triangulation of the faces, as in the mesh: indices of corners, counted over all parts.
     pub triangles: Vec<[u32; 3]>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
 }
 
-/// Faces of one material and form.
+/// Faces with one material and form.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshFramePart {
-    /// The name of the material, empty before any.
+    /// Name of the material, empty before any.
     pub material: String,
     /// Corners of each face.
     pub arities: Vec<u32>,
-    /// The vertex of each corner: an index to `positions`, which are numbered in the order in which faces name them.
+    /// Vertex of each corner: an index to `positions`, which are numbered in the order of use by faces.
     pub vertices: Vec<u32>,
-    /// The texture coordinates of each corner, numbered alike; empty without.
+    /// Texture coordinates of each corner, with the same numbering; empty without.
     pub uvs: Vec<u32>,
     /// The normal of each corner: an index to `normals`; empty without.
     pub normal_indices: Vec<u32>,
-    /// Places in the file's own units.
+    /// Positions in the file's own units.
     pub positions: Vec<[f64; 3]>,
-    /// Unit normals; zero where the file's has no length.
+    /// Unit normals; zero where the file's has zero length.
     pub normals: Vec<[f32; 3]>,
 }
 
@@ -39,8 +39,7 @@ impl MeshFrameAsset {
         self.parts.iter().map(|part| part.arities.len()).sum()
     }
 
-    /// What tells this file from another of the same mesh: the first difference in words, this file's first; `None` where
-    /// both have the same faces.
+    /// First difference of this file from another of the same mesh in words, this file's first; `None` if both have the same faces.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<[String; 2]> {
         let both = |tell: &dyn Fn(&Self) -> String| Some([tell(self), tell(other)]);

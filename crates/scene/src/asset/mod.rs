@@ -1,4 +1,4 @@
-//! Contents of the files that a description names: inert data, filled by whoever reads files.
+//! Contents of the files that a description names: inert data, filled by the reader of the files.
 
 mod calibration;
 pub(crate) mod file_list;

@@ -1,44 +1,42 @@
-//! What a Wavefront MTL says of a material, in the terms of a scene.
+//! Conversion of a Wavefront MTL material to a material of a scene.
 //!
-//! `map_Kd` (sRGB-encoded) or else `Kd` (linear sRGB) becomes the diffuse reflectance. A material with highlights
-//! (`Ks` above 0, illumination model 2 or more or none given, and `Ns` above 0) or with a roughness `Pr` becomes "coated": index `Ni`, or 1.5 where there is none or where it is
-//! outside 1.1 … 4, which is reported;
-//! α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width that has the
-//! curvature of a Blinn-Phong lobe of exponent Ns (Walter et al., "Microfacet models for refraction", 2007).
-//! An MTL has no unit for light, so `Ke` is reported and gives none; so are metalness, transparency and the colour of
-//! highlights.
+//! `map_Kd` (sRGB-encoded) or else `Kd` (linear sRGB) becomes the diffuse reflectance. A material with highlights (`Ks` above 0, illumination model 2
+//! or more or not stated, and `Ns` above 0) or with a roughness `Pr` becomes "coated". The index is `Ni`, or 1.5 if it is absent or outside 1.1 … 4,
+//! which is reported. α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width with the curvature of a
+//! Blinn-Phong lobe of exponent Ns (Walter et al., "Microfacet models for refraction", 2007). An MTL has no unit for light, so `Ke` is reported and
+//! not used; the same applies to metalness, transparency and the colour of highlights.
 
 use std::path::PathBuf;
 
 use super::slot_layers::SlotLayers;
 
-/// Refractive indices that a coat may have, in scenes and in MTL files. The tracer's model of a coat states the same
-/// range (`etendue_tracer::materials::COAT_INDICES`) and refuses others.
+/// Range of refractive indices of a coat, in scenes and in MTL files. The tracer's model of a coat has the same range
+/// (`etendue_tracer::materials::COAT_INDICES`) and refuses others.
 pub const COAT_INDICES: std::ops::RangeInclusive<f64> = 1.1..=4.0;
 
-/// The index of a coat whose file gives none that a coat may have.
+/// Index of a coat whose file gives no index in this range.
 const USUAL_INDEX: f64 = 1.5;
 
-/// A material by the name that a mesh's file gives it.
+/// A material, by its name in a mesh's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlotMaterial {
-    /// The name in the mesh's file.
+    /// Name in the mesh's file.
     pub name: String,
-    /// How it reflects; `None` where the file says nothing, so that the scene must.
+    /// Scattering model; `None` if the file gives none, so that the scene must.
     pub surface: Option<SlotSurface>,
 }
 
-/// How a mesh's own material reflects.
+/// Scattering model of a mesh's own material.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SlotSurface {
-    /// Lambert's law.
+    /// Lambertian reflection.
     Diffuse {
-        /// Share of light reflected.
+        /// Reflectance.
         reflectance: SlotReflectance,
     },
     /// A diffuse base under a clear coat.
     Coated {
-        /// Share of light that the base reflects.
+        /// Reflectance of the base.
         reflectance: SlotReflectance,
         /// Refractive index of the coat.
         index: f64,
@@ -50,7 +48,7 @@ pub enum SlotSurface {
 }
 
 impl SlotSurface {
-    /// The picture file that it is read from; `None` where there is none, or where it came with the mesh's file.
+    /// The image file of its reflectance; `None` if there is none, or if it is embedded in the mesh's file.
     #[must_use]
     pub fn picture(&self) -> Option<&PathBuf> {
         match self {
@@ -63,21 +61,21 @@ impl SlotSurface {
     }
 }
 
-/// The reflectance that a mesh's file gives.
+/// Reflectance from a mesh's file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SlotReflectance {
     /// Linear sRGB, 0 … 1.
     LinearSrgb([f64; 3]),
-    /// An sRGB-encoded picture that repeats; a path that can be read.
+    /// An sRGB-encoded image that repeats; a readable path.
     Image(PathBuf),
 }
 
-/// The fields of an MTL material that have a meaning here or are reported; `None` where the file is silent.
+/// The fields of an MTL material that have a meaning here or are reported; `None` if absent.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MtlFields {
     /// `Kd`, linear sRGB.
     pub diffuse: Option<[f64; 3]>,
-    /// `map_Kd`, a path that can be read.
+    /// `map_Kd`, a readable path.
     pub diffuse_map: Option<PathBuf>,
     /// `Ks`.
     pub specular: Option<[f64; 3]>,
@@ -98,7 +96,7 @@ pub struct MtlFields {
 }
 
 impl MtlFields {
-    /// The material, and what of it has no place in a scene: sentences for [`super::MeshAsset::report`].
+    /// Returns the material, and sentences on its content without an equivalent in a scene, for [`super::MeshAsset::report`].
     #[must_use]
     pub fn to_slot(&self, name: &str) -> (SlotMaterial, Vec<String>) {
         let mut report = Vec::new();
@@ -124,7 +122,7 @@ impl MtlFields {
         Some(SlotReflectance::LinearSrgb(kd))
     }
 
-    /// The roughness of the coat; `None` for a material without highlights.
+    /// Roughness of the coat; `None` for a material without highlights.
     fn alpha(&self) -> Option<f64> {
         let shiny = self.specular.is_some_and(|ks| ks.iter().any(|v| *v > 0.0));
         let by_exponent = self.exponent.filter(|n| shiny && *n > 0.0 && self.illumination_model.is_none_or(|m| m >= 2));

@@ -1,4 +1,4 @@
-//! A lens by its surfaces, as lens files give it.
+//! A lens given by its surfaces, from a lens file.
 
 /// Number of aspheric terms: r², r⁴ … r²⁰, as CODE V has them.
 pub const ASPHERE_TERMS: usize = 10;
@@ -6,29 +6,29 @@ pub const ASPHERE_TERMS: usize = 10;
 /// A prescription in a file: surfaces from the scene to the sensor, without object and image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrescriptionAsset {
-    /// What the file calls it; may be empty.
+    /// Title in the file; may be empty.
     pub title: String,
-    /// Surfaces; those that neither refract nor have an opening that stops light are left out, their thickness added to the one before.
+    /// Surfaces. Those that neither refract nor clip light are omitted, and their thickness is added to the preceding one.
     pub surfaces: Vec<SurfaceAsset>,
     /// Distance of the object before the first surface, mm; infinite for a distant one.
     pub object_distance_mm: f64,
-    /// Distance of the image behind the last surface, mm; 0 where the file leaves it to be found.
+    /// Distance of the image behind the last surface, mm; 0 where the file leaves it to be computed.
     pub back_focus_mm: f64,
-    /// Where the file leaves the image to be found: how far behind the paraxial image it is looked at, mm.
+    /// Distance of the image plane behind the paraxial image, mm, where the file leaves the image to be computed.
     pub defocus_mm: f64,
-    /// How far the lens opens; `None` where the stop's own aperture says it.
+    /// Aperture of the lens; `None` if it is given by the stop's own aperture.
     pub opening: Option<LensOpening>,
-    /// The file's line that says so, from 1; 0 where none does.
+    /// Line of the file that states it, from 1; 0 if there is none.
     pub opening_line: usize,
     /// The field points of the file.
     pub fields: Option<LensFields>,
-    /// Vignetting factors by field: the share of the pupil's radius taken off at its upper and its lower end; 0 where none is stated.
+    /// Vignetting factors by field: fraction of the pupil's radius removed at its upper and its lower end; 0 if not stated.
     pub vignetting: [Vec<f64>; 2],
     /// The wavelengths of the file, nm.
     pub wavelengths_nm: Vec<f64>,
-    /// The file's primary wavelength, nm: that of its focal length, f-number and paraxial image; `None` where it states none.
+    /// Primary wavelength of the file, nm: that of its focal length, f-number and paraxial image; `None` if not stated.
     pub primary_nm: Option<f64>,
-    /// What was not taken as it stands in the file, and why: with the line.
+    /// Content of the file that was changed, and the reason, with the line.
     pub notes: Vec<String>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
@@ -43,30 +43,30 @@ pub struct SurfaceAsset {
     pub conic: f64,
     /// Coefficients of r², r⁴ … r²⁰, mm^(1 − 2i).
     pub asphere: [f64; ASPHERE_TERMS],
-    /// Clear semi-aperture, mm; `None` where the file leaves it to be found from the light.
+    /// Clear semi-aperture, mm; `None` where the file leaves it to be computed from the light.
     pub semi_aperture_mm: Option<f64>,
-    /// Whether that opening stops light by the file's own statement (Zemax CLAP and FLAP, CODE V CIR), and is not a size for drawing (DIAM).
+    /// True if the file states that this aperture clips light (Zemax CLAP and FLAP, CODE V CIR); false for a drawing size (DIAM).
     pub rim: bool,
     /// Distance to the next surface (from the last one: to the image), mm.
     pub thickness_mm: f64,
-    /// What fills that space.
+    /// Medium of that space.
     pub glass: GlassAsset,
-    /// Whether this is the aperture stop.
+    /// True for the aperture stop.
     pub stop: bool,
-    /// The file's line that begins it, from 1.
+    /// Line of the file at which it begins, from 1.
     pub line: usize,
 }
 
-/// What fills the space behind a surface.
+/// Medium of the space behind a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum GlassAsset {
     /// Air.
     Air,
-    /// A glass of a maker's catalogue, by the name that [`etendue_spectra::glass`] has for it.
+    /// A glass of a maker's catalogue, by its name in [`etendue_spectra::glass`].
     Named(String),
-    /// A medium of one index.
+    /// A medium with a constant index.
     Index(f64),
-    /// A glass known by n_d and V_d.
+    /// A glass given by n_d and V_d.
     Abbe {
         /// n_d.
         index: f64,
@@ -75,7 +75,7 @@ pub enum GlassAsset {
     },
 }
 
-/// How far a lens opens.
+/// Aperture of a lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LensOpening {
     /// Diameter of the entrance pupil, mm.
@@ -85,7 +85,7 @@ pub enum LensOpening {
     },
     /// f-number for an object at infinity.
     FNumber {
-        /// The number.
+        /// The f-number.
         f_number: f64,
     },
     /// The cone of light from the axial point of the object.
@@ -93,7 +93,7 @@ pub enum LensOpening {
         /// Sine of its half angle.
         sine: f64,
     },
-    /// The cone of light to the axial point of the image, wherever the object stands.
+    /// The cone of light to the axial point of the image, for any object distance.
     ImageCone {
         /// Sine of its half angle.
         sine: f64,

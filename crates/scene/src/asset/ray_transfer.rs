@@ -1,4 +1,4 @@
-//! Ray-transfer functions of a lens, as ISET's files state them.
+//! Ray-transfer functions of a lens, from ISET's files.
 
 /// A term c ρ^a dx^b dy^d.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,12 +9,12 @@ pub struct TermAsset {
     pub powers: [u8; 3],
 }
 
-/// Which rays pass a plane.
+/// Ray-pass function: rays that pass a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PassAsset {
     /// Ellipses by the height on the input plane: the height, centre and semi-axes (x, y), mm.
     Ellipses(Vec<(f64, [f64; 2], [f64; 2])>),
-    /// Circles that all have to be passed: radius (mm), and height of the centre over that on the input plane.
+    /// Circles that a ray must all pass: radius (mm), and height of the centre over that on the input plane.
     Circles(Vec<(f64, f64)>),
 }
 
@@ -23,28 +23,28 @@ pub enum PassAsset {
 pub struct TransferAsset {
     /// Wavelength, nm.
     pub wavelength_nm: f64,
-    /// What passes.
+    /// Ray-pass function.
     pub pass: PassAsset,
-    /// The plane of what passes, from the input plane towards the scene, mm.
+    /// Plane of the ray-pass function, from the input plane towards the scene, mm.
     pub pass_plane_mm: f64,
     /// Polynomials of x, y, z (mm, from the front vertex), dx, dy.
     pub outputs: [Vec<TermAsset>; 5],
-    /// The polynomial whose sign is that of dz, where the file uses one.
+    /// Polynomial whose sign is that of dz, if the file has one.
     pub forwards: Option<Vec<TermAsset>>,
 }
 
 /// A ray-transfer file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RayTransferAsset {
-    /// The lens's name; may be empty.
+    /// Name of the lens; may be empty.
     pub name: String,
-    /// From the rear vertex to the front vertex, mm.
+    /// Distance from the rear vertex to the front vertex, mm.
     pub thickness_mm: f64,
-    /// The input plane from the rear vertex towards the sensor, mm.
+    /// Distance of the input plane from the rear vertex towards the sensor, mm.
     pub input_offset_mm: f64,
-    /// By rising wavelength.
+    /// Functions by rising wavelength.
     pub transfers: Vec<TransferAsset>,
-    /// What was passed over, a sentence each.
+    /// Ignored content, one sentence each.
     pub notes: Vec<String>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],

@@ -1,4 +1,4 @@
-//! A file that a description names, and what it is read as.
+//! A file that a description names, and its kind.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -7,32 +7,32 @@ use super::calibration::CalibrationChoice;
 use super::lens_table::LensQuantity;
 use crate::place::Place;
 
-/// A file to be read, and where it is named.
+/// A file to be read, and the place where it is named.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssetRequest {
-    /// The file, relative to where the job is read from: the key in [`super::Assets`].
+    /// The file, relative to the directory from which the job is read: the key in [`super::Assets`].
     pub path: PathBuf,
-    /// What it is read as.
+    /// Kind of content.
     pub kind: AssetKind,
-    /// Where it is named.
+    /// Place where it is named.
     pub place: Place,
-    /// Of a mesh: which of its own materials nobody sees.
+    /// For a mesh: its own materials that are not visible.
     pub covered: Covered,
 }
 
-/// Materials that a mesh's file gives its slots and that nobody sees, because the scene gives those slots others.
+/// Materials of a mesh's file that are not visible, because the scene replaces them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Covered {
     /// All of them.
     All,
-    /// Those of these names.
+    /// Those with these names.
     Slots(BTreeSet<String>),
 }
 
 impl Covered {
     pub(super) const NONE: Self = Self::Slots(BTreeSet::new());
 
-    /// Whether the material of a slot is covered.
+    /// True if the material of a slot is covered.
     #[must_use]
     pub fn has(&self, slot: &str) -> bool {
         match self {
@@ -41,7 +41,7 @@ impl Covered {
         }
     }
 
-    /// What both cover.
+    /// Returns the materials that both cover.
     pub(crate) fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::All, covered) | (covered, Self::All) => covered,
@@ -50,7 +50,7 @@ impl Covered {
     }
 }
 
-/// What a file is read as.
+/// Kind of content of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum AssetKind {
     /// [`super::MeshAsset`].
@@ -59,7 +59,7 @@ pub enum AssetKind {
     MeshFrame,
     /// [`super::ImageAsset`].
     Image,
-    /// [`super::ImageAsset`] that is laid over surfaces, or [`super::LargeImage`].
+    /// [`super::ImageAsset`] of a texture, or [`super::LargeImage`].
     Texture,
     /// [`super::SpectrumAsset`] of such values.
     Spectrum(Values),
@@ -85,19 +85,19 @@ pub enum AssetKind {
     Calibration(CalibrationChoice),
 }
 
-/// What the values of a tabulated spectrum can be.
+/// Range of the values of a tabulated spectrum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
-    /// A share of light or of photons, 0 … 1.
+    /// A fraction of light or of photons, 0 … 1.
     Share,
-    /// Light, or a coefficient of absorption, 0 or more.
+    /// Light, or an absorption coefficient, 0 or more.
     Light,
     /// A refractive index, 1 … 4.
     Index,
 }
 
 impl Values {
-    /// Whether a value is one of these.
+    /// True if the value is in the range.
     #[must_use]
     pub fn admit(self, value: f64) -> bool {
         match self {
@@ -107,7 +107,7 @@ impl Values {
         }
     }
 
-    /// What they are, in words.
+    /// The range, in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {

@@ -1,43 +1,43 @@
-//! What a glTF file says of a material, in the terms of a scene.
+//! Conversion of a glTF material to a material of a scene.
 
 use std::path::{Path, PathBuf};
 
-/// A material of glTF's metallic-roughness model with its extensions: a metal and a substance that is none, side by side.
+/// A material of glTF's metallic-roughness model with its extensions: a metal and a non-metal, side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlotLayers {
-    /// Share of light that the base of what is no metal reflects, and that the metal reflects at normal incidence.
+    /// Reflectance of the non-metal's base, and reflectance of the metal at normal incidence.
     pub base: SlotColour,
-    /// Share of the surface that is metal, 0 … 1.
+    /// Fraction of the surface that is metal, 0 … 1.
     pub metal: SlotNumber,
     /// Roughness of metal and coat: GGX α, 0 … 1.
     pub alpha: SlotNumber,
-    /// What lies over the base of what is no metal.
+    /// Layer over the base of the non-metal.
     pub over: SlotOver,
-    /// Light that goes through what is no metal; `None` where none does.
+    /// Transmission of the non-metal; `None` if there is none.
     pub transmission: Option<SlotTransmission>,
-    /// Light that the surface gives; `None` where it gives none.
+    /// Emission of the surface; `None` if there is none.
     pub emission: Option<SlotEmission>,
-    /// Share of the surface that is there, 0 … 1; `None` where all of it is.
+    /// Opacity: fraction of the surface that is present, 0 … 1; `None` if opaque.
     pub opacity: Option<SlotNumber>,
-    /// Finer normals, and a factor on their slopes; `None` for the mesh's own.
+    /// Normal map, and a factor on its slopes; `None` for the mesh's own normals.
     pub normals: Option<(SlotPicture, f64)>,
 }
 
-/// What lies over a base that is no metal.
+/// Layer over a non-metal base.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SlotOver {
-    /// Nothing: Lambert's law.
+    /// Nothing: Lambertian reflection.
     Nothing,
-    /// A clear coat of a refractive index within [`super::COAT_INDICES`], as rough as the material says.
+    /// A clear coat of a refractive index within [`super::COAT_INDICES`], with the roughness of the material.
     Coat {
         /// The refractive index.
         index: f64,
     },
-    /// A clear coat of its own roughness over a share of the surface, the material's own over the rest.
+    /// A clear coat of its own roughness over a fraction of the surface, and the material's own over the rest.
     TwoCoats {
         /// The refractive index of both.
         index: f64,
-        /// Share of the surface under the second, 0 … 1.
+        /// Fraction of the surface under the second, 0 … 1.
         share: f64,
         /// GGX α of the second, 0 … 1.
         alpha: f64,
@@ -51,34 +51,34 @@ pub enum SlotOver {
     },
 }
 
-/// Light that goes through.
+/// Transmission.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlotTransmission {
-    /// Share of the surface that is clear, 0 … 1.
+    /// Fraction of the surface that is clear, 0 … 1.
     pub share: SlotNumber,
     /// Refractive index, 1 … 4.
     pub index: f64,
-    /// What the inside of a solid absorbs; `None` for a pane without thickness, which the base colour tints.
+    /// Absorption inside a solid; `None` for a pane without thickness, which the base colour tints.
     pub solid: Option<SlotSolid>,
 }
 
 /// The inside of a clear solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlotSolid {
-    /// Share of light that is left after `distance_m`, linear sRGB, 0 … 1.
+    /// Transmittance over `distance_m`, linear sRGB, 0 … 1.
     pub colour: [f64; 3],
-    /// The distance, m; `None` where nothing is absorbed.
+    /// The distance, m; `None` without absorption.
     pub distance_m: Option<f64>,
 }
 
-/// Light that a surface gives.
+/// Emission of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlotEmission {
-    /// Luminance by its parts, linear sRGB in cd/m².
+    /// Luminance by components, linear sRGB in cd/m².
     pub rgb_cd_m2: [f64; 3],
-    /// Factors on it over the surface; `None` where it is the same everywhere.
+    /// Factors on it over the surface; `None` if constant.
     pub picture: Option<SlotPicture>,
-    /// Whether the back gives the same light.
+    /// True if the back emits the same light.
     pub both_sides: bool,
 }
 
@@ -87,43 +87,43 @@ pub struct SlotEmission {
 pub enum SlotColour {
     /// Linear sRGB, 0 … 1.
     LinearSrgb([f64; 3]),
-    /// A picture.
+    /// An image.
     Picture(SlotPicture),
 }
 
 /// A number over a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SlotNumber {
-    /// The same everywhere.
+    /// Constant over the surface.
     Number(f64),
-    /// The first channel of a picture of plain numbers.
+    /// The first channel of an image of plain values.
     Picture(SlotPicture),
 }
 
-/// A picture that the mesh's file holds, names, or that was made of one.
+/// An image that is embedded in or named by the mesh's file, or was made from one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlotPicture {
     /// Its name among the images of the assets.
     pub file: PathBuf,
-    /// Whether its numbers are encoded by the curve of sRGB.
+    /// True if its values are encoded by the curve of sRGB.
     pub is_encoded: bool,
-    /// What is outside of u, v = 0 … 1, along u and v.
+    /// Extension outside u, v = 0 … 1, along u and v.
     pub wrap: [SlotWrap; 2],
 }
 
-/// What is outside of a picture.
+/// Extension outside an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlotWrap {
-    /// The picture again.
+    /// Repeated.
     Repeat,
-    /// Its edge.
+    /// Clamped to its edge.
     Clamp,
-    /// The picture, mirrored.
+    /// Mirrored.
     Mirror,
 }
 
 impl SlotLayers {
-    /// Whether any part is a picture, which is laid by texture coordinates.
+    /// True if any part is an image, which needs texture coordinates.
     #[must_use]
     pub fn has_picture(&self) -> bool {
         let numbers = [Some(&self.metal), Some(&self.alpha), self.opacity.as_ref()];
@@ -135,14 +135,14 @@ impl SlotLayers {
     }
 }
 
-/// Whether the name of a mesh's file is that of a glTF file.
+/// True if the name of a mesh's file is that of a glTF file.
 #[must_use]
 pub fn is_gltf(file: &Path) -> bool {
     file.extension().is_some_and(|e| e.eq_ignore_ascii_case("glb") || e.eq_ignore_ascii_case("gltf"))
 }
 
 impl SlotLayers {
-    /// What it becomes, in words.
+    /// The resulting material, in words.
     #[must_use]
     pub fn describe(&self) -> String {
         let over = match &self.over {

@@ -14,18 +14,18 @@ use crate::place::Place;
 
 /// Everything that was read for a description.
 ///
-/// Filled by reading [`Assets::missing`] until nothing is missing: meshes can name pictures of their own.
+/// Filled by reading [`Assets::missing`] until nothing is missing: meshes can name images of their own.
 #[derive(Clone, Debug, Default)]
 pub struct Assets {
     /// Meshes by path.
     pub meshes: BTreeMap<PathBuf, MeshAsset>,
-    /// Files of meshes whose vertices move, by path.
+    /// Files of meshes with moving vertices, by path.
     pub mesh_frames: BTreeMap<PathBuf, MeshFrameAsset>,
-    /// Pictures by path.
+    /// Images by path.
     pub images: BTreeMap<PathBuf, ImageAsset>,
-    /// Pictures of textures that are too large to be held, by path.
+    /// Images of textures that are too large for memory, by path.
     pub large_images: BTreeMap<PathBuf, LargeImage>,
-    /// Where the texels of large pictures are kept; `None` where there are none.
+    /// Storage of the texels of large images; `None` if there are none.
     pub texel_store: Option<TexelStore>,
     /// Spectra by path.
     pub spectra: BTreeMap<PathBuf, SpectrumAsset>,
@@ -39,20 +39,20 @@ pub struct Assets {
     pub numbers: BTreeMap<PathBuf, NumbersAsset>,
     /// Lenses by path.
     pub prescriptions: BTreeMap<PathBuf, PrescriptionAsset>,
-    /// Lenses known by their ray-transfer functions by path.
+    /// Lenses given by their ray-transfer functions, by path.
     pub ray_transfers: BTreeMap<PathBuf, RayTransferAsset>,
-    /// Places over time by path.
+    /// Trajectories by path.
     pub trajectories: BTreeMap<PathBuf, TrajectoryAsset>,
-    /// Tables over the field by path and by what they tell.
+    /// Tables over the field by path and quantity.
     pub lens_tables: BTreeMap<(PathBuf, LensQuantity), LensTableAsset>,
-    /// Points' light at places of the field by path.
+    /// Point-spread functions of field points by path.
     pub point_spreads: BTreeMap<PathBuf, PointSpreadAsset>,
-    /// Calibrated cameras by path and by which of the file's they are.
+    /// Calibrated cameras by path and camera of the file.
     pub calibrations: BTreeMap<(PathBuf, CalibrationChoice), CalibrationAsset>,
 }
 
 impl Assets {
-    /// What of `named`, and of what the meshes that are here already name, is not here.
+    /// Returns the files of `named`, and of meshes that were read, that are missing.
     #[must_use]
     pub fn missing(&self, named: &[AssetRequest]) -> Vec<AssetRequest> {
         let mut missing = named.to_vec();
@@ -63,8 +63,8 @@ impl Assets {
         missing
     }
 
-    /// The hashes of all that was read of a file (of numbered files: of each), and of the pictures that a mesh names, one after the other: the same where the
-    /// contents are, wherever they lie. None of a file that was not read, as of a mesh that nothing uses.
+    /// Hashes of the content of a file (of numbered files: of each), and of the images that a mesh names, concatenated: equal where the contents are
+    /// equal, at any path. Empty for a file that was not read, such as an unused mesh.
     #[must_use]
     pub fn hashes(&self, path: &Path) -> Vec<u8> {
         let Self {
@@ -129,7 +129,7 @@ impl Assets {
     }
 }
 
-/// The pictures that those of a mesh's own materials name that somebody sees.
+/// Images of the visible materials of a mesh's file.
 fn textures_of<'a>(
     file: &'a Path,
     mesh: &'a MeshAsset,
@@ -144,7 +144,7 @@ fn textures_of<'a>(
     })
 }
 
-/// The picture that a mesh's own material names.
+/// Image of a material of a mesh's file.
 fn picture(slot: &SlotMaterial) -> Option<&Path> {
     slot.surface.as_ref()?.picture().map(PathBuf::as_path)
 }
@@ -157,7 +157,7 @@ mod tests {
     use etendue_projection::model::Perspective;
     use etendue_projection::{Calibration, CameraMatrix, Model};
 
-    /// The file "file" of such a hash.
+    /// Assets with the file "file" of such a hash.
     fn of(kind: &AssetKind, hash: [u8; 32]) -> Assets {
         let (file, mut assets) = (PathBuf::from("file"), Assets::default());
         match kind {

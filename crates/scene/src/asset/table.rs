@@ -1,6 +1,6 @@
-//! Tables that materials are made of: refractive indices of metals, coefficients of retro-reflection.
+//! Tables of materials: refractive indices of metals, coefficients of retro-reflection.
 
-/// Complex refractive index n + i k by wavelength, as the file has it.
+/// Complex refractive index n + i k by wavelength, as stored in the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComplexIndexAsset {
     /// Wavelength (nm, rising), n (above 0) and k (0 or more).
@@ -12,9 +12,9 @@ pub struct ComplexIndexAsset {
 /// Coefficients of retro-reflection R_A (cd·lx⁻¹·m⁻²) by observation and entrance angle (CIE 54.2; ASTM E810).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RetroTableAsset {
-    /// Angles between the ways to the lamp and to the observer, degrees, rising, 0 … 180.
+    /// Observation angles between the directions to the light and to the observer, degrees, rising, 0 … 180.
     pub observation_deg: Vec<f64>,
-    /// Angles between the way to the lamp and the normal, degrees, rising, 0 … 90.
+    /// Entrance angles between the direction to the light and the normal, degrees, rising, 0 … 90.
     pub entrance_deg: Vec<f64>,
     /// R_A: all entrance angles of the first observation angle, then of the next; 0 or more.
     pub coefficients: Vec<f64>,
@@ -23,7 +23,7 @@ pub struct RetroTableAsset {
 }
 
 impl RetroTableAsset {
-    /// The coefficients of an observation angle by its index, one an entrance angle.
+    /// Coefficients of the observation angle with this index, one per entrance angle.
     #[must_use]
     pub fn row(&self, observation: usize) -> &[f64] {
         let columns = self.entrance_deg.len();

@@ -1,4 +1,4 @@
-//! Places over time, as a file has them.
+//! Positions over time, from a file.
 
 use etendue_core::ExactTime;
 use glam::{DQuat, DVec3};
@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 /// The rows of a trajectory, in the axes of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrajectoryAsset {
-    /// One or more, times rising, each once.
+    /// Rows, one or more, with rising, distinct times.
     pub rows: Vec<TrajectoryRow>,
     /// Columns that were not read.
     pub unread: Vec<String>,
@@ -14,13 +14,13 @@ pub struct TrajectoryAsset {
     pub hash: [u8; 32],
 }
 
-/// Where something is at a time.
+/// Position and rotation at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrajectoryRow {
     /// Time by the clock of the file.
     pub time: ExactTime,
-    /// m.
+    /// Position, m.
     pub position_m: DVec3,
-    /// From what moves to the file's world; of length 1 to a hundredth.
+    /// Rotation from the moving object to the file's world; of length 1 to a hundredth.
     pub rotation: DQuat,
 }

@@ -1,17 +1,18 @@
-//! The catalogue of errors: every code with its cause, what to do, and an example. `etendue explain` prints it, and docs/errors.md is made of it.
+//! The catalogue of errors: every code with its cause, its remedy, and an example. `etendue explain` prints it, and docs/errors.md is generated from
+//! it.
 //!
-//! A code is a kind of error that a user can act on, not a place in the program: the message says what is wrong here, the code what to do about its like.
-//! Examples are run by tests of the program (`explain.rs`): keys stand in the small job of its tests, under the name `job.toml`.
+//! A code is a kind of error that a user can act on, not a place in the program: the message states the specific problem, the code the general
+//! remedy. Examples are run by tests of the program (`explain.rs`): keys are inserted in the small job of its tests, under the name `job.toml`.
 
 use super::code::{Example, Explanation};
 use crate::suggest::nearest;
 use std::fmt;
 use std::str::FromStr;
 
-/// Makes the enum of codes, their words and their explanations of one table.
+/// Generates the enum of codes, their words and their explanations from one table.
 macro_rules! error_codes {
     ($($Name:ident $word:literal: $cause:literal, $remedy:literal, $example:expr;)*) => {
-        /// The kind of an error. Every error of an input or a run has one; [`ErrorCode::explanation`] says what to do.
+        /// The kind of an error. Every error of an input or a run has one; [`ErrorCode::explanation`] gives the remedy.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum ErrorCode {
@@ -22,7 +23,7 @@ macro_rules! error_codes {
             /// All codes, in the order of the catalogue.
             pub const ALL: &'static [Self] = &[$(Self::$Name,)*];
 
-            /// The code as it is printed and asked for: small letters and hyphens.
+            /// The code as printed and queried: lower-case letters and hyphens.
             #[must_use]
             pub const fn word(self) -> &'static str {
                 match self {
@@ -211,7 +212,7 @@ error_codes! {
         Example::command("render job.toml `output` out `memory` 1", "render job.toml `output` out `memory` 0");
 }
 
-/// An error whose place the caller knows: its kind, and what is wrong in words.
+/// An error whose place the caller knows: its kind and its description.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{words}")]
 pub struct Problem {
@@ -229,21 +230,21 @@ impl Problem {
 }
 
 impl Problem {
-    /// The same, with words before it: "WORDS: …".
+    /// Adds words before the description: "WORDS: …".
     #[must_use]
     pub fn within(self, words: impl fmt::Display) -> Self {
         Self { words: format!("{words}: {}", self.words), ..self }
     }
 }
 
-/// Words about the content of a file.
+/// An error in the content of a file.
 impl From<String> for Problem {
     fn from(words: String) -> Self {
         Self::new(ErrorCode::MalformedFile, words)
     }
 }
 
-/// Words about the content of a file.
+/// An error in the content of a file.
 impl From<&str> for Problem {
     fn from(words: &str) -> Self {
         Self::new(ErrorCode::MalformedFile, words)
@@ -256,7 +257,7 @@ impl fmt::Display for ErrorCode {
     }
 }
 
-/// A word that is no code.
+/// Error of a word that is no code.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no error code \"{word}\"{}", .nearest.map_or_else(|| "; explain without a code lists all".to_owned(), |code| format!("; did you mean \"{code}\"?")))]
 pub struct UnknownCode {

@@ -1,4 +1,4 @@
-//! What explains a code of an error: cause, remedy and an example.
+//! Explanation of an error code: cause, remedy and an example.
 
 /// Explanation of a code, which `etendue explain` prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,7 +11,7 @@ pub struct Explanation {
     pub example: Example,
 }
 
-/// A fragment that has the error, and the fragment in its place that has not.
+/// A fragment with the error, and the corrected fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Example {
     /// Context of the fragments.
@@ -29,7 +29,7 @@ pub enum ExampleContext {
     Keys,
     /// Lines of a file of this name.
     File(&'static str),
-    /// Words behind the program's name; arguments by their fields in backticks.
+    /// Arguments of the program; arguments by their fields in backticks.
     Command,
 }
 

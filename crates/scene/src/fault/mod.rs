@@ -1,4 +1,4 @@
-//! Faults of a description: all of them are collected before any is reported.
+//! Errors of a description: all of them are collected before any is reported.
 
 use std::fmt::{self, Write as _};
 
@@ -10,21 +10,21 @@ mod code;
 pub use catalogue::{ErrorCode, Problem};
 pub use code::{Example, ExampleContext, Explanation};
 
-/// One fault: where it stands, what is wrong with what was expected, and what to do.
+/// One error: its place, the problem with the expected value, and the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// Its kind.
     pub code: ErrorCode,
-    /// Where it stands.
+    /// Place of the error.
     pub place: Place,
-    /// What is wrong, and what was expected.
+    /// The problem, and the expected value.
     pub problem: String,
-    /// What to do; empty where the problem's own words say it.
+    /// Remedy; empty if the problem's own words give it.
     pub remedy: String,
 }
 
 impl Fault {
-    /// A fault at `place`.
+    /// Creates an error at `place`.
     #[must_use]
     pub fn new(code: ErrorCode, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self { code, place: place.clone(), problem: problem.into(), remedy: remedy.into() }
@@ -32,7 +32,7 @@ impl Fault {
 }
 
 impl Named {
-    /// What it is.
+    /// Description of its kind.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Mesh => "mesh",
@@ -44,7 +44,7 @@ impl Named {
     }
 }
 
-/// On one line: names and texts of a file may hold line breaks and what moves a terminal's cursor, which are told as escapes.
+/// Displays on one line: names and texts of a file may hold line breaks and control sequences of terminals, which are escaped.
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let told = format!("{}: {}", self.place, self.problem);
@@ -56,11 +56,11 @@ impl fmt::Display for Fault {
     }
 }
 
-/// All faults of a description, by file and line. Displays one a line.
+/// All errors of a description, by file and line. Displays one per line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct Faults {
     list: Vec<Fault>,
-    /// Names that were used while reading and must turn out to be defined.
+    /// Names that were used while reading and must be defined.
     uses: Vec<(Named, Placed<String>)>,
     superseded: Vec<Superseded>,
 }
@@ -78,7 +78,7 @@ struct Superseded {
     place: Place,
 }
 
-/// What can be called by name from elsewhere in a scene.
+/// Kinds of names that are used elsewhere in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Named {
     Mesh,
@@ -89,36 +89,36 @@ pub(crate) enum Named {
 }
 
 impl Faults {
-    /// No faults yet.
+    /// Creates an empty list.
     #[must_use]
     pub fn none() -> Self {
         Self { list: Vec::new(), uses: Vec::new(), superseded: Vec::new() }
     }
 
-    /// The faults, by file and line.
+    /// The errors, by file and line.
     #[must_use]
     pub fn list(&self) -> &[Fault] {
         &self.list
     }
 
-    /// Notes that a key of the table at `place` is missing.
+    /// Reports that a key of the table at `place` is missing.
     pub(crate) fn add_missing(&mut self, place: &Place, key: &str, remedy: impl Into<String>) {
         self.add(ErrorCode::MissingKey, place, missing(key), remedy);
     }
 
-    /// Takes back that a key of the table at `place` is missing: another is taken for it.
+    /// Removes the error of a missing key of the table at `place`, because another key is taken as its misspelling.
     pub(crate) fn take_back_missing(&mut self, place: &Place, key: &str) {
         let problem = missing(key);
         self.list.retain(|fault| fault.place != *place || fault.problem != problem);
     }
 
-    /// Notes a fault.
+    /// Reports an error.
     pub fn add(&mut self, code: ErrorCode, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
         self.list.push(Fault::new(code, place, problem, remedy));
     }
 
-    /// Notes that `key`, which stands at `place`, has no effect for what stands at `cause`: a fault, but not where the
-    /// command line says the cause and a file the key. What the command line says supersedes what it makes meaningless.
+    /// Reports that `key`, at `place`, has no effect because of `cause`. It is no error if the command line states the cause and a file the key: the
+    /// command line overrides the file.
     pub(crate) fn add_idle(
         &mut self,
         code: ErrorCode,
@@ -139,7 +139,7 @@ impl Faults {
         }
     }
 
-    /// What the command line supersedes, a sentence for each of its words.
+    /// Keys overridden by the command line, one sentence for each of its words.
     pub(crate) fn notices(&self) -> Vec<String> {
         let mut causes: Vec<&Place> = Vec::new();
         for Superseded { by, .. } in &self.superseded {
@@ -155,26 +155,26 @@ impl Faults {
         format!("{by} supersedes {}", stated.collect::<Vec<_>>().join(", "))
     }
 
-    /// Remembers that a name is used.
+    /// Records the use of a name.
     pub(crate) fn note_use(&mut self, named: Named, name: Placed<String>) {
         self.uses.push((named, name));
     }
 
-    /// Hands over the names that were used.
+    /// Returns and removes the names that were used.
     pub(crate) fn take_uses(&mut self) -> Vec<(Named, Placed<String>)> {
         std::mem::take(&mut self.uses)
     }
 
-    /// How many there are.
+    /// Number of errors.
     #[must_use]
     pub fn count(&self) -> usize {
         self.list.len()
     }
 
-    /// `value` if there are no faults; else all of them, in order of place, each once.
+    /// Returns `value` if there are no errors; else all errors, in order of place, each once.
     ///
     /// # Errors
-    /// Where there is a fault, or no value.
+    /// There is an error, or no value.
     pub fn or<T>(mut self, value: Option<T>) -> Result<T, Self> {
         match value {
             Some(value) if self.list.is_empty() => Ok(value),
@@ -187,7 +187,7 @@ impl Faults {
     }
 }
 
-/// A key and where it is said, for a notice.
+/// A key and its place, for a notice.
 #[must_use]
 pub fn stated(key: &str, place: &Place) -> String {
     match place.line_column() {

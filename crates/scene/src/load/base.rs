@@ -1,13 +1,13 @@
-//! Files that build on another: `base = "other.toml"`.
+//! Files that extend another: `base = "other.toml"`.
 //!
-//! A job, a scene or a camera file may name a base of its own kind and say only what differs. What it says is laid over the
-//! base's tree before any key is looked at:
-//! - a table is laid over the base's key by key, but one that says its `type` replaces the base's as a whole;
-//! - of lists whose entries have names, an entry takes the place of the base's of the same name; others follow at the
-//!   end; a camera of a job is laid over the base's of its name;
+//! A job, a scene or a camera file may name a base of its own kind and state only the differences. They are merged over the base's tree before any
+//! key is read:
+//! - a table is merged key by key, but one that states its `type` replaces the base's as a whole;
+//! - in lists of named entries, an entry replaces the base's of the same name, and others are appended; a camera of a job is merged over
+//!   the base's of its name;
 //! - any other value replaces the base's.
 //!
-//! `remove = ["lights.sun", "environment"]` first takes entries out of the base. A base may have a base.
+//! `remove = ["lights.sun", "environment"]` first removes entries from the base. A base may have a base.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ use crate::limits::BASES;
 use crate::place::Place;
 use crate::reader::{Rule as _, path};
 
-/// A file's own tree over that of its base, if it names one. `chain` are the files that led here, this one last.
+/// Returns a file's own tree merged over that of its base, if it names one. `chain` are the files that led here, this one last.
 pub(super) fn lay_over(
     mut tree: Node,
     kind: FileKind,
@@ -67,7 +67,7 @@ fn based_on(
         );
         return None;
     }
-    // More are taken for a circle that the paths hide.
+    // More are taken for a cycle that different spellings of paths hide.
     let most = BASES.most();
     if chain.len() as u64 > most {
         let problem = format!("more than {most} files are built one on the other here, in a circle perhaps");
@@ -82,7 +82,7 @@ fn based_on(
     open(file, kind, read, named, chain, faults)
 }
 
-/// Takes the entries that `list` names out of the base.
+/// Removes the entries that `list` names from the base.
 fn take_out(base: &mut Node, list: &Node, faults: &mut Faults) {
     if !matches!(list.value, Value::List(_)) {
         let problem = format!("found {}", list.describe());
@@ -123,7 +123,7 @@ fn remove(node: &mut Node, key: &[&str]) -> bool {
     }
 }
 
-/// Lays `over` on `under`.
+/// Merges `over` into `under`.
 fn merge(under: &mut Node, over: Node) {
     match (&mut under.value, over.value) {
         (Value::Table(base), Value::Table(table)) if !says_its_kind(&table) => {
@@ -142,7 +142,7 @@ fn merge(under: &mut Node, over: Node) {
     }
 }
 
-/// The list whose entries are laid over those of the base: the cameras of a job.
+/// The list whose entries are merged with those of the base: the cameras of a job.
 const LAID_OVER: &str = "cameras";
 
 fn merge_entries(under: &mut Node, over: Node, lay: impl Fn(&mut Node, Node)) {
@@ -159,7 +159,7 @@ fn replace(under: &mut Node, over: Node) {
     *under = over;
 }
 
-/// Lays entries on those of the same name, and puts the others at the end.
+/// Merges entries with those of the same name, and appends the others.
 fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>, lay: impl Fn(&mut Node, Node)) {
     let name_of = |node: &Node| node.name().unwrap_or_default().to_owned();
     let mut places: BTreeMap<String, usize> = BTreeMap::new();
@@ -177,7 +177,7 @@ fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>, lay: impl Fn(&mut Node, No
     }
 }
 
-/// Whether a table chooses among the forms of its kind, so that the base's keys may not fit.
+/// True if a table selects one form of its kind, so that the base's keys may not fit.
 fn says_its_kind(table: &Table) -> bool {
     table.get("type").is_some()
 }

@@ -1,4 +1,4 @@
-//! Checks that need more than one record: names that must exist.
+//! Checks across several records: names that must exist.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::Placed;
 use crate::suggest::nearest;
 
-/// Every name that was used while reading is defined. Gives the uses.
+/// Checks that every name used while reading is defined. Returns the uses.
 pub(super) fn references(document: &Node, faults: &mut Faults) -> Vec<Use> {
     let uses = faults.take_uses();
     let known = |named| match named {
@@ -41,9 +41,9 @@ pub(super) fn references(document: &Node, faults: &mut Faults) -> Vec<Use> {
     uses
 }
 
-/// Unknown names of a kind that are compared with the known ones: the work grows with the product of both numbers.
+/// Maximum number of unknown names of a kind that are compared with the known ones: the work grows with the product of both numbers.
 const MAX_EXPLAINED: usize = 50;
-/// Known names that a message tells.
+/// Maximum number of known names in a message.
 const MAX_KNOWN: usize = 50;
 
 fn note_unknown(what: &str, name: &Placed<String>, known: &[&str], faults: &mut Faults) {

@@ -1,4 +1,4 @@
-//! Reading a job and the files it names into one tree, and changing it by the overrides.
+//! Reads a job and the files that it names into one tree, and applies the overrides.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -12,7 +12,7 @@ use crate::place::Place;
 use crate::reader::{Record as _, Rule as _, path};
 use crate::record::{Camera, Job, Scene};
 
-/// What a file describes.
+/// Content of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FileKind {
     Job,
@@ -29,7 +29,7 @@ impl FileKind {
         }
     }
 
-    /// Its keys; they follow from the schema of everything in it, which is made once.
+    /// Keys of this kind; derived once from the schema of everything in it.
     fn keys(self) -> &'static [&'static str] {
         static KEYS: [OnceLock<Vec<&str>>; 3] = [const { OnceLock::new() }; 3];
         KEYS[self as usize].get_or_init(|| match self {
@@ -43,14 +43,14 @@ impl FileKind {
         tree.as_table().is_some_and(|table| self.keys().iter().any(|key| table.get(key).is_some()))
     }
 
-    /// The kind that the tree is of, where nothing in it belongs to this kind and something to another.
+    /// The kind of the tree, where no key of it belongs to this kind and some to another.
     fn mistaken_for(self, tree: &Node) -> Option<Self> {
         let others = [Self::Job, Self::Scene, Self::Camera].into_iter().filter(|kind| kind.has_key_of(tree));
         if self.has_key_of(tree) { None } else { others.reduce(|first, _| first) }
     }
 }
 
-/// The tree of a job, its scene and its cameras; in place of each file's name stands its tree.
+/// Returns the tree of a job, with the trees of its scene and cameras instead of their file names.
 pub(super) fn job(file: &Path, read: &ReadText<'_>, overrides: &Overrides, faults: &mut Faults) -> Option<Node> {
     let mut document = document(file, FileKind::Job, read, &Place::file_head(file), faults)?;
     overrides.apply(&mut document, true, faults);
@@ -69,7 +69,7 @@ pub(super) fn job(file: &Path, read: &ReadText<'_>, overrides: &Overrides, fault
     Some(document)
 }
 
-/// Puts the tree of a file in place of its name.
+/// Replaces the name of a file by its tree.
 fn splice(node: &mut Node, kind: FileKind, read: &ReadText<'_>, faults: &mut Faults) {
     if node.as_text().is_none() {
         return;
@@ -79,7 +79,7 @@ fn splice(node: &mut Node, kind: FileKind, read: &ReadText<'_>, faults: &mut Fau
     *node = tree.unwrap_or(Node { place: node.place.clone(), value: Value::Unreadable });
 }
 
-/// The tree of a file of one kind, which is named at `named`, over that of its base; its format is checked and taken out.
+/// Returns the tree of a file of one kind, named at `named`, merged over that of its base. Its format is checked and removed.
 pub(super) fn document(
     file: &Path,
     kind: FileKind,
@@ -90,7 +90,7 @@ pub(super) fn document(
     open(file, kind, read, named, &[], faults)
 }
 
-/// As [`document`], of a file on which those of `chain` are built.
+/// As [`document`], for a file that extends those of `chain`.
 pub(super) fn open(
     file: &Path,
     kind: FileKind,
@@ -109,12 +109,12 @@ pub(super) fn open(
     Some(tree)
 }
 
-/// The tree of a file that has no base and names no other, such as a data sheet; its format is checked and taken out.
+/// Returns the tree of a file without a base or other files, such as a data sheet. Its format is checked and removed.
 pub(super) fn single(file: &Path, read: &ReadText<'_>, faults: &mut Faults) -> Option<Node> {
     own_tree(file, read, &Place::file_head(file), faults)
 }
 
-/// What a file itself says.
+/// Returns the tree of the file itself, without its base.
 fn own_tree(file: &Path, read: &ReadText<'_>, named: &Place, faults: &mut Faults) -> Option<Node> {
     let text = match read(file) {
         Ok(text) => text,
@@ -151,7 +151,7 @@ fn note_other_kind(file: &Path, kind: FileKind, other: FileKind, named: &Place, 
     faults.add(ErrorCode::WrongFileKind, named, format!("{subject} is a {} file", other.word()), remedy);
 }
 
-/// Every file says its format; this program reads format 1.
+/// Checks the format, which every file states; this program reads format 1.
 fn check_format(tree: &mut Node, faults: &mut Faults) {
     let head = tree.place.clone();
     match tree.as_table_mut().and_then(|t| t.remove("format")) {

@@ -1,4 +1,4 @@
-//! From the path of a job to its records: reading files, overriding, checking.
+//! From the path of a job to its records: reading files, overrides, checks.
 
 mod base;
 mod check;
@@ -32,51 +32,51 @@ use crate::written::Table;
 /// A job with its scene and cameras, checked.
 #[derive(Clone, Debug)]
 pub struct Description {
-    /// The file of the job.
+    /// File of the job.
     pub file: PathBuf,
-    /// What is seen.
+    /// Scene.
     pub scene: Scene,
-    /// When frames are taken; `None`: frame 0 at 0 s.
+    /// Times of the frames; `None`: frame 0 at 0 s.
     pub sequence: Option<Sequence>,
-    /// The cameras, one or more, names unique.
+    /// Cameras, one or more, with unique names.
     pub cameras: Vec<CameraSetup>,
-    /// What of the scene nothing uses.
+    /// Parts of the scene that are not used.
     pub unused: Unused,
-    /// Which keys the command line makes meaningless, in sentences.
+    /// Keys that the command line makes meaningless, in sentences.
     pub notices: Vec<String>,
 }
 
 /// A camera of a job.
 #[derive(Clone, Debug)]
 pub struct CameraSetup {
-    /// Its name.
+    /// Name of the camera.
     pub name: crate::Placed<String>,
     /// Lens, sensor, processing.
     pub camera: Camera,
-    /// Where it stands.
+    /// Pose.
     pub pose: Pose,
-    /// When its frames begin, against the sequence.
+    /// Start of its frames relative to the sequence.
     pub trigger: Trigger,
-    /// How it renders: what the camera says, else what the job says.
+    /// Render settings: the camera's, completed by the job's.
     pub render: Render,
-    /// What it writes: what the camera says, else what the job says.
+    /// Outputs: the camera's, completed by the job's.
     pub output: Output,
 }
 
-/// When a camera's frames begin, against the sequence of its job.
+/// Start of a camera's frames relative to the sequence of its job.
 #[derive(Clone, Debug, Default)]
 pub struct Trigger {
-    /// How much later, s; `None`: 0.
+    /// Delay, s; `None`: 0.
     pub offset_s: Option<crate::Placed<f64>>,
     /// Greatest random deviation, s; `None`: 0.
     pub jitter_s: Option<crate::Placed<f64>>,
 }
 
 impl Description {
-    /// Reads the job in `file` with all files it names but the assets, applies `overrides` and checks.
+    /// Reads the job in `file` and all files that it names except the assets, applies `overrides` and checks.
     ///
     /// # Errors
-    /// All faults of all files.
+    /// All errors of all files.
     pub fn load(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Self, Faults> {
         let mut faults = Faults::none();
         let mut job = files::job(file, read, overrides, &mut faults);
@@ -93,7 +93,7 @@ impl Description {
         let setup = |entry| CameraSetup::new(entry, render.as_ref(), output.as_ref());
         let cameras: Vec<_> = cameras.into_iter().map(setup).collect();
         cameras.iter().for_each(|c| check_merged(&c.render, faults));
-        // A camera with faults of its own is not among them, and it may be the one that traces paths.
+        // A camera with errors of its own is missing here, and it may be the one that traces paths.
         let stated = document.as_table().and_then(|job| job.get("cameras")).map_or(0, |list| list.as_list().len());
         if cameras.len() == stated {
             check_path_keys(cameras.iter().map(|c| &c.render), faults);
@@ -108,7 +108,7 @@ impl Description {
         })
     }
 
-    /// What the job says, its scene and cameras in place of the names of their files: one table, one file.
+    /// Returns the job with scene and cameras instead of the names of their files: one table, one file.
     #[must_use]
     pub fn to_table(&self) -> Table {
         let cameras: Vec<_> = self.cameras.iter().map(CameraSetup::to_table).collect();
@@ -119,7 +119,7 @@ impl Description {
         }
     }
 
-    /// Every file that the description names, that is used, and that is not text of its own, each once.
+    /// Returns every used file that the description names, except text files of its own format, each once.
     #[must_use]
     pub fn assets(&self) -> Vec<AssetRequest> {
         requests(&self.scene, &self.unused, self.cameras.iter().map(|entry| (&entry.camera, &entry.pose)))
@@ -146,8 +146,8 @@ impl CameraSetup {
         Self { name, camera, pose, trigger, render, output }
     }
 
-    /// What a job says of the camera, and how it renders and writes where the job says it for all: keys that have no effect on
-    /// this camera are among them.
+    /// Returns the job's keys of the camera, with the render and output settings that the job states for all cameras; these may include keys without
+    /// effect on this camera.
     #[must_use]
     pub fn to_table(&self) -> Table {
         let named = Table::new().with("name", self.name.clone());
@@ -169,7 +169,7 @@ impl Trigger {
 /// Reads a camera file by itself, applies `overrides` (keys of the camera file) and checks.
 ///
 /// # Errors
-/// All faults of the file.
+/// All errors of the file.
 pub fn load_camera(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Camera, Faults> {
     let mut faults = Faults::none();
     let mut document =
@@ -185,7 +185,7 @@ pub fn load_camera(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> R
 /// Reads a weather file.
 ///
 /// # Errors
-/// All faults of the file.
+/// All errors of the file.
 pub fn load_weather(file: &Path, read: &ReadText<'_>) -> Result<Weather, Faults> {
     let mut faults = Faults::none();
     let document = files::single(file, read, &mut faults);
@@ -196,7 +196,7 @@ pub fn load_weather(file: &Path, read: &ReadText<'_>) -> Result<Weather, Faults>
 /// Reads a variations file.
 ///
 /// # Errors
-/// All faults of the file.
+/// All errors of the file.
 pub fn load_variations(file: &Path, read: &ReadText<'_>) -> Result<Variations, Faults> {
     let mut faults = Faults::none();
     let document = files::single(file, read, &mut faults);
@@ -207,7 +207,7 @@ pub fn load_variations(file: &Path, read: &ReadText<'_>) -> Result<Variations, F
 /// Reads an EMVA 1288 data sheet.
 ///
 /// # Errors
-/// All faults of the file.
+/// All errors of the file.
 pub fn load_datasheet(file: &Path, read: &ReadText<'_>) -> Result<DataSheet, Faults> {
     let mut faults = Faults::none();
     let document = files::single(file, read, &mut faults);
@@ -218,7 +218,7 @@ pub fn load_datasheet(file: &Path, read: &ReadText<'_>) -> Result<DataSheet, Fau
 /// Reads a laboratory file.
 ///
 /// # Errors
-/// All faults of the file.
+/// All errors of the file.
 pub fn load_laboratory(file: &Path, read: &ReadText<'_>) -> Result<Laboratory, Faults> {
     let mut faults = Faults::none();
     let document = files::single(file, read, &mut faults);
@@ -226,8 +226,8 @@ pub fn load_laboratory(file: &Path, read: &ReadText<'_>) -> Result<Laboratory, F
     faults.or(laboratory)
 }
 
-/// Which keys of `[render]` the job in `file` states, for all cameras or for `camera`, as dotted keys of the job: `render.spp`,
-/// `cameras.front.render.spp`. What cannot be read states nothing; [`Description::load`] tells why.
+/// Returns the keys of `[render]` that the job in `file` states, for all cameras or for `camera`, as dotted keys of the job: `render.spp`,
+/// `cameras.front.render.spp`. An unreadable file gives none; [`Description::load`] reports the cause.
 #[must_use]
 pub fn stated_render_keys(file: &Path, camera: &str, read: &ReadText<'_>) -> Vec<String> {
     let Some(job) = files::job(file, read, &Overrides::default(), &mut Faults::none()) else { return Vec::new() };

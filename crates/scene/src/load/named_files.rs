@@ -1,4 +1,4 @@
-//! Which files a description names.
+//! Files that a description names.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::record::sensor::QuantumEfficiency;
 use crate::record::weather::Weather;
 use crate::record::{Body, Camera, Course, Environment, Front, Lens, Light, Object, Pose, Processing, Scene};
 
-/// Every file that is named, each once.
+/// Returns every named file, each once.
 pub(crate) fn requests<'d>(
     scene: &Scene,
     unused: &Unused,
@@ -44,7 +44,7 @@ pub(crate) fn requests<'d>(
     files.into_requests()
 }
 
-/// What all objects of a mesh cover of its own materials, by the mesh's name.
+/// Materials of each mesh's file that all objects of the mesh override, by the mesh's name.
 fn covered(scene: &Scene) -> BTreeMap<&str, Covered> {
     let mut covered: BTreeMap<&str, Covered> = BTreeMap::new();
     for object in &scene.objects {
@@ -56,7 +56,7 @@ fn covered(scene: &Scene) -> BTreeMap<&str, Covered> {
     covered
 }
 
-/// What one object covers.
+/// Materials of the mesh's file that one object overrides.
 fn covered_by(object: &Object) -> Covered {
     match &object.material {
         Some(_) => Covered::All,
@@ -64,7 +64,7 @@ fn covered_by(object: &Object) -> Covered {
     }
 }
 
-/// Every file that a camera names, each once.
+/// Returns every file that a camera names, each once.
 #[must_use]
 pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
     let mut files = FileList::default();
@@ -72,7 +72,7 @@ pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
     files.into_requests()
 }
 
-/// Every file that a weather file names, each once.
+/// Returns every file that a weather file names, each once.
 #[must_use]
 pub fn of_weather(weather: &Weather) -> Vec<AssetRequest> {
     let mut files = FileList::default();

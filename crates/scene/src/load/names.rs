@@ -1,12 +1,12 @@
-//! Names are unique among their kind.
+//! Checks that names are unique among their kind.
 
 use crate::document::{Node, Table};
 use crate::fault::{ErrorCode, Faults};
 
-/// The lists of a scene whose entries have names.
+/// Lists of a scene whose entries have names.
 const LISTS: [&str; 7] = ["meshes", "textures", "materials", "frames", "objects", "lights", "media"];
 
-/// Notes every name that is used twice.
+/// Reports every duplicate name.
 pub(super) fn check(document: &Node, faults: &mut Faults) {
     let Some(job) = document.as_table() else { return };
     unique(job.get("cameras"), faults);
@@ -48,7 +48,7 @@ fn note_twice(what: &str, node: &Node, first: &crate::Place, faults: &mut Faults
     faults.add(ErrorCode::Duplicate, &node.place, format!("{what} is taken by {at}"), "choose another");
 }
 
-/// The names in a list of the scene, whether or not the entries are right in all else.
+/// Returns the names in a list of the scene, also of entries with other errors.
 pub(super) fn of<'d>(document: &'d Node, list: &str) -> Vec<&'d str> {
     let scene = document.as_table().and_then(|job| job.get("scene")).and_then(Node::as_table);
     scene.and_then(|s| s.get(list)).map_or(&[][..], Node::as_list).iter().filter_map(Node::name).collect()

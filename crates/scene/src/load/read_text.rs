@@ -1,8 +1,8 @@
-//! How the loader reads: it opens no file itself.
+//! Access of the loader to files: it opens none itself.
 
 use std::path::Path;
 
 use crate::fault::Problem;
 
-/// Reads the text of a file; the error says in a few words why it cannot, and behind a semicolon what to do, where that is not to correct the path.
+/// Reads the text of a file. The error states the cause in a few words, and after a semicolon the remedy, unless that is to correct the path.
 pub type ReadText<'r> = dyn Fn(&Path) -> Result<String, Problem> + 'r;

@@ -1,4 +1,4 @@
-//! What of a scene is used: what objects show, and what that needs in turn.
+//! Used parts of a scene: materials and meshes of objects, and their dependencies.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,26 +8,26 @@ use crate::fault::Named;
 use crate::place::{Place, Placed};
 use crate::record::{Material, Scene};
 
-/// Names of a scene that nothing shown leads to. Their files are not read and need not exist.
+/// Names of a scene that no visible object depends on. Their files are not read and need not exist.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Unused {
-    /// Meshes that no object shows.
+    /// Meshes of no object.
     pub meshes: BTreeSet<String>,
-    /// Textures that nothing shown has.
+    /// Textures that nothing visible uses.
     pub textures: BTreeSet<String>,
-    /// Materials that no object has, itself or as a part of another.
+    /// Materials of no object, neither directly nor as a part of another material.
     pub materials: BTreeSet<String>,
-    /// Those of them that name files or textures, and so cannot be made.
+    /// Unused materials that name files or textures, and so cannot be built.
     pub unread: BTreeSet<String>,
-    /// Frames that nothing is placed in, itself or in a frame that they carry.
+    /// Frames in which nothing is placed, neither directly nor in a frame that they carry.
     pub frames: BTreeSet<String>,
 }
 
-/// A use of a name: what it is of, and where.
+/// A use of a name: its kind, and its place.
 pub(super) type Use = (Named, Placed<String>);
 
 impl Unused {
-    /// Follows the `uses` of names from everything that is no material and no frame.
+    /// Follows the `uses` of names from every record that is no material or frame.
     pub(super) fn of(scene: &Scene, uses: &[Use]) -> Self {
         let materials = scene.materials.iter().map(|m| (m.place.key(), (Named::Material, m.name.value.as_str())));
         let frames = scene.frames.iter().map(|f| (f.place.key(), (Named::Frame, f.name.value.as_str())));
@@ -60,7 +60,7 @@ impl Unused {
         }
     }
 
-    /// A sentence for each kind of which something is not used.
+    /// One sentence for each kind with unused names.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let told = |names: &BTreeSet<String>, one: &str, many: &str| match names.len() {
@@ -86,12 +86,12 @@ fn listed(names: &BTreeSet<String>) -> String {
     format!("{}{more}", first.join(", "))
 }
 
-/// What uses names only where it is used itself: a material or a frame, by its name.
+/// Owner of names that count only if it is used itself: a material or a frame, by its name.
 type Owner<'a> = (Named, &'a str);
 
-/// The material or frame that says what stands at `place`.
+/// Returns the material or frame whose keys include `place`.
 fn owner<'m>(materials: &BTreeMap<Cow<'_, str>, Owner<'m>>, place: &Place) -> Option<Owner<'m>> {
     let key = place.key();
-    // Names may hold dots ("wood", "wood.001"): the longest that fits.
+    // Names may contain dots ("wood", "wood.001"): the longest match.
     key.rmatch_indices(['.', '[']).find_map(|(end, _)| materials.get(&key[..end]).copied())
 }

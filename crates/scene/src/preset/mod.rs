@@ -1,8 +1,7 @@
-//! Ready materials: `preset = "chrome"` stands for the keys that `materials.toml` gives that name.
+//! Built-in materials: `preset = "chrome"` stands for the keys of that name in `materials.toml`.
 //!
-//! A preset is a table in the words of the format, read by the same rules as any material. Keys that the user gives beside
-//! `preset` take the place of the preset's: the same key, or one that says the same thing another way (`metal` and
-//! `index_file`). What the preset itself says stands, for errors, where the user names it.
+//! A preset is a table in the words of the format, read by the same rules as any material. Keys that the user gives with `preset` replace the
+//! preset's: the same key, or an alternative of it (`metal` and `index_file`). For errors, the place of the preset's keys is where the user names it.
 
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
@@ -15,7 +14,7 @@ use crate::reader::word;
 /// The presets, each a table: "about" and "source" in words, then keys of a material.
 const MATERIALS: &str = include_str!("materials.toml");
 
-/// Keys of which a material has one at most: one that the user gives takes the place of the preset's.
+/// Alternative keys, of which a material has at most one: a user's key replaces the preset's.
 const ALTERNATIVES: &[&[&str]] = &[
     &["metal", "index_file"],
     &["absorption_per_m", "internal_transmittance"],
@@ -23,14 +22,14 @@ const ALTERNATIVES: &[&[&str]] = &[
     &["q_d_mcd_m2_lx", "luminance_factor"],
 ];
 
-/// A ready material.
+/// A built-in material.
 #[derive(Clone, Debug)]
 pub struct Preset {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What it is, in a sentence.
+    /// Description, one sentence.
     pub about: String,
-    /// Where its values are from.
+    /// Source of its values.
     pub source: String,
     /// Its keys and values, in the words of the format.
     keys: Table,
@@ -43,13 +42,13 @@ static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {
     entries.iter().map(|entry| Preset::of(&entry.key, &entry.node)).collect()
 });
 
-/// All ready materials.
+/// All built-in materials.
 #[must_use]
 pub fn all() -> &'static [Preset] {
     &PRESETS
 }
 
-/// The names of all ready materials.
+/// Names of all built-in materials.
 #[must_use]
 pub fn names() -> Vec<&'static str> {
     all().iter().map(|p| p.name.as_str()).collect()
@@ -72,7 +71,7 @@ impl Preset {
     }
 }
 
-/// Puts what a preset says in place of its name, in every material of the scene.
+/// Expands the preset of every material of the scene.
 pub(crate) fn spell_out(document: &mut Node, faults: &mut Faults) {
     let scene = document.as_table_mut().and_then(|job| job.get_mut("scene"));
     let materials = scene.and_then(Node::as_table_mut).and_then(|scene| scene.get_mut("materials"));
@@ -100,7 +99,7 @@ fn spell_out_material(material: &mut Table, faults: &mut Faults) {
             let said: Vec<_> = said.map(|e| e.moved_to(&named.node.place)).collect();
             material.entries.extend(said);
         }
-        // Nothing more can be said of a material of no kind.
+        // A material of unknown kind cannot be checked further.
         None => material.entries.push(Entry {
             key: "type".to_owned(),
             place: named.place.clone(),
@@ -109,14 +108,14 @@ fn spell_out_material(material: &mut Table, faults: &mut Faults) {
     }
 }
 
-/// Whether the material gives the key, or another that says the same thing.
+/// True if the material gives the key, or an alternative of it.
 fn is_given(material: &Table, key: &str) -> bool {
     let alternatives = ALTERNATIVES.iter().find(|group| group.contains(&key));
     material.get(key).is_some() || alternatives.is_some_and(|group| group.iter().any(|k| material.get(k).is_some()))
 }
 
 impl Entry {
-    /// The same, all of it at `place`.
+    /// Returns a copy with the place `place` throughout.
     fn moved_to(&self, place: &Place) -> Self {
         Self { key: self.key.clone(), place: place.clone(), node: self.node.moved_to(place) }
     }
@@ -134,7 +133,7 @@ impl Node {
         Self { place: place.clone(), value }
     }
 
-    /// The value as it is written in a file.
+    /// The value as written in a file.
     fn written(&self) -> String {
         match &self.value {
             Value::Text(text) => format!("\"{text}\""),

@@ -1,4 +1,4 @@
-//! Values of any kind, which another key will read.
+//! Values of any kind, to be read by another key.
 
 use serde_json::{Value as Json, json};
 
@@ -7,7 +7,7 @@ use crate::document::{Node, Value};
 use crate::fault::Faults;
 use crate::written::{Item, Table, Value as Said};
 
-/// A value that a key of another file takes: its kind and range are that key's to judge.
+/// The rule of a value of another file's key, which checks its kind and range.
 pub(crate) const fn any_value() -> AnyValue {
     AnyValue
 }

@@ -9,7 +9,7 @@
 /// - `inline` (no rule): the same, of a record none of whose keys must be given;
 /// - `group` (no rule): the same, `None` where none of its keys is given.
 ///
-/// `check(path)` names a function that looks at the whole record, called where its keys are right one by one.
+/// `check(path)` names a function that checks the whole record, called if each of its keys is right.
 macro_rules! record {
     (
         $(#[doc = $about:literal])*
@@ -20,7 +20,7 @@ macro_rules! record {
         $(#[doc = $about])*
         #[derive(Clone, Debug)]
         pub struct $name {
-            /// Where the table stands.
+            /// Place of the table.
             pub place: $crate::place::Place,
             $( $(#[doc = $doc])* pub $key: $crate::reader::macros::field!(type $kind $ty), )*
         }
@@ -61,7 +61,7 @@ macro_rules! record {
     };
 }
 
-/// The parts of `record!` that differ by the kind of a field.
+/// The parts of `record!` that depend on the kind of a field.
 macro_rules! field {
     (type required $ty:ty) => { $ty };
     (type optional $ty:ty) => { Option<$ty> };
@@ -159,8 +159,8 @@ macro_rules! field {
 /// A rule whose values become a variant of an enum, and back:
 ///
 /// - `variant!(rule, Enum::Variant)`: the variant holds the value;
-/// - `variant!(rule, Table::Key => Enum::Variant)`: it holds what is under the only key of a table written with `keyed!`;
-/// - `variant!(rule, Words::Word == Enum::Variant)`: it stands for the only word of a `choice!`.
+/// - `variant!(rule, Table::Key => Enum::Variant)`: it holds the value of the only key of a table written with `keyed!`;
+/// - `variant!(rule, Words::Word == Enum::Variant)`: it is the only word of a `choice!`.
 macro_rules! variant {
     ($rule:expr, $name:ident::$variant:ident) => {
         $crate::reader::RuleExt::map($rule, $name::$variant, |value| match value {
@@ -187,11 +187,11 @@ macro_rules! variant {
     };
 }
 
-/// The constructor of a record, of what it must have; of a record that must have nothing, its default.
+/// The constructor of a record from its required keys; if there are none, its default.
 macro_rules! constructor {
     ($name:ident [] [$($left:ident)*]) => {
         impl Default for $name {
-            /// Nothing is given, and it stands nowhere.
+            /// No key is given, and the place is unknown.
             fn default() -> Self {
                 Self { place: $crate::place::Place::unstated(), $( $left: Default::default(), )* }
             }
@@ -199,7 +199,7 @@ macro_rules! constructor {
     };
     ($name:ident [$($needed:ident : $ty:ty,)*] [$($left:ident)*]) => {
         impl $name {
-            /// The record of what it must have, without a place; all else is not given.
+            /// Creates the record from its required keys, without a place; all other keys are absent.
             #[must_use]
             #[allow(clippy::too_many_arguments, reason = "a record has the keys that it has")]
             pub fn new($($needed: impl Into<$ty>),*) -> Self {
@@ -222,11 +222,11 @@ macro_rules! constructor {
     };
 }
 
-/// What a record says, for all who may know.
+/// Conversion of a record to a table, public.
 macro_rules! as_table {
     ($name:ident) => {
         impl $name {
-            /// What it says, as a table of the format: the keys that are given, in their order.
+            /// Returns the record as a table of the format: the given keys, in their order.
             #[must_use]
             pub fn to_table(&self) -> $crate::written::Table {
                 $crate::reader::Record::written(self)
@@ -235,7 +235,7 @@ macro_rules! as_table {
     };
 }
 
-/// An enum told apart by the word under one key; the variant's record shares the table.
+/// An enum distinguished by the word of one key; the variant's record shares the table.
 macro_rules! variants {
     (
         $(#[doc = $about:literal])*
@@ -281,7 +281,7 @@ macro_rules! variants {
     };
 }
 
-/// An enum told apart by which one of its keys is given.
+/// An enum distinguished by which one of its keys is given.
 macro_rules! keyed {
     (
         $(#[doc = $about:literal])*
@@ -329,7 +329,7 @@ use super::word::{one_of, quoted, word};
 use crate::fault::{ErrorCode, Faults};
 use crate::written::Table;
 
-/// The forms, each with a key more.
+/// Adds a key to each form.
 pub(crate) fn with_key<T, R: Rule<Out = T>>(
     forms: Vec<Form>,
     name: &'static str,
@@ -346,13 +346,13 @@ pub(crate) fn key_of<T, R: Rule<Out = T>>(name: &'static str, must: bool, about:
     Key::new(name, must, about, rule.schema())
 }
 
-/// Writes a key by its rule, which reads every value of its record: one that cannot be written is a defect of the program.
+/// Writes a key by its rule. The rule reads every value of its record: one that cannot be written is a bug of the program.
 pub(crate) fn put<R: Rule>(table: &mut Table, key: &str, rule: &R, value: &R::Out) {
     let item = rule.write(value);
     table.put(key, item.unwrap_or_else(|| panic!("a defect of the program: no rule of \"{key}\" writes its value")));
 }
 
-/// The word that tells which variant the table is.
+/// Returns the word that selects the variant of the table.
 pub(crate) fn variant_word<'t>(
     reader: &mut Reader<'t>,
     by: &str,
@@ -373,7 +373,7 @@ pub(crate) fn variant_word<'t>(
     found
 }
 
-/// The one of `keys` that is given.
+/// Returns the one of `keys` that is given.
 pub(crate) fn only_key<'k>(reader: &mut Reader<'_>, keys: &[&'k str], faults: &mut Faults) -> Option<&'k str> {
     let given: Vec<_> = keys.iter().filter(|k| reader.given(k).is_some()).copied().collect();
     if let [only] = given.as_slice() {

@@ -1,8 +1,7 @@
-//! Reading records: one statement of a key is its type, its check, its documentation and its schema.
+//! Reading of records: one statement of a key gives its type, its check, its documentation and its schema.
 //!
-//! A [`Rule`] reads one value and says what it expects. A [`Record`] is a struct of keys, written with `record!`;
-//! `variants!` writes an enum told apart by the word under one key, `keyed!` an enum told apart by which key is given.
-//! Every key that no record takes is a fault.
+//! A [`Rule`] reads one value and states the expected one. A [`Record`] is a struct of keys, written with `record!`; `variants!` writes an enum
+//! distinguished by the word of one key, `keyed!` an enum distinguished by which key is given. Every key that no record reads is an error.
 
 mod any_value;
 pub(crate) mod macros;

@@ -9,7 +9,7 @@ use crate::place::Placed;
 use crate::written::{Item, Value as WrittenValue};
 use etendue_core::ExactTime;
 
-/// A finite number; `unit` is named where it is missing or wrong ("" for a pure number).
+/// A finite number; `unit` appears in errors of a missing or wrong value ("" for a pure number).
 pub(crate) const fn number(unit: &'static str) -> Number {
     Number { unit, low: None, high: None }
 }
@@ -29,15 +29,15 @@ struct Bound {
 }
 
 impl Number {
-    /// More than `value`.
+    /// Sets a lower bound, excluding `value`.
     pub(crate) const fn above(self, value: f64) -> Self {
         Self { low: Some(Bound { value, included: false }), ..self }
     }
-    /// `value` or more.
+    /// Sets a lower bound, including `value`.
     pub(crate) const fn at_least(self, value: f64) -> Self {
         Self { low: Some(Bound { value, included: true }), ..self }
     }
-    /// `value` or less.
+    /// Sets an upper bound, including `value`.
     pub(crate) const fn at_most(self, value: f64) -> Self {
         Self { high: Some(Bound { value, included: true }), ..self }
     }
@@ -91,8 +91,7 @@ impl Rule for Number {
     }
 }
 
-/// A percentile, above 1 and at most 100: a number up to 1 is a share to whoever writes it, and would mean something else
-/// without a word.
+/// A percentile, above 1 and at most 100. A smaller number is refused, because it reads as a fraction and would silently mean something else.
 pub(crate) const fn percentile() -> Percentile {
     Percentile(Number { unit: "", low: Some(Bound { value: 1.0, included: false }), high: None }.at_most(100.0))
 }
@@ -133,7 +132,7 @@ impl Rule for Percentile {
     }
 }
 
-/// The number, where it is one that a double holds exactly.
+/// Returns the number, if a double holds it exactly.
 fn as_f64(node: &Node) -> Option<f64> {
     match node.value {
         Value::Number(v) => Some(v),
@@ -146,7 +145,7 @@ fn as_f64(node: &Node) -> Option<f64> {
     }
 }
 
-/// A time in seconds, as a number or as text, which is exact also far from zero.
+/// A time in seconds, as a number or as text, which is exact far from zero.
 pub(crate) const fn time() -> Time {
     Time
 }

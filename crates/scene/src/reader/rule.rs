@@ -1,4 +1,4 @@
-//! The contract of a rule, and the rules made of other rules.
+//! The contract of a rule, and combinations of rules.
 
 use std::marker::PhantomData;
 
@@ -10,7 +10,7 @@ use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::written::{Item, Table, Value as Said};
 
-/// What kind of TOML a value is.
+/// Kind of a TOML value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Flag,
@@ -36,22 +36,22 @@ impl Kind {
     }
 }
 
-/// How one value is read.
+/// A rule that reads one value.
 pub(crate) trait Rule {
-    /// What it becomes.
+    /// Type of the result.
     type Out;
-    /// The kind of value the rule can look at.
+    /// True if the rule can read values of this kind.
     fn takes(&self, kind: Kind) -> bool;
-    /// What it expects, in words: "a number above 0".
+    /// The expected value, in words: "a number above 0".
     fn expected(&self) -> String;
     /// The JSON Schema of the value.
     fn schema(&self) -> Json;
-    /// The value; `None` after noting at least one fault.
+    /// Reads the value; returns `None` after reporting at least one error.
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out>;
-    /// The value as it is written, so that [`Rule::read`] gives it back; `None` where another rule reads such values.
+    /// Converts the value to the form that [`Rule::read`] reads back; `None` if another rule reads such values.
     fn write(&self, value: &Self::Out) -> Option<Item>;
 
-    /// The code of a node that is not what the rule expects.
+    /// Error code of a node that is not as the rule expects.
     fn code(&self, node: &Node) -> ErrorCode {
         match Kind::of(node) {
             Kind::Number if self.takes(Kind::Number) => ErrorCode::OutOfRange,
@@ -59,7 +59,7 @@ pub(crate) trait Rule {
         }
     }
 
-    /// Notes that the node is not what the rule expects.
+    /// Reports that the node is not as the rule expects.
     fn refuse<T>(&self, node: &Node, faults: &mut Faults) -> Option<T> {
         if matches!(node.value, Value::Unreadable) {
             return None;
@@ -70,9 +70,9 @@ pub(crate) trait Rule {
     }
 }
 
-/// What can be made of any rule.
+/// Adaptors of rules.
 pub(crate) trait RuleExt: Rule + Sized {
-    /// The rule, with another result; `back` gives what it was made of, `None` where it was made otherwise.
+    /// The rule with another result; `back` returns the original value, `None` for a result of another origin.
     fn map<T>(self, f: fn(Self::Out) -> T, back: fn(&T) -> Option<Self::Out>) -> Mapped<Self, T> {
         Mapped { rule: self, f, back }
     }
@@ -106,7 +106,7 @@ impl<R: Rule, T> Rule for Mapped<R, T> {
     }
 }
 
-/// One rule or the other, by the kind of the value.
+/// One of two rules, by the kind of the value.
 pub(crate) fn either<A: Rule, B: Rule<Out = A::Out>>(a: A, b: B) -> Either<A, B> {
     Either { a, b }
 }
@@ -137,12 +137,12 @@ impl<A: Rule, B: Rule<Out = A::Out>> Rule for Either<A, B> {
         }
     }
     fn write(&self, value: &A::Out) -> Option<Item> {
-        // A table that stands for a value.
+        // A table instead of a value.
         self.a.write(value).or_else(|| self.b.write(value)).map(Item::in_line)
     }
 }
 
-/// A list of at least `least` values. Faulty entries are noted and left out.
+/// A list of at least `least` values. Wrong entries are reported and omitted.
 pub(crate) fn list<R: Rule>(rule: R, least: usize) -> List<R> {
     List { rule, least }
 }
@@ -219,7 +219,7 @@ impl<R: Rule, const N: usize> Rule for Exactly<R, N> {
     }
 }
 
-/// A table of entries under names of the user's choice.
+/// A table of entries under user-chosen names.
 pub(crate) fn keyed_by_name<R: Rule>(rule: R) -> ByName<R> {
     ByName { rule }
 }

@@ -12,14 +12,14 @@ use crate::written::Table as Written;
 
 /// A struct or an enum of structs whose fields are keys of a table.
 pub(crate) trait Record: Clone {
-    /// Takes the record's keys; `None` after noting at least one fault.
+    /// Reads the record's keys; returns `None` after reporting at least one error.
     fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self>;
-    /// The shapes the table can have: one for a plain record, one a variant for an enum.
+    /// Shapes of the table: one for a plain record, one per variant for an enum.
     fn forms() -> Vec<Form>;
-    /// Adds the record's keys to the table that it is, or is a part of.
+    /// Adds the record's keys to a table.
     fn write_keys(&self, table: &mut Written);
 
-    /// The record, with the keys of `base` where it has none. A table whose keys depend on each other stays whole.
+    /// The record, completed by the keys of `base`. A table whose keys depend on each other is not merged.
     fn over(&self, _base: &Self) -> Self {
         self.clone()
     }
@@ -71,7 +71,7 @@ pub(crate) struct Form {
     choices: Vec<Choice>,
     /// Keys that are given together or not at all.
     groups: Vec<Group>,
-    /// The key without which no table has this form, where its value does not tell.
+    /// Key that every table of this form has, if no value distinguishes the form.
     only_with: Option<&'static str>,
 }
 
@@ -79,11 +79,11 @@ pub(crate) struct Form {
 #[derive(Clone, Debug)]
 struct Choice {
     keys: Vec<&'static str>,
-    /// Whether one of them must be given.
+    /// True if one of them must be given.
     must: bool,
 }
 
-/// Keys of which none is given without all that are needed.
+/// Keys that need other keys: none is given without all of these.
 #[derive(Clone, Debug)]
 struct Group {
     keys: Vec<&'static str>,
@@ -106,19 +106,19 @@ impl Key {
 }
 
 impl Form {
-    /// A form of tables that have `name`.
+    /// A form of tables with the key `name`.
     pub(crate) fn only_with(name: &'static str, about: &str, schema: Json) -> Self {
         Self { keys: vec![Key::new(name, true, about, schema)], only_with: Some(name), ..Self::default() }
     }
 
-    /// A form of exactly one of some keys.
+    /// A form with exactly one of some keys.
     pub(crate) fn one_of(keys: Vec<Key>) -> Self {
         let names = keys.iter().map(|k| k.name).collect();
         let keys = keys.into_iter().map(|k| Key { required: false, ..k }).collect();
         Self { keys, choices: vec![Choice { keys: names, must: true }], ..Self::default() }
     }
 
-    /// The forms of a table that may have none of these forms' keys.
+    /// The forms of a table in which all keys of these forms may be absent.
     pub(crate) fn all_or_none(forms: Vec<Self>) -> Vec<Self> {
         match forms.as_slice() {
             [only] if only.groups.is_empty() => only.clone().optional().map_or(forms, |form| vec![form]),
@@ -126,7 +126,7 @@ impl Form {
         }
     }
 
-    /// The form where it may be missing as a whole; `None` where choices and other keys are needed together.
+    /// The form, optional as a whole; `None` where choices and other keys are required together.
     fn optional(mut self) -> Option<Self> {
         let needed: Vec<_> = self.keys.iter().filter(|k| k.required).map(|k| k.name).collect();
         match self.choices.as_mut_slice() {
@@ -141,7 +141,7 @@ impl Form {
         Some(self)
     }
 
-    /// The form with a key of another form, optional; with either schema where it has the key already.
+    /// The form with an optional key of another form; with either schema if it has the key already.
     pub(crate) fn or_with(mut self, key: &Key) -> Self {
         match self.keys.iter_mut().find(|k| k.name == key.name) {
             None => self.keys.push(Key { required: false, ..key.clone() }),
@@ -158,7 +158,7 @@ impl Form {
         self
     }
 
-    /// The form with a key more.
+    /// The form with an additional key.
     pub(crate) fn with(mut self, key: Key) -> Self {
         self.keys.push(key);
         self
@@ -179,14 +179,14 @@ impl Form {
         self.keys.iter().any(|k| k.name == key)
     }
 
-    /// Whether the words that tell this form from others are those of the table.
+    /// True if the words that distinguish this form are those of the table.
     fn fits(&self, table: &Table) -> bool {
         let marks = self.keys.iter().filter_map(|k| Some((k.name, k.schema.get("const")?.as_str())));
         let marked = marks.into_iter().all(|(key, word)| table.get(key).and_then(Node::as_text) == word);
         marked && self.only_with.is_none_or(|key| table.get(key).is_some())
     }
 
-    /// In words, how the form is told from others: `type = "sun"`.
+    /// The distinction of the form, in words: `type = "sun"`.
     fn mark(&self) -> Option<String> {
         let key = self.keys.iter().find(|k| k.schema.get("const").is_some())?;
         Some(format!("{} = {}", key.name, key.schema["const"]))
@@ -231,12 +231,12 @@ fn described(key: &Key) -> Json {
     schema
 }
 
-/// A table being read: knows which keys were taken.
+/// A table being read; it tracks the keys that were read.
 pub(crate) struct Reader<'t> {
     table: &'t Table,
     place: &'t Place,
     taken: Vec<bool>,
-    /// The table's kind is unknown, so nothing can be said of its other keys.
+    /// The table's kind is unknown, so its other keys cannot be checked.
     lost: bool,
 }
 
@@ -245,29 +245,29 @@ impl<'t> Reader<'t> {
         Self { table, place, taken: vec![false; table.entries.len()], lost: false }
     }
 
-    /// Where the table stands.
+    /// Place of the table.
     pub(crate) fn place(&self) -> &'t Place {
         self.place
     }
 
-    /// Where the key stands, if it is given.
+    /// Place of the key, if given.
     pub(crate) fn given(&self, key: &str) -> Option<&'t Place> {
         self.table.entries.iter().find(|e| e.key == key).map(|e| &e.place)
     }
 
-    /// The value under `key`, which is thereby read.
+    /// Returns the value of `key` and marks it as read.
     pub(crate) fn take(&mut self, key: &str) -> Option<&'t Node> {
         let index = self.table.entries.iter().position(|e| e.key == key)?;
         self.taken[index] = true;
         Some(&self.table.entries[index].node)
     }
 
-    /// Marks every key as read: what the table is could not be told.
+    /// Marks every key as read, for a table of unknown kind.
     pub(crate) fn give_up(&mut self) {
         self.lost = true;
     }
 
-    /// The value under `key` by `rule`; a fault where it is not given.
+    /// Reads the value of `key` by `rule`; reports an error if it is missing.
     pub(crate) fn required<R: Rule>(&mut self, key: &str, rule: &R, faults: &mut Faults) -> Option<R::Out> {
         match self.take(key) {
             Some(node) => rule.read(node, faults),
@@ -279,12 +279,12 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The value under `key` by `rule`, if it is given; the outer `None` after a fault.
+    /// Reads the value of `key` by `rule`, if given; the outer `None` follows an error.
     pub(crate) fn optional<R: Rule>(&mut self, key: &str, rule: &R, faults: &mut Faults) -> Option<Option<R::Out>> {
         self.take(key).map_or(Some(None), |node| rule.read(node, faults).map(Some))
     }
 
-    /// Notes every key that was not read.
+    /// Reports every key that was not read.
     pub(crate) fn finish<T: Record>(self, faults: &mut Faults) {
         if self.lost || self.taken.iter().all(|t| *t) {
             return;
@@ -312,7 +312,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// What is wrong with a key that belongs to no form, what to do, and the key that it is taken for.
+/// Returns problem and remedy of a key that belongs to no form, and the key that was probably meant.
 fn stray(key: &str, forms: &[Form], table: &Table) -> (String, String, Option<String>) {
     let keys = keys_of(forms.iter().filter(|f| f.fits(table)));
     let meant = nearest(key, &keys);

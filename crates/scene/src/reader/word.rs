@@ -48,7 +48,7 @@ impl Rule for Flag {
     }
 }
 
-/// A text that is not empty; `what` says of what: "the name of a material".
+/// A non-empty text; `what` describes it: "the name of a material".
 pub(crate) const fn text(what: &'static str) -> Text {
     Text { what }
 }
@@ -81,7 +81,7 @@ impl Rule for Text {
     }
 }
 
-/// The name of something that the scene defines elsewhere.
+/// A name that the scene defines elsewhere.
 pub(crate) const fn name_of(named: Named) -> NameOf {
     NameOf { named }
 }
@@ -114,16 +114,16 @@ impl Rule for NameOf {
     }
 }
 
-/// A text that can be part of a file's name on every system: 1 to [`MAX_FILE_NAME`] letters, digits, `-` and `_`, and no word that some system
-/// keeps for a device.
+/// A text that can be part of a file name on every system: 1 to [`MAX_FILE_NAME`] letters, digits, `-` and `_`, and no word that a system reserves
+/// for a device.
 pub(crate) const fn file_name(what: &'static str) -> FileName {
     FileName { what }
 }
 
-/// Most characters: names of files, of 255 bytes at most, hold more than this one.
+/// Maximum number of characters: file names, of at most 255 bytes, hold more than this one.
 const MAX_FILE_NAME: usize = 100;
 
-/// Whether some system (Windows) keeps a name for a device, however it is written.
+/// True if a system (Windows) reserves a name for a device, in any spelling.
 fn is_device(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     let is_numbered = |port: &str| matches!(name.strip_prefix(port).map(str::as_bytes), Some([b'0'..=b'9']));
@@ -203,7 +203,7 @@ impl Rule for FilePath {
     }
 }
 
-/// One of the names that a library of data knows; `what` says of what: "an illuminant".
+/// One of the names of a data library; `what` describes it: "an illuminant".
 pub(crate) fn known(what: &'static str, names: &[&'static str]) -> Known {
     Known { what, names: names.to_vec() }
 }
@@ -267,7 +267,7 @@ pub(crate) fn one_of(words: &[&str]) -> String {
     if words.len() == 1 { quoted(words) } else { format!("one of {}", quoted(words)) }
 }
 
-/// The text of the node, which must be one of `words`.
+/// Returns the text of the node, which must be one of `words`.
 pub(crate) fn word<'n>(node: &'n Node, words: &[&str], faults: &mut Faults) -> Option<&'n str> {
     let found = node.as_text();
     if let Some(text) = found.filter(|t| words.contains(t)) {
@@ -281,7 +281,7 @@ pub(crate) fn word<'n>(node: &'n Node, words: &[&str], faults: &mut Faults) -> O
     None
 }
 
-/// What to do: the likely word stands first, as lists may be long.
+/// Remedy: the nearest word comes first, as lists may be long.
 fn remedy(found: Option<&str>, words: &[&str]) -> String {
     match found.and_then(|t| nearest(t, words)) {
         Some(likely) => format!("did you mean \"{likely}\"? Give {}", one_of(words)),

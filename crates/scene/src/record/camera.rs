@@ -9,17 +9,17 @@ use crate::fault::{ErrorCode, Faults};
 use crate::reader::record;
 
 record! {
-    /// A camera, wherever it stands.
+    /// A camera, independent of its pose.
     pub struct Camera check(check) {
         /// The lens.
         required lens: Lens = record();
-        /// What stands in front of the lens, attached to the camera. Default: nothing.
+        /// Elements in front of the lens, attached to the camera. Default: none.
         optional external_optics: Front = record();
-        /// What becomes of the irradiance behind the lens. Default: nothing.
+        /// Effects on the irradiance behind the lens. Default: none.
         optional effects: Effects = record();
         /// The sensor.
         required sensor: Sensor = record();
-        /// From raw to picture. Default: none, no picture is made.
+        /// Processing from raw to image. Default: none, no image is made.
         optional isp: Processing = record();
     }
 }

@@ -1,4 +1,4 @@
-//! A quantity over the wavelength: the same everywhere, or tabulated in a file.
+//! A quantity as a function of wavelength: constant, or tabulated in a file.
 
 use std::path::PathBuf;
 
@@ -7,17 +7,17 @@ use crate::asset::request::{AssetKind, Values};
 use crate::place::Placed;
 use crate::reader::{Number, Rule, either, keyed, path, record, variant};
 
-/// A quantity over the wavelength.
+/// A quantity as a function of wavelength.
 #[derive(Clone, Debug)]
 pub enum Curve {
-    /// The same at all wavelengths.
+    /// Constant over wavelength.
     Constant(Placed<f64>),
     /// A table of wavelength (nm) and value.
     File(Placed<PathBuf>),
 }
 
 impl Curve {
-    /// Requests its file, whose values are `values`, where it has one.
+    /// Requests its file, if any, whose values are `values`.
     pub(crate) fn name_file(&self, values: Values, files: &mut FileList) {
         if let Self::File(file) = self {
             files.add(AssetKind::Spectrum(values), file);
@@ -26,7 +26,7 @@ impl Curve {
 }
 
 keyed! {
-    /// Where a curve is tabulated.
+    /// File of a tabulated curve.
     pub enum CurveFile {
         /// A table of two columns, wavelength in nm and value, linear between the points.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();

@@ -1,4 +1,4 @@
-//! A camera's EMVA 1288 data sheet, as printed: what `etendue datasheet` makes a camera file of.
+//! A camera's EMVA 1288 data sheet, as printed: the input from which `etendue datasheet` makes a camera file.
 
 use super::sensor::cfa::Cfa;
 use crate::fault::{ErrorCode, Faults};
@@ -9,29 +9,29 @@ use crate::reader::{Rule, choice, either, keyed_by_name, list, number, record, t
 pub type Points = Vec<Placed<[f64; 2]>>;
 
 record! {
-    /// A data sheet after EMVA 1288. Figures that follow from others are checked and need not be given.
+    /// A data sheet after EMVA 1288. Values that follow from others are checked and may be omitted.
     pub struct DataSheet check(check) {
-        /// The camera's name.
+        /// Name of the camera.
         required camera: Placed<String> = text("the camera's name");
-        /// Width of the picture, px.
+        /// Width of the image, px.
         required width_px: Placed<u64> = whole(1, 65_536);
-        /// Height of the picture, px.
+        /// Height of the image, px.
         required height_px: Placed<u64> = whole(1, 65_536);
-        /// Distance of the pixels' centres, µm.
+        /// Distance between pixel centres, µm.
         required pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
-        /// Colour filter array, by its name. Default: "mono".
+        /// Colour filter array, by name. Default: "mono".
         optional cfa: Placed<Cfa> = choice();
-        /// Total quantum efficiency (fill factor included), %: pairs of wavelength, nm, and efficiency; for a colour camera a table
-        /// of such lists by channel.
+        /// Total quantum efficiency (fill factor included), %: pairs of wavelength, nm, and efficiency; for a colour camera a table of such lists by
+        /// channel.
         required quantum_efficiency_percent: SheetEfficiency = efficiency();
         /// Wavelength of the photons of "saturation_capacity_p" and "sensitivity_threshold_p", nm. Default: the only one of
         /// "quantum_efficiency_percent".
         optional measured_at_nm: Placed<f64> = number("nm").above(0.0);
-        /// Bits of the converter.
+        /// Bits of the ADC.
         required bits: Placed<u64> = whole(1, 24);
         /// System gain K, DN/e⁻.
         optional gain_dn_per_e: Placed<f64> = number("DN/e⁻").above(0.0);
-        /// Its inverse 1/K, e⁻/DN.
+        /// Inverse system gain 1/K, e⁻/DN.
         optional inverse_gain_e_per_dn: Placed<f64> = number("e⁻/DN").above(0.0);
         /// Temporal dark noise σ_d, e⁻, without quantisation.
         optional temporal_dark_noise_e: Placed<f64> = number("e⁻").at_least(0.0);
@@ -63,13 +63,13 @@ record! {
         optional prnu_percent: Placed<f64> = number("%").at_least(0.0).at_most(100.0);
         /// Dark current, e⁻/s. Default: 0, with a warning.
         optional dark_current_e_s: Placed<f64> = number("e⁻/s").at_least(0.0);
-        /// Temperature at which it was measured, °C.
+        /// Temperature of the dark-current measurement, °C.
         optional dark_current_at_c: Placed<f64> = number("°C").above(-273.15);
-        /// Kelvin that double it.
+        /// Temperature difference that doubles the dark current, K.
         optional doubling_k: Placed<f64> = number("K").above(0.0);
-        /// Linearity error, %. It is written down and not modelled.
+        /// Linearity error, %. It is recorded and not modelled.
         optional linearity_error_percent: Placed<f64> = number("%").at_least(0.0);
-        /// Digital number of no signal, DN. Default: one that keeps dark noise off zero.
+        /// Digital number without signal, DN. Default: one that keeps dark noise off zero.
         optional black_level_dn: Placed<f64> = number("DN").at_least(0.0);
     }
 }
@@ -77,7 +77,7 @@ record! {
 /// Quantum efficiencies as printed.
 #[derive(Clone, Debug)]
 pub enum SheetEfficiency {
-    /// Of the only channel.
+    /// The only channel.
     Mono(Points),
     /// By channel.
     Channels(Vec<(Placed<String>, Points)>),

@@ -1,4 +1,4 @@
-//! `[effects]`: what becomes of the irradiance behind the lens.
+//! `[effects]`: effects on the irradiance behind the lens.
 
 use std::path::PathBuf;
 
@@ -9,86 +9,83 @@ use crate::reader::{
 };
 
 record! {
-    /// What becomes of the irradiance behind the lens, on either route. The film is rendered wider than the picture, for light
-    /// that comes from beyond its edge, and spectral bands are kept.
+    /// Effects on the irradiance behind the lens, on either route. The film is rendered wider than the image, for light from beyond its edge, and
+    /// spectral bands are stored.
     pub struct Effects check(check) {
-        /// Diffraction and wavefront error of the aperture, or a picture of a point's light. Default: none.
+        /// Point-spread function: diffraction and wavefront error of the aperture, or an image of a point. Default: none.
         optional psf: Psf = record();
         /// Light scattered in the lens. Default: none.
         optional glare: Glare = record();
-        /// Whether light that two surfaces of a prescription reflect is traced and added: its ghosts; only with a lens whose
-        /// "type" is "prescription". Default: false.
+        /// Adds ghosts, traced from light reflected by two surfaces of the lens; only with a lens whose "type" is "prescription". Default: false.
         optional ghosts: Placed<bool> = flag();
-        /// With "ghosts": the share of light that the sensor itself mirrors, 0 … 0.5. Default: 0.
+        /// With "ghosts": reflectance of the sensor, 0 … 0.5. Default: 0.
         optional sensor_reflectance: Placed<f64> = number("").at_least(0.0).at_most(0.5);
-        /// Width of what is rendered beyond the picture on every side, as a share of its width and height, 0 … 1. Default: as
-        /// far as the effects reach, at most 0.25.
+        /// Rendered margin beyond the image on every side, as a fraction of its width and height, 0 … 1. Default: the reach of the effects, at most
+        /// 0.25.
         optional margin: Placed<f64> = number("").at_least(0.0).at_most(1.0);
     }
 }
 
 record! {
-    /// The point-spread function of the aperture: diffraction at the lens's working f-number, with the wavefront's error. Or, with
-    /// "image", what a picture shows, or with "files", what tables over the field say, in place of both.
+    /// Point-spread function of the aperture: diffraction at the working f-number of the lens, with wavefront error. "image" (an image of a point) or
+    /// "files" (tables over the field) replace both.
     pub struct Psf check(check_psf) {
         /// Blades of the diaphragm, 3 … 32. Default: a circle. The area is always that of the circle of the f-number.
         optional blades: Placed<u64> = whole(3, 32);
-        /// With "blades": their curvature, 0 … 1, straight to a circle. Default: 0.
+        /// With "blades": their curvature, 0 … 1, from straight edges to a circle. Default: 0.
         optional blade_curvature: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// With "blades": where a corner stands, degrees from the picture's right towards its bottom. Default: 0.
+        /// With "blades": direction of a corner, degrees from the image's right towards its bottom. Default: 0.
         optional rotation_deg: Placed<f64> = number("deg");
-        /// Radius of an obstruction in the middle as a share of the pupil's, 0 … 0.9. Default: 0.
+        /// Radius of a central obstruction as a fraction of the pupil's, 0 … 0.9. Default: 0.
         optional obstruction: Placed<f64> = number("").at_least(0.0).at_most(0.9);
-        /// Zernike terms of the wavefront's error; a ray through the point u of the pupil (of radius one) lands at 2N ∂W/∂u.
-        /// Default: none.
+        /// Zernike terms of the wavefront error. A ray through the point u of the pupil (of radius one) is displaced by 2N ∂W/∂u. Default: none.
         many wavefront: ZernikeTerm = list(record::<ZernikeTerm>(), 1);
-        /// Where the function ends, mm, above 0. Default: some 256 px, or 256 λN where λN is less
-        /// than a pixel.
+        /// Radius at which the function ends, mm, above 0. Default: about 256 px, or 256 λN where λN is less than a pixel.
         optional reach_mm: Placed<f64> = number("mm").above(0.0);
-        /// Patches across and down the picture with a function each, 1 … 32. Default: one where the pattern is nearly the same
-        /// everywhere, else five and three.
+        /// Patches across and down the image with one function each, 1 … 32. Default: one where the function is nearly the same everywhere, else five
+        /// and three.
         optional patches: Placed<[Placed<u64>; 2]> = exactly(whole(1, 32));
-        /// A picture of a point's light on the sensor, in place of the aperture's function and all of its keys; with
-        /// "image_pitch_um". Its numbers are linear, those of 8 and 16 bits too, and are divided by their sum; of a coloured one
-        /// the mean of its channels. The point is in its middle; the first row is above it, the first column to its left, as in
-        /// the picture taken. Default: the aperture.
+        /// An image of a point on the sensor, instead of the aperture's function and all its keys; with "image_pitch_um". Values are linear, also
+        /// those of 8 and 16 bits, and are divided by their sum; of a coloured image the mean of its channels. The point is in the middle, the first
+        /// row above it and the first column to its left, as in the captured image. Default: the aperture.
         optional image: Placed<PathBuf> = path(&["png", "exr"]);
-        /// With "image": distance of its pixels on the sensor, µm, above 0, at most that of the sensor's pixels.
+        /// With "image": pixel pitch on the sensor, µm, above 0, at most that of the sensor's pixels.
         optional image_pitch_um: Placed<f64> = number("µm").above(0.0);
-        /// With "image": the wavelength of "image_pitch_um", nm, 300 … 1 100; at others the picture is larger in proportion to the
-        /// wavelength, as diffraction is. Default: the same at all wavelengths.
+        /// With "image": wavelength of "image_pitch_um", nm, 300 … 1 100. The image scales in proportion to the wavelength, as diffraction does.
+        /// Default: equal at all wavelengths.
         optional image_wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
-        /// A table of the lens's modulation, in place of the aperture's function and all of its keys: a round function, the same at all wavelengths and over the
-        /// picture, as a sum of Gaussians. Default: the aperture.
+        /// A table of the lens's MTF, instead of the aperture's function and all its keys: a round function, equal at all wavelengths and over the
+        /// image, as a sum of Gaussians. Default: the aperture.
         optional mtf: ModulationTable = record();
-        /// Points' light at places of the field, in place of the aperture's function and all of its keys but "patches": Zemax's "Huygens PSF" or "FFT PSF"
-        /// saved as text, one file for each place (and wavelength, or all polychromatic). The distance from the axis is that of the file's centre (or reference)
-        /// coordinates, else of its field, by the lens's projection or in mm; the direction turns with the place in the picture. Linear between distances and
-        /// between wavelengths, held beyond; values are divided by their sum. Without "patches" as many as that takes, 11 across at most; functions stand on the
-        /// picture's edges and evenly between. Default: the aperture.
+        /// Point-spread functions over the field, instead of the aperture's function and all its keys except "patches": Zemax's "Huygens PSF" or "FFT
+        /// PSF" saved as text, one file per field point (and wavelength, or all polychromatic). The distance from the axis is that of the file's
+        /// centre (or reference) coordinates, else of its field, by the lens's projection or in mm; the function turns with the direction from the
+        /// axis. Linear between distances and between wavelengths, constant beyond; values are divided by their sum. Without "patches" the number
+        /// follows from the files, 11 across at most; functions are placed on the image's edges and evenly between. Default: the aperture.
         many files: Placed<PathBuf> = list(path(&["txt", "dat"]), 1);
-        /// By what light is spread: "film" by the film's pixels, without noise, but where the function is about as narrow as a pixel contrast is lost;
-        /// "samples" by displacing each sample's place on the sensor, exact however narrow, with some more noise (the film spreads what falls beyond 2.5 px).
-        /// Default: "samples" where samples come through the lens, four fifths of the light fall near, and the film's contrast would be wrong by more than 0.01
-        /// ("image" of one width at all wavelengths, where samples add no noise) or 0.065 (else); the plan tells by how much it is.
+        /// Method of spreading light. "film" convolves the film's pixels: no noise, but contrast is lost where the function is about as narrow as a
+        /// pixel. "samples" displaces each sample on the sensor: exact at any width, with slightly more noise (light beyond 2.5 px is spread by the
+        /// film). Default: "samples" where samples pass through the lens, four fifths of the light fall near, and the film's contrast would be wrong
+        /// by more than 0.01 ("image" of one width at all wavelengths, where samples add no noise) or 0.065 (else); the plan states the error.
+        /// Otherwise "film".
         optional spread_by: Placed<SpreadBy> = choice();
     }
 }
 
 record! {
-    /// Modulation of the lens by the spatial frequency in the picture.
+    /// Modulation of the lens as a function of spatial frequency on the sensor.
     pub struct ModulationTable check(check_modulation) {
-        /// Where its points are.
+        /// Source of the points.
         inside source: ModulationSource;
-        /// With "cycles_per_mm": the modulation at each frequency, 0 … 1; at 0 it is 1 and need not be given.
+        /// With "cycles_per_mm": modulation at each frequency, 0 … 1; at 0 it is 1 and need not be given.
         optional modulation: Vec<Placed<f64>> = list(number("").at_least(0.0).at_most(1.0), 2);
     }
 }
 
 keyed! {
-    /// Where a table of modulation is.
+    /// Source of a table of modulation.
     pub enum ModulationSource {
-        /// Zemax's "FFT MTF" exported as text, or any table of frequency and modulation whose head says "MTF" and "cycles per mm".
+        /// Zemax's "FFT MTF" exported as text, or any table of frequency and modulation whose head contains "MTF" and "cycles per mm".
         file => File(Placed<PathBuf>) = path(&["txt"]);
         /// Spatial frequencies, cycles/mm, rising from above 0.
         cycles_per_mm => Frequencies(Vec<Placed<f64>>) = list(number("cycles/mm").above(0.0), 2);
@@ -129,9 +126,9 @@ fn check_modulation(table: &ModulationTable, faults: &mut Faults) {
 }
 
 words! {
-    /// By what a point-spread function spreads light.
+    /// Method of spreading light by a point-spread function.
     pub enum SpreadBy {
-        /// The film's pixels.
+        /// Convolution of the film's pixels.
         "film" => Film,
         /// Displaced samples.
         "samples" => Samples,
@@ -139,16 +136,16 @@ words! {
 }
 
 record! {
-    /// A Zernike term, of root mean square one over the pupil of the f-number; beyond it, in the corners of blades, it goes on.
+    /// A Zernike term, of root mean square one over the pupil of the f-number; it extends beyond that pupil in the corners of blades.
     pub struct ZernikeTerm check(check_term) {
-        /// Which.
+        /// Index of the term.
         inside index: ZernikeIndex;
-        /// How large.
+        /// Size of the term.
         inside size: TermSize;
-        /// With "rms_waves": of which wavelength, nm, 300 … 1 100.
+        /// With "rms_waves": its wavelength, nm, 300 … 1 100.
         optional wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
-        /// Distances from the axis on the sensor, mm, rising, one for each root mean square; between them it is linear. The
-        /// term is stated for a point to the right of the axis and turns with it. Default: the same everywhere, not turned.
+        /// Distances from the axis on the sensor, mm, rising, one for each root mean square; linear between them. The term is stated for a point to
+        /// the right of the axis and turns with the point. Default: equal everywhere, not turned.
         many field_radius_mm: Placed<f64> = list(number("mm").at_least(0.0), 2);
     }
 }
@@ -156,9 +153,9 @@ record! {
 keyed! {
     /// The index of a Zernike term.
     pub enum ZernikeIndex {
-        /// By Noll (1976), from 1 (piston) to 91: 4 defocus, 7 and 8 coma, 11 spherical aberration.
+        /// Noll's index (1976), from 1 (piston) to 91: 4 defocus, 7 and 8 coma, 11 spherical aberration.
         noll => Noll(Placed<u64>) = whole(1, 91);
-        /// By OSA and ANSI Z80.28, from 0 (piston) to 90: 4 defocus, 7 and 8 coma, 12 spherical aberration.
+        /// Index of OSA and ANSI Z80.28, from 0 (piston) to 90: 4 defocus, 7 and 8 coma, 12 spherical aberration.
         osa => Osa(Placed<u64>) = whole(0, 90);
     }
 }
@@ -226,7 +223,7 @@ fn check_image(psf: &Psf, image: &Place, faults: &mut Faults) {
     check_alone(psf, "image", faults);
 }
 
-/// Refuses keys of the aperture beside a function that is whole by itself.
+/// Refuses keys of the aperture together with a complete function.
 fn check_alone(psf: &Psf, whole: &str, faults: &mut Faults) {
     let shared = |name: &str| name == "patches" && whole == "files";
     for (place, name) in of_aperture(psf).filter(|(_, name)| !shared(name)) {
@@ -235,7 +232,7 @@ fn check_alone(psf: &Psf, whole: &str, faults: &mut Faults) {
     }
 }
 
-/// The keys that describe an aperture's function.
+/// Keys that describe an aperture's function.
 fn of_aperture(psf: &Psf) -> impl Iterator<Item = (&Place, &'static str)> {
     fn place<T>(key: &Option<Placed<T>>) -> Option<&Place> {
         key.as_ref().map(|key| &key.place)
@@ -284,16 +281,16 @@ fn check_term(term: &ZernikeTerm, faults: &mut Faults) {
 }
 
 record! {
-    /// Light scattered over the sensor: of the light of a point the share 1 − s stays, and s is spread with a density in
-    /// proportion to (r₀² + r²)^(−p/2), r the distance on the sensor.
+    /// Light scattered over the sensor: of a point's light the fraction 1 − s is unscattered, and s is spread with a density proportional to (r₀² +
+    /// r²)^(−p/2), where r is the distance on the sensor.
     pub struct Glare {
-        /// The share s, 0 … 0.5: 0.005 to 0.03 for clean lenses, more with dirt.
+        /// Scattered fraction s, 0 … 0.5: 0.005 to 0.03 for clean lenses, more with dirt.
         required scatter: Placed<f64> = number("").at_least(0.0).at_most(0.5);
-        /// The radius r₀ within which scattered light is even, µm, above 0.
+        /// Radius r₀ within which scattered light is nearly uniform, µm, above 0.
         required core_um: Placed<f64> = number("µm").above(0.0);
-        /// The exponent p, above 0; above 2 unless "reach_mm" is given.
+        /// Exponent p, above 0; above 2 unless "reach_mm" is given.
         required exponent: Placed<f64> = number("").above(0.0);
-        /// Where scattered light ends, mm, above 0. Default: nowhere.
+        /// Radius at which scattered light ends, mm, above 0. Default: unlimited.
         optional reach_mm: Placed<f64> = number("mm").above(0.0);
     }
 }

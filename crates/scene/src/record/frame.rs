@@ -1,4 +1,4 @@
-//! `[[frames]]`: what moves and carries objects, lamps and cameras.
+//! `[[frames]]`: coordinate frames that move and carry objects, lamps and cameras.
 
 use etendue_core::ExactTime;
 
@@ -13,45 +13,45 @@ use crate::place::{Place, Placed};
 use crate::reader::{list, name_of, number, record, text, time, vector};
 
 record! {
-    /// A frame that things are placed in, and move with.
+    /// A coordinate frame in which objects, lamps, cameras and other frames are placed, and with which they move.
     pub struct Frame check(check) {
-        /// Its name.
+        /// Name of the frame.
         required name: Placed<String> = text("the name of the frame");
-        /// The frame that it is placed in, and moves with. Default: the world.
+        /// Frame in which it is placed, and with which it moves. Default: the world.
         optional parent: Placed<String> = name_of(Named::Frame);
-        /// Where it is, where it does not move in its parent.
+        /// Placement of a frame that is fixed in its parent.
         inside placement: FramePlacement;
-        /// Where it is over time; one key stands still.
+        /// Placement over time; one key is stationary.
         many keys: FrameKey = list(record(), 1);
-        /// How it moves.
+        /// Motion.
         group course: Course;
-        /// A wheel, which turns by the way that it goes. Default: none.
+        /// A wheel, which turns as it rolls along its path. Default: none.
         optional rolls: Rolls = record();
     }
 }
 
 record! {
-    /// Where a frame is at a time.
+    /// Placement of a frame at a time.
     pub struct FrameKey {
         /// Simulated time, s.
         required time_s: Placed<ExactTime> = time();
-        /// Where it is.
+        /// Placement.
         inside placement: FramePlacement;
     }
 }
 
 record! {
-    /// Where a frame is in its parent: first rotated, then moved. It scales nothing.
+    /// Placement of a frame in its parent: rotation, then translation, without scale.
     pub struct FramePlacement {
-        /// Where its origin is in its parent, m. Default: the parent's origin.
+        /// Position of its origin in its parent, m. Default: the parent's origin.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Yaw, pitch and roll, degrees, as for objects. Default: not turned.
+        /// Yaw, pitch and roll, degrees, as for objects. Default: no rotation.
         optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
     }
 }
 
 impl FramePlacement {
-    /// From the frame to its parent.
+    /// Transform from the frame to its parent.
     #[must_use]
     pub fn to_parent(&self) -> DAffine3 {
         let rotation = self.rotation_deg.as_ref().map_or(DMat3::IDENTITY, |r| yaw_pitch_roll(r.value));
@@ -82,17 +82,17 @@ fn check(frame: &Frame, faults: &mut Faults) {
     check_course(frame.course.as_ref(), frame.keys.iter().map(|key| &key.time_s), faults);
 }
 
-/// Names of a circle that a message tells.
+/// Largest number of names of a circle in a message.
 const MAX_NAMES: usize = 8;
 
-/// Notes every frame that is carried by itself, in time linear in their number.
+/// Reports every frame that is carried by itself, in time linear in their number.
 pub(super) fn check_circles(frames: &[Frame], faults: &mut Faults) {
     let mut places = BTreeMap::new();
     for (place, frame) in frames.iter().enumerate() {
         places.entry(frame.name.value.as_str()).or_insert(place);
     }
     let parent = |place: usize| places.get(frames[place].parent.as_ref()?.value.as_str()).copied();
-    // Of each frame the first from which a walk along the parents came to it.
+    // For each frame the start of the first walk along the parents that reached it.
     let mut reached_from = vec![usize::MAX; frames.len()];
     for start in 0..frames.len() {
         let mut next = Some(start);
@@ -100,7 +100,7 @@ pub(super) fn check_circles(frames: &[Frame], faults: &mut Faults) {
             reached_from[place] = start;
             next = parent(place);
         }
-        // A walk that comes to its own way has found a circle, which no other walk enters anew.
+        // A walk that reaches its own path has found a circle, which no other walk enters again.
         let Some(first) = next.filter(|place| reached_from[*place] == start) else { continue };
         let circle: Vec<usize> =
             std::iter::successors(Some(first), |place| parent(*place).filter(|place| *place != first)).collect();
@@ -108,7 +108,7 @@ pub(super) fn check_circles(frames: &[Frame], faults: &mut Faults) {
     }
 }
 
-/// Notes each frame of a circle, each carried by the next and the last by the first.
+/// Reports each frame of a circle, in which each is carried by the next and the last by the first.
 fn note_circle(circle: &[usize], frames: &[Frame], faults: &mut Faults) {
     let name = |place: usize| frames[circle[place % circle.len()]].name.value.as_str();
     for (place, frame) in circle.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The job: which scene, seen by which cameras, rendered how, written where.
+//! The job: scene, cameras, render settings and outputs.
 
 use serde_json::{Value as Json, json};
 
@@ -15,17 +15,17 @@ use crate::reader::{Form, Key, Kind, Reader, Record, Rule, file_name, list, numb
 use crate::written::{Item, Table};
 
 record! {
-    /// Which scene, seen by which cameras, rendered how.
+    /// A job: scene, cameras, render settings and outputs.
     pub struct Job {
-        /// The scene: the path of a scene file, or the scene itself as a table.
+        /// Scene: path of a scene file, or the scene itself as a table.
         required scene: Scene = file_or_table::<Scene>();
         /// The cameras, one or more.
         required cameras: Vec<CameraEntry> = list(record(), 1);
-        /// When frames are taken. Default: frame 0 at 0 s.
+        /// Times of the frames. Default: frame 0 at 0 s.
         optional sequence: Sequence = record();
-        /// How the light is found. Default: that of each key.
+        /// Light transport and sampling. Default: that of each key.
         optional render: Render = record();
-        /// What is written. Default: that of each key.
+        /// Files that are written. Default: that of each key.
         optional output: Output = record();
     }
 }
@@ -33,20 +33,20 @@ record! {
 record! {
     /// A camera of a job.
     pub struct CameraEntry {
-        /// The name, which becomes part of file names: 100 characters at most, and no device of any system, such as CON.
+        /// Name, which becomes part of file names: at most 100 characters, and no device name of any system, such as CON.
         required name: Placed<String> = file_name("the name of the camera");
         /// The camera.
         inside camera: CameraSource;
-        /// Where it stands and looks.
+        /// Pose.
         inside pose: Pose;
-        /// How much later than the sequence says its frames begin, s; below 0 earlier. Default: 0.
+        /// Delay of its frames relative to the sequence, s; negative is earlier. Default: 0.
         optional trigger_offset_s: Placed<f64> = number("s");
-        /// Greatest deviation of a frame's beginning, s, 0 or more: each is moved by a random time, evenly spread over ± this.
-        /// Default: 0.
+        /// Trigger jitter: greatest deviation of a frame's start, s, 0 or more. Each start is shifted by a random time, uniform over ± this. Default:
+        /// 0.
         optional trigger_jitter_s: Placed<f64> = number("s").at_least(0.0);
-        /// What this camera renders otherwise than the job says.
+        /// Render settings of this camera that differ from the job's.
         optional render: Render = record();
-        /// What this camera writes otherwise than the job says.
+        /// Outputs of this camera that differ from the job's.
         optional output: Output = record();
     }
 }
@@ -85,7 +85,7 @@ impl Record for CameraSource {
     }
 }
 
-/// A record in a file of its own, or in place. Files are read before records are: what arrives here is a table.
+/// A record in a file of its own, or inline. Files are read before records, so a table arrives here.
 fn file_or_table<T: Record>() -> FileOrTable<T> {
     FileOrTable(std::marker::PhantomData)
 }

@@ -1,30 +1,30 @@
-//! A laboratory file: what is known of the pictures of a laboratory folder and does not stand in them.
+//! A laboratory file: facts about the images of a laboratory folder that the images do not contain.
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, vector, whole, words};
 
 record! {
-    /// What `etendue characterise` cannot read in pictures, their EXIF data or side-cars.
+    /// Facts that `etendue characterise` cannot read from images, their EXIF data or side-cars.
     pub struct Laboratory check(check) {
-        /// Distance of the pixels' centres, µm, above 0. Default: as side-cars say.
+        /// Distance between pixel centres, µm, above 0. Default: from side-cars.
         optional pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
-        /// Bits of the converter, 1 … 24. Default: as side-cars say.
+        /// Bits of the ADC, 1 … 24. Default: from side-cars.
         optional bits: Placed<u64> = whole(1, 24);
-        /// The lens's f-number, 0.5 or more. Default: as side-cars or EXIF data say.
+        /// f-number of the lens, 0.5 or more. Default: from side-cars or EXIF data.
         optional f_number: Placed<f64> = number("").at_least(0.5);
-        /// Colour filters of raw pictures, a tile of two by two from the top left, row by row: "RGGB". Default: as side-cars or EXIF data say.
+        /// Colour filters of raw images, a tile of two by two from the top left, row by row: "RGGB". Default: from side-cars or EXIF data.
         optional cfa: Placed<String> = text("four of the letters R, G and B");
-        /// Exposure times of folders of pictures that do not state their own, s, by the folder's path from the laboratory folder:
-        /// `{ "dark/long" = 4.0 }`. The longest path that fits counts.
+        /// Exposure times of folders whose images do not state their own, s, by the folder's path from the laboratory folder: `{ "dark/long" = 4.0
+        /// }`. The longest matching path counts.
         many exposures_s: (Placed<String>, Placed<f64>) = keyed_by_name(number("s").at_least(0.0));
-        /// The light of the pictures in `flat/`. Default: even and steady, of unknown strength.
+        /// Light of the images in `flat/`. Default: uniform and steady, of unknown strength.
         optional flat: FlatLight = record();
-        /// The chart in `chart/`. Default: as the truth.json beside the pictures says.
+        /// Chart in `chart/`. Default: from the truth.json next to the images.
         optional chart: LaboratoryChart = record();
-        /// The slanted edges in `edges/`. Default: as the truth.json beside the pictures says.
+        /// Slanted edges in `edges/`. Default: from the truth.json next to the images.
         optional edges: LaboratoryEdges = record();
-        /// The ColorChecker in `checker/`. Default: as the truth.json beside the pictures says.
+        /// ColorChecker in `checker/`. Default: from the truth.json next to the images.
         optional checker: LaboratoryChecker = record();
     }
 }
@@ -32,7 +32,7 @@ record! {
 record! {
     /// Light on the bare sensor, of one wavelength.
     pub struct FlatLight {
-        /// Photons a second on the whole square of a pixel, above 0.
+        /// Photons per second on the whole square of a pixel, above 0.
         required photons_per_s: Placed<f64> = number("1/s").above(0.0);
         /// Wavelength of the light, nm, 300 … 1 100.
         required wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
@@ -42,7 +42,7 @@ record! {
 words! {
     /// Charts of points.
     pub enum ChartOfPoints {
-        /// Squares, dark and bright; its points are the inner corners.
+        /// Dark and bright squares; its points are the inner corners.
         "checkerboard" => Checkerboard,
         /// A square grid of discs.
         "dots" => Dots,
@@ -52,27 +52,27 @@ words! {
 record! {
     /// A plane chart of points.
     pub struct LaboratoryChart {
-        /// Which. Default: whichever shows more points.
+        /// Type of the chart. Default: the type with more detected points.
         optional target: Placed<ChartOfPoints> = choice();
-        /// Distance of neighbouring points, mm, above 0.
+        /// Distance between neighbouring points, mm, above 0.
         required pitch_mm: Placed<f64> = number("mm").above(0.0);
-        /// Columns and rows of its points; of a checkerboard the inner corners. Default: as found.
+        /// Columns and rows of its points; of a checkerboard the inner corners. Default: as detected.
         optional grid: Placed<[f64; 2]> = vector::<2>(number("").at_least(2.0));
     }
 }
 
 record! {
-    /// Where edges lie.
+    /// Positions of slanted edges.
     pub struct LaboratoryEdges {
-        /// Parts of the pictures that hold one edge each: left column, top row, columns, rows.
+        /// Regions of the images with one edge each: left column, top row, columns, rows.
         many regions_px: Placed<[f64; 4]> = list(vector::<4>(number("px").at_least(0.0)), 1);
     }
 }
 
 record! {
-    /// Where a ColorChecker lies, lit by daylight D65.
+    /// Position of a ColorChecker, lit by daylight D65.
     pub struct LaboratoryChecker {
-        /// Middles of the four corner patches, raster coordinates, px: dark skin, bluish green, black, white.
+        /// Centres of the four corner patches, raster coordinates, px: dark skin, bluish green, black, white.
         required corners_px: Placed<[Placed<[f64; 2]>; 4]> = exactly(vector::<2>(number("px").at_least(0.0)));
     }
 }

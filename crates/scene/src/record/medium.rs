@@ -10,41 +10,41 @@ use crate::reader::{keyed, name_of, number, path, record, text, variants, vector
 use std::path::PathBuf;
 
 record! {
-    /// What fills a part of the world, scatters light and absorbs it. Several add up where they overlap. Ground truth does not see it.
+    /// A participating medium in a part of the world. Overlapping media add up. Ground truth ignores it.
     pub struct Medium check(check) {
-        /// Its name.
+        /// Name of the medium.
         required name: Placed<String> = text("the name of the medium");
-        /// How dense it is.
+        /// Density.
         inside extinction: Extinction;
-        /// Share of the light taken out of a beam that is scattered, 0 … 1; the rest is absorbed. A number or `{ spectrum = file }`. Water
-        /// droplets absorb nothing. Default: 1.
+        /// Single-scattering albedo: fraction of the extinction that is scattered, 0 … 1; the rest is absorbed. A number or `{ spectrum = file }`.
+        /// Water droplets absorb nothing. Default: 1.
         optional albedo: Curve = curve(number("").at_least(0.0).at_most(1.0));
-        /// How light is scattered by angle. Default: water droplets of 12 µm, by Mie's series.
+        /// Phase function. Default: water droplets of 12 µm, by Mie's series.
         optional phase: Phase = record();
-        /// The part of the world that it fills. Default: everywhere.
+        /// Part of the world that it fills. Default: everywhere.
         optional shape: MediumShape = record();
-        /// Where the shape's origin is; of shapes with bounds.
+        /// Placement of the shape; only of shapes with bounds.
         inside transform: Transform;
-        /// The frame that the shape is placed in, and moves with. Default: the world.
+        /// Frame in which the shape is placed, and with which it moves. Default: the world.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// How its density changes from place to place. Default: it is the same everywhere.
+        /// Spatial variation of the density. Default: homogeneous.
         optional unevenness: Unevenness = record();
     }
 }
 
 keyed! {
-    /// How much light a medium takes out of a beam.
+    /// Extinction of a medium.
     pub enum Extinction {
-        /// How far one sees in it: `{ distance_m, contrast }`.
+        /// Visibility in the medium: `{ distance_m, contrast }`.
         visibility => Visibility(Visibility) = record();
-        /// Extinction coefficient, 1/m, 0 or more: a number (the same at all wavelengths) or `{ spectrum = file }`.
+        /// Extinction coefficient, 1/m, 0 or more: a number (constant over wavelength) or `{ spectrum = file }`.
         extinction_per_m => PerMetre(Curve) = curve(number("1/m").at_least(0.0).at_most(1e6));
     }
 }
 
 record! {
-    /// The distance at which a black object's contrast against the horizon has fallen to a threshold; the extinction coefficient is
-    /// −ln(contrast)/distance (Koschmieder 1924), at all wavelengths alike.
+    /// The distance at which the contrast of a black object against the horizon falls to a threshold. The extinction coefficient is
+    /// −ln(contrast)/distance (Koschmieder 1924), equal at all wavelengths.
     pub struct Visibility {
         /// The distance, m, above 0.
         required distance_m: Placed<f64> = number("m").above(0.0);
@@ -54,18 +54,18 @@ record! {
 }
 
 variants! {
-    /// How light is scattered by angle.
+    /// Phase function.
     pub enum Phase by "type" {
         /// Water droplets, by Mie's series.
         "water_droplets" => WaterDroplets(WaterDroplets),
-        /// The fit of Jendersie and d'Eon (2023) to it: quicker to prepare, and four to five times too dark straight back, where head lamps
-        /// are seen in fog.
+        /// The fit of Jendersie and d'Eon (2023) to Mie's series: quicker to prepare, but four to five times too dark for backscatter, as of
+        /// headlamps in fog.
         "water_droplets_fit" => WaterDropletsFit(WaterDropletsFit),
         /// Henyey and Greenstein's function.
         "henyey_greenstein" => HenyeyGreenstein(HenyeyGreenstein),
-        /// Molecules of air.
+        /// Rayleigh scattering by molecules of air.
         "rayleigh" => Rayleigh(Rayleigh),
-        /// All directions alike.
+        /// Equal in all directions.
         "isotropic" => Isotropic(Isotropic),
     }
 }
@@ -73,7 +73,7 @@ variants! {
 record! {
     /// Droplets of log-normal sizes (a factor of 1.35 is one standard deviation).
     pub struct WaterDroplets {
-        /// Their median diameter by number, µm, 0.1 … 60: some 5 to 20 in fog.
+        /// Median diameter by number, µm, 0.1 … 60: about 5 to 20 in fog.
         required diameter_um: Placed<f64> = number("µm").at_least(0.1).at_most(60.0);
     }
 }
@@ -81,7 +81,7 @@ record! {
 record! {
     /// Droplets of a mean diameter.
     pub struct WaterDropletsFit {
-        /// Their diameter, µm, 5 … 50.
+        /// Diameter, µm, 5 … 50.
         required diameter_um: Placed<f64> = number("µm").at_least(5.0).at_most(50.0);
     }
 }
@@ -100,20 +100,20 @@ record! {
 }
 
 record! {
-    /// Even: no keys.
+    /// Isotropic: no keys.
     pub struct Isotropic {}
 }
 
 variants! {
     /// A part of the world.
     pub enum MediumShape by "type" {
-        /// All of it, without end: no light from infinity comes through.
+        /// The whole world, unlimited: no light from infinity is transmitted.
         "everywhere" => Everywhere(Everywhere),
         /// Below a height, such as a layer of fog under a clear sky.
         "layer" => Layer(Layer),
         /// A box about its origin.
         "box" => Box(MediumBox),
-        /// A ball about its origin.
+        /// A sphere about its origin.
         "sphere" => Sphere(MediumSphere),
         /// The inside of a closed mesh.
         "mesh" => Mesh(MediumMesh),
@@ -128,7 +128,7 @@ record! {
 record! {
     /// Below a height.
     pub struct Layer {
-        /// Height of its upper end over its origin, m.
+        /// Height of its top above its origin, m.
         required top_m: Placed<f64> = number("m");
     }
 }
@@ -136,22 +136,22 @@ record! {
 record! {
     /// A box about its origin.
     pub struct MediumBox {
-        /// Its size along x, y and z, m, above 0.
+        /// Size along x, y and z, m, above 0.
         required size_m: Placed<[f64; 3]> = vector::<3>(number("m").above(0.0));
     }
 }
 
 record! {
-    /// A ball about its origin.
+    /// A sphere about its origin.
     pub struct MediumSphere {
-        /// Its radius, m, above 0.
+        /// Radius, m, above 0.
         required radius_m: Placed<f64> = number("m").above(0.0);
     }
 }
 
 record! {
-    /// The inside of a mesh without open edges, in the axes of its file: where a ray has crossed its surface an odd number of times. Parts that
-    /// overlap are outside, as a part within another one is a hollow.
+    /// The inside of a mesh without open edges, in the axes of its file: points from which a ray crosses the surface an odd number of times. Where
+    /// parts overlap is outside, as a part within another is a hollow.
     pub struct MediumMesh {
         /// The file (Wavefront OBJ).
         required file: Placed<PathBuf> = path(&["obj"]);
@@ -163,17 +163,17 @@ record! {
 record! {
     /// Gradient noise (Perlin 2002) of mean 0, in the world's frame, about the mean density.
     pub struct Unevenness {
-        /// The greatest deviation of the density from its mean, as a share of it, 0 … 1.
+        /// Greatest relative deviation of the density from its mean, 0 … 1.
         required amplitude: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// Size of the largest clouds, m, above 0.
         required scale_m: Placed<f64> = number("m").above(0.0);
-        /// Octaves, each of half the size of the one before, 1 … 12. Default: 4.
+        /// Octaves, each of half the size of the preceding one, 1 … 12. Default: 4.
         optional octaves: Placed<u64> = whole(1, 12);
-        /// Strength of an octave beside the one before, 0 … 1. Default: 0.5.
+        /// Amplitude of an octave over that of the preceding one, 0 … 1. Default: 0.5.
         optional gain: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// Velocity by which the noise drifts through the medium, m/s. Default: none.
+        /// Drift velocity of the noise through the medium, m/s. Default: none.
         optional wind_m_s: Placed<[f64; 3]> = vector::<3>(number("m/s"));
-        /// Which noise of all. Default: 0.
+        /// Seed of the noise. Default: 0.
         optional seed: Placed<u64> = whole(0, u64::from(u32::MAX));
     }
 }
@@ -184,7 +184,7 @@ fn check(medium: &Medium, faults: &mut Faults) {
     check_gain(medium.unevenness.as_ref(), faults);
 }
 
-/// Refuses a place of what is everywhere.
+/// Refuses a placement of a medium that is everywhere.
 pub(super) fn check_place(shape: Option<&MediumShape>, placed: Option<&Place>, faults: &mut Faults) {
     let endless = matches!(shape, None | Some(MediumShape::Everywhere(_)));
     if let (true, Some(place)) = (endless, placed) {
@@ -197,7 +197,7 @@ pub(super) fn check_place(shape: Option<&MediumShape>, placed: Option<&Place>, f
     }
 }
 
-/// Refuses the gain of octaves that are not there.
+/// Refuses the gain of absent octaves.
 pub(super) fn check_gain(unevenness: Option<&Unevenness>, faults: &mut Faults) {
     let idle = unevenness
         .and_then(|u| u.gain.as_ref().filter(|_| u.octaves.as_ref().is_some_and(|octaves| octaves.value == 1)));

@@ -11,16 +11,16 @@ use crate::place::Placed;
 use crate::reader::{choice, keyed, number, path, record, text, words};
 
 record! {
-    /// A triangle mesh. Objects place it in the world; it may be placed many times.
+    /// A triangle mesh. Objects place it in the world, any number of times.
     pub struct Mesh check(check) {
-        /// The name by which objects call it.
+        /// Name by which objects refer to it.
         required name: Placed<String> = text("the name of the mesh");
-        /// Where its vertices and faces stand.
+        /// Source of its vertices and faces.
         inside source: MeshSource;
-        /// Which axis of the file points upwards. A glTF file says it itself, +y, and forward is +z: there it is left out; other files need it.
+        /// Axis of the file that points up. Required, except for glTF files, which state it (+y up, +z forward): there it is omitted.
         optional up_axis: Placed<Axis> = choice();
-        /// Which axis of the file points forward (the world's +x). Default: the axis that follows the up axis in the
-        /// circle x, y, z (up z: forward x; up y: forward z; up x: forward y), with a plus.
+        /// Axis of the file that points forward (the world's +x). Default: the axis that follows the up axis in the cycle x, y, z (up z: forward x;
+        /// up y: forward z; up x: forward y), with a plus.
         optional forward_axis: Placed<Axis> = choice();
         /// Metres per unit of the file. Default: 1.
         optional scale: Placed<f64> = number("m").above(0.0);
@@ -28,12 +28,12 @@ record! {
 }
 
 keyed! {
-    /// Where the vertices and faces of a mesh stand.
+    /// Source of the vertices and faces of a mesh.
     pub enum MeshSource {
-        /// The file: Wavefront OBJ, glTF 2.0, or PLY. Its coordinates may be a survey's or a map's: they are kept to 3e-8 of the mesh's own
-        /// extent however far from the file's origin it lies.
+        /// The file: Wavefront OBJ, glTF 2.0, or PLY. Its coordinates may be those of a survey or a map: they are kept to 3e-8 of the mesh's own
+        /// extent at any distance from the file's origin.
         file => File(Placed<PathBuf>) = path(&["obj", "glb", "gltf", "ply"]);
-        /// Vertices that move, from several files.
+        /// Moving vertices, from several files.
         vertex_animation => VertexAnimation(Box<VertexAnimation>) = record();
     }
 }
@@ -76,7 +76,7 @@ impl Axis {
         }
     }
 
-    /// The forward axis where the file is silent.
+    /// The default forward axis of a file that does not state one.
     fn default_forward(self) -> Self {
         match self {
             Self::X | Self::MinusX => Self::Y,
@@ -87,7 +87,7 @@ impl Axis {
 }
 
 impl Mesh {
-    /// The file that says its faces and materials: of vertices that move the first one.
+    /// File with the faces and materials: of moving vertices the first one.
     #[must_use]
     pub fn file(&self) -> Placed<PathBuf> {
         match &self.source {
@@ -96,7 +96,7 @@ impl Mesh {
         }
     }
 
-    /// How its vertices move; `None` where they do not.
+    /// Motion of its vertices; `None` if they do not move.
     #[must_use]
     pub fn animation(&self) -> Option<&VertexAnimation> {
         match &self.source {
@@ -105,25 +105,25 @@ impl Mesh {
         }
     }
 
-    /// The axis of the file that becomes the world's +z: that of glTF where nothing is said.
+    /// Axis of the file that becomes the world's +z; by default that of glTF.
     #[must_use]
     pub fn up(&self) -> Axis {
         self.up_axis.as_ref().map_or(Axis::Y, |a| a.value)
     }
 
-    /// The axis of the file that becomes the world's +x.
+    /// Axis of the file that becomes the world's +x.
     #[must_use]
     pub fn forward(&self) -> Axis {
         self.forward_axis.as_ref().map_or(self.up().default_forward(), |a| a.value)
     }
 
-    /// From the axes and units of the file to an object's (x forward, y left, z up; m): a rotation times the scale.
+    /// Matrix from the axes and units of the file to an object's (x forward, y left, z up; m): a rotation times the scale.
     #[must_use]
     pub fn to_object(&self) -> DMat3 {
         self.axes() * self.scale.as_ref().map_or(1.0, |s| s.value)
     }
 
-    /// The rotation from the axes of the file to an object's.
+    /// Rotation from the axes of the file to an object's.
     #[must_use]
     pub fn axes(&self) -> DMat3 {
         let (forward, up) = (self.forward().vector(), self.up().vector());
@@ -144,7 +144,7 @@ fn check(mesh: &Mesh, faults: &mut Faults) {
     }
 }
 
-/// A glTF file says its axes, other files do not.
+/// Checks that "up_axis" is given, except for a glTF file, which states its axes.
 fn check_up(mesh: &Mesh, faults: &mut Faults) {
     let file = mesh.file();
     match (&mesh.up_axis, is_gltf(&file)) {

@@ -1,4 +1,4 @@
-//! The records: what each table of a description may say. One file a table.
+//! Records: the keys of each table of a description. One file per table.
 //!
 //! Every public field is a key of the file (or, where it is a record without a key of its own, keys of the same
 //! table), in the unit that its suffix names. Paths are resolved: relative to where the job's path is.

@@ -26,12 +26,12 @@ pub struct TimeOfDay {
     pub seconds: u32,
 }
 
-/// A day, `2026-06-21`.
+/// The rule of a date, `2026-06-21`.
 pub(crate) const fn date() -> DateRule {
     DateRule
 }
 
-/// A time of the day, `09:30:00`.
+/// The rule of a time of the day, `09:30:00`.
 pub(crate) const fn time_of_day() -> TimeRule {
     TimeRule
 }
@@ -116,7 +116,7 @@ fn parse_time(text: &str) -> Option<TimeOfDay> {
     legal.then_some(TimeOfDay { seconds: 3600 * hour + 60 * minute + second })
 }
 
-/// Three numbers of so many digits.
+/// Parses three numbers with the given numbers of digits.
 fn fields(text: &str, separator: char, digits: [usize; 3]) -> Option<[u32; 3]> {
     let parts: Vec<&str> = text.split(separator).collect();
     let plain = |part: &str, digits: usize| part.len() == digits && part.bytes().all(|b| b.is_ascii_digit());

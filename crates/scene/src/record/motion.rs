@@ -1,4 +1,4 @@
-//! Motion: what objects, frames, lamps and cameras that move say alike.
+//! Motion: common keys of moving objects, frames, lamps and cameras.
 
 use etendue_core::ExactTime;
 use etendue_core::track::Interpolation;
@@ -12,19 +12,19 @@ use crate::place::{Place, Placed};
 use crate::reader::{choice, number, path, record, time, words};
 
 words! {
-    /// The axes of a file of places over time, both of the world and of what moves.
+    /// Axes of a trajectory file, for the world and for the moving object.
     pub enum TrajectoryAxes {
         /// x forward, y left, z up (ISO 8855, REP-103); of the world also east, north, up.
         "flu" => Flu,
         /// x forward, y right, z down (SAE J670); of the world also north, east, down.
         "frd" => Frd,
-        /// x right, y down, z forward: places of cameras as visual odometry writes them.
+        /// x right, y down, z forward: poses of cameras as written by visual odometry.
         "rdf" => Rdf,
     }
 }
 
 impl TrajectoryAxes {
-    /// From the file's axes to x forward, y left, z up.
+    /// Rotation from the file's axes to x forward, y left, z up.
     #[must_use]
     pub fn to_world(self) -> DMat3 {
         match self {
@@ -34,7 +34,7 @@ impl TrajectoryAxes {
         }
     }
 
-    /// A row in axes x forward, y left, z up, of the world and of what moves.
+    /// Converts a row to axes x forward, y left, z up, for the world and for the moving object.
     #[must_use]
     pub fn turned(self, row: &TrajectoryRow) -> TrajectoryRow {
         let turn = DQuat::from_mat3(&self.to_world());
@@ -47,38 +47,37 @@ impl TrajectoryAxes {
 }
 
 record! {
-    /// Keys from a file, as loggers write them.
+    /// Keys from a file, as written by loggers.
     pub struct Trajectory {
-        /// The file: CSV with a line of column names, or a JSON list of objects. `time_s`, `x_m`, `y_m`, `z_m`, and either `qw`,
-        /// `qx`, `qy`, `qz` or `yaw_deg`, `pitch_deg`, `roll_deg`; without rotations nothing turns. In any order; other columns are
-        /// not read.
+        /// The file: CSV with a line of column names, or a JSON list of objects. `time_s`, `x_m`, `y_m`, `z_m`, and either `qw`, `qx`, `qy`, `qz` or
+        /// `yaw_deg`, `pitch_deg`, `roll_deg`; without them there is no rotation. In any order; other columns are not read.
         required file: Placed<PathBuf> = path(&["csv", "json"]);
-        /// Added to the file's times, s. Default: 0.
+        /// Offset added to the file's times, s. Default: 0.
         optional time_offset_s: Placed<ExactTime> = time();
-        /// What the file's axes point at. Default: "flu", those of the world.
+        /// Directions of the file's axes. Default: "flu", those of the world.
         optional axes: Placed<TrajectoryAxes> = choice();
     }
 }
 
 record! {
-    /// How something moves.
+    /// Motion between keys.
     pub struct Course {
-        /// How it moves from key to key, or from row to row of the trajectory. Default: "linear".
+        /// Interpolation between keys, or between rows of the trajectory. Default: "linear".
         optional interpolation: Placed<Interpolation> = choice();
-        /// Where it is over time, from a file.
+        /// Positions over time, from a file.
         optional trajectory: Trajectory = record();
     }
 }
 
 record! {
-    /// A wheel: it turns about its y axis by the way that its own origin goes in the world along its x axis, without slipping.
+    /// A wheel: it turns about its y axis as its origin moves in the world along its x axis, without slipping.
     pub struct Rolls {
-        /// Radius on which it rolls, m, above 0.
+        /// Rolling radius, m, above 0.
         required radius_m: Placed<f64> = number("m").above(0.0);
     }
 }
 
-/// Where something is, is said once.
+/// Checks that the placement is stated once.
 pub(super) fn check_ways(
     ways: impl IntoIterator<Item = Option<(&'static str, Place)>>,
     what: &str,
@@ -96,12 +95,12 @@ pub(super) fn check_ways(
     }
 }
 
-/// The trajectory as a way of saying where something is.
+/// The trajectory as a statement of the placement.
 pub(super) fn trajectory_way(course: Option<&Course>) -> Option<(&'static str, Place)> {
     course?.trajectory.as_ref().map(|trajectory| ("\"trajectory\"", trajectory.place.clone()))
 }
 
-/// What contradicts keys at these times.
+/// Reports contradictions of keys at these times.
 pub(super) fn check_course<'a>(
     course: Option<&Course>,
     times: impl Iterator<Item = &'a Placed<ExactTime>>,
@@ -141,7 +140,7 @@ fn check_order(before: &Placed<ExactTime>, after: &Placed<ExactTime>, faults: &m
 mod tests {
     use super::*;
 
-    /// What goes forward and turns right in each convention does so in the world; a yaw about a z axis that points down turns right.
+    /// Forward motion and a right turn in each convention remain so in the world; a yaw about a z axis that points down turns right.
     #[test]
     fn axes_are_turned_as_a_whole() {
         let quarter = |axis: DVec3| DQuat::from_axis_angle(axis, core::f64::consts::FRAC_PI_2);

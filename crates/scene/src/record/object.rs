@@ -1,4 +1,4 @@
-//! `[[objects]]`: what stands where, of which material and class.
+//! `[[objects]]`: shapes and meshes placed in the world, with material and class.
 
 use etendue_core::ExactTime;
 
@@ -10,38 +10,37 @@ use crate::place::Placed;
 use crate::reader::{keyed, keyed_by_name, list, name_of, number, record, text, time};
 
 record! {
-    /// A mesh or a shape in the world, once or many times.
+    /// A mesh or a shape in the world, with one or more instances.
     pub struct Object check(check) {
-        /// Its name.
+        /// Name of the object.
         required name: Placed<String> = text("the name of the object");
-        /// What it is.
+        /// Mesh or shape.
         inside body: Body;
-        /// The material of all of it. A mesh may do without: then its own file says its materials.
+        /// Material of the whole object. Optional for a mesh: the default is the materials of its file.
         optional material: Placed<String> = name_of(Named::Material);
-        /// Materials by the names that the mesh's file gives them: `{ "car_paint" = "red" }`. Names that are not listed
-        /// keep what the mesh's file says.
+        /// Materials by their names in the mesh's file: `{ "car_paint" = "red" }`. Names that are not listed keep the materials of the file.
         many materials: (Placed<String>, Placed<String>) = keyed_by_name(name_of(Named::Material));
         /// The semantic class, a name in `[classes]`. Default: class 0.
         optional class: Placed<String> = name_of(Named::Class);
-        /// Where it stands, where it stands once.
+        /// Placement of an object with one instance.
         inside transform: Transform;
-        /// Where it stands over time; one key stands still.
+        /// Placement over time; one key is stationary.
         many keys: Keyframe = list(record(), 1);
-        /// How it moves.
+        /// Motion.
         group course: Course;
-        /// The frame that it is placed in, and moves with. Default: the world.
+        /// Frame in which it is placed, and with which it moves. Default: the world.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// A wheel, which turns by the way that it goes. Default: none.
+        /// A wheel, which turns as it rolls along its path. Default: none.
         optional rolls: Rolls = record();
-        /// Where it stands, where it stands many times; every instance has an identity of its own in the ground truth.
+        /// Instances; each has an identity of its own in the ground truth.
         many instances: Instance = list(record(), 1);
     }
 }
 
 keyed! {
-    /// What an object is.
+    /// Mesh or shape of an object.
     pub enum Body {
-        /// The name of a mesh.
+        /// Name of a mesh.
         mesh => Mesh(Placed<String>) = name_of(Named::Mesh);
         /// A shape: a table with "type" and the keys of that type.
         shape => Shape(Shape) = record();
@@ -49,25 +48,25 @@ keyed! {
 }
 
 record! {
-    /// Where an object stands at a time.
+    /// Placement of an object at a time.
     pub struct Keyframe {
         /// Simulated time, s.
         required time_s: Placed<ExactTime> = time();
-        /// Where it stands.
+        /// Placement.
         inside transform: Transform;
     }
 }
 
 record! {
-    /// One of the places where an object stands.
+    /// An instance of an object.
     pub struct Instance {
-        /// Its name. Default: the object's name and its number.
+        /// Name of the instance. Default: the object's name and a number.
         optional name: Placed<String> = text("the name of the instance");
-        /// The frame that it is placed in, and moves with. Default: the object's.
+        /// Frame in which it is placed, and with which it moves. Default: the object's.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// By how much the "modulation" of all its light is later here, s, besides its own delay. Default: 0.
+        /// Delay of the "modulation" of all its emission at this instance, s, added to its own delay. Default: 0.
         optional modulation_delay_s: Placed<f64> = number("s");
-        /// Where it stands.
+        /// Placement.
         inside transform: Transform;
     }
 }
@@ -79,7 +78,7 @@ fn check(object: &Object, faults: &mut Faults) {
     check_materials(object, faults);
 }
 
-/// A wheel turns within its scale, which therefore stays one.
+/// Refuses a scale along the axes of a wheel, which turns within its scale.
 fn check_rolls(object: &Object, faults: &mut Faults) {
     let scales = object.keys.iter().filter_map(|key| key.transform.scale.as_ref());
     for scale in scales.filter(|_| object.rolls.is_some()) {
@@ -92,7 +91,7 @@ fn check_rolls(object: &Object, faults: &mut Faults) {
     }
 }
 
-/// An object says once where it stands.
+/// Checks that the placement of an object is stated once.
 fn check_placement(object: &Object, faults: &mut Faults) {
     let own =
         object.transform.is_given().then(|| ("\"position_m\", \"rotation_deg\", \"scale\"", object.place.clone()));

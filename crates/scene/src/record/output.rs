@@ -1,24 +1,24 @@
-//! `[output]`: what is written. `None` everywhere means: the plan decides.
+//! `[output]`: files that are written. `None` means that the plan decides.
 
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, flag, number, record, text, variant, words};
 use etendue_core::RawFormat;
 
 record! {
-    /// What is written.
+    /// Files that are written.
     pub struct Output {
-        /// Spectral radiance at the entrance pupil, spectral EXR: what `etendue expose` takes, rendered with route "pupil".
-        /// Default: true for a sensor without electronics, else false.
+        /// Spectral radiance at the entrance pupil, spectral EXR, rendered with route "pupil": the input of `etendue expose`. Default: true for a
+        /// sensor without electronics, else false.
         optional radiance: Placed<bool> = flag();
         /// Spectral irradiance on the sensor plane, spectral EXR. Default: false.
         optional irradiance: Placed<bool> = flag();
-        /// The part of the irradiance that is ghosts, spectral EXR; needs ghosts = true in `[effects]`. Default: false.
+        /// The ghosts' part of the irradiance, spectral EXR; needs ghosts = true in `[effects]`. Default: false.
         optional ghosts: Placed<bool> = flag();
-        /// Variance of the mean of what is estimated, EXR; needs two replicates or more. Default: false.
+        /// Variance of the mean of the estimated quantities, EXR; needs two replicates or more. Default: false.
         optional variance: Placed<bool> = flag();
-        /// How many samples each pixel got (layer "samples"), the variance of its mean by them ("monte_carlo_variance") and, where pixels sum
-        /// electrons, that of the sensor's noise in one frame ("sensor_variance"), both in e⁻² of the described exposure ((W/m²)² of irradiance without
-        /// electrons), EXR; of the first capture. Variances need pixels that sum electrons, or "noise_threshold". Default: false.
+        /// Number of samples per pixel (layer "samples"), variance of the pixel's mean from them ("monte_carlo_variance") and, where pixels sum
+        /// electrons, variance of the sensor's noise in one frame ("sensor_variance"), EXR; of the first capture. Variances are in e⁻² of the
+        /// described exposure, or (W/m²)² of irradiance without electrons. They need pixels that sum electrons, or "noise_threshold". Default: false.
         optional sampling: Placed<bool> = flag();
         /// Expected electrons of each pixel, EXR. Default: false.
         optional electrons: Placed<bool> = flag();
@@ -26,67 +26,65 @@ record! {
         optional raw: Placed<bool> = flag();
         /// File format of the digital numbers. Default: "png", or "tiff" where they have more than 16 bits.
         optional raw_format: Placed<RawFormat> = choice();
-        /// What each pixel's digital number is made of, one layer a component, in electrons, EXR. Default: false.
+        /// Components of each pixel's digital number, one layer each, in electrons, EXR. Default: false.
         optional signal_breakdown: Placed<bool> = flag();
-        /// The picture, 8-bit PNG. Default: true for a camera with `[isp]`.
+        /// The processed image, 8-bit PNG. Default: true for a camera with `[isp]`.
         optional picture: Placed<bool> = flag();
-        /// Depth, distance, normals, positions and identities of the ground truth, EXR. The depth along the camera's axis is NaN where
-        /// a pixel looks sideways, back or at a mirror: "camera_space_position" has a signed z there. Default: true.
+        /// Depth, distance, normals, positions and identities of the ground truth, EXR. Depth along the camera's axis is NaN where a pixel looks
+        /// sideways, back or at a mirror; "camera_space_position" has a signed z there. Default: true.
         optional ground_truth: Placed<bool> = flag();
-        /// With "ground_truth": the position in the camera's frame as well (m; x right, y down, z forward, negative behind the
-        /// camera; from the centre of the entrance pupil), layers "P_camera.X", ".Y" and ".Z". Default: false.
+        /// With "ground_truth": adds the position in the camera's frame (m; x right, y down, z forward, negative behind the camera; from the centre
+        /// of the entrance pupil), layers "P_camera.X", ".Y" and ".Z". Default: false.
         optional camera_space_position: Placed<bool> = flag();
-        /// What weather does to each pixel, of a scene with `[[media]]` or `[precipitation]`: "transmittance.exr", the share of light at 587.56 nm
-        /// that comes unscattered from the first surface; "airlight.exr", the part of the spectral radiance that was scattered in before it; and where
-        /// something falls "cover.exr", the share of pixel and exposure that near drops or flakes cover. In the raster of "radiance". Takes the time of
-        /// the light once more. Default: false.
+        /// Effect of weather on each pixel, in a scene with `[[media]]` or `[precipitation]`. "transmittance.exr": fraction of light at 587.56 nm
+        /// that comes unscattered from the first surface; "airlight.exr": spectral radiance scattered in before that surface; with precipitation
+        /// "cover.exr": fraction of pixel and exposure that near drops or flakes cover. In the raster of "radiance". Takes the time of the light once
+        /// more. Default: false.
         optional weather: Placed<bool> = flag();
         /// Depth as 16-bit PNG. Default: false.
         optional depth_png: Placed<bool> = flag();
-        /// With "depth_png": numbers per metre, above 0, or a data set's convention: "kitti" (256 per m), "ros" (1 000 per
-        /// m), "tum" (5 000 per m). Default: "kitti".
+        /// With "depth_png": digital numbers per metre, above 0, or the convention of a data set: "kitti" (256 per m), "ros" (1 000 per m), "tum" (5
+        /// 000 per m). Default: "kitti".
         optional depth_png_scale: DepthScale = depth_scale();
-        /// Origin (m) and unit direction of each pixel's principal ray in the camera's frame, EXR: with the distance of the
-        /// ground truth any pixel can be put back into space. Default: false.
+        /// Origin (m) and unit direction of each pixel's principal ray in the camera's frame, EXR. With the distance of the ground truth they give
+        /// the position of any pixel in space. Default: false.
         optional rays: Placed<bool> = flag();
-        /// The same ground truth, rays and picture once more in a folder "undistorted": those of the rectilinear twin with the same
-        /// pose and pupil, whose camera matrix the side-car states. Cameras that see 85° from the axis or more have none.
-        /// Default: false.
+        /// Ground truth, rays and image of the rectilinear twin with the same pose and pupil, in a folder "undistorted". The side-car states its
+        /// camera matrix. Not available for cameras that see 85° from the axis or more. Default: false.
         optional undistorted: Placed<bool> = flag();
-        /// With "undistorted": the twin's focal length over the camera's own, above 0; below 1 it shows more of a picture that
-        /// barrels. Default: 1.
+        /// With "undistorted": focal length of the twin over the camera's own, above 0; below 1 it shows more of an image with barrel distortion.
+        /// Default: 1.
         optional undistorted_scale: Placed<f64> = number("").above(0.0);
-        /// Where what each pixel sees is seen in the next frame and in the one before (px), whether it is seen there, and how fast its image
-        /// moves (px/s): the layers "flow", "visibility" and "motion_vector" of "motion.exr". Needs `[sequence]`. "exr": these alone;
-        /// "middlebury", "kitti": the flow to the next frame as .flo or 16-bit PNG as well. Default: none.
+        /// Optical flow of each pixel to the next and to the previous frame (px), its visibility there, and the velocity of its image (px/s): layers
+        /// "flow", "visibility" and "motion_vector" of "motion.exr". Needs `[sequence]`. "exr": these alone; "middlebury", "kitti": also the flow to
+        /// the next frame as .flo or 16-bit PNG. Default: none.
         optional optical_flow: Placed<CorrespondenceFormat> = choice();
-        /// How what each pixel sees moves in space: to the next frame and the one before (m, cameras' frames) and in the world (m/s), the layers
-        /// "scene_flow" and "velocity" of "motion.exr". Needs `[sequence]`. Default: false.
+        /// Scene flow of each pixel to the next and to the previous frame (m, cameras' frames) and velocity in the world (m/s): layers "scene_flow"
+        /// and "velocity" of "motion.exr". Needs `[sequence]`. Default: false.
         optional scene_flow: Placed<bool> = flag();
-        /// The name of a camera to the right whose view is rectified with this one's: how much farther left it sees what each pixel sees (px), and
-        /// whether it does, "disparity.exr". Default: none.
+        /// Name of the right camera of a pair rectified with this one. Writes the disparity of each pixel (px; how much farther left the right camera
+        /// sees its point) and its visibility there, "disparity.exr". Default: none.
         optional disparity_to: Placed<String> = text("the name of the right camera");
-        /// With "disparity_to": "exr", that file alone; "middlebury", "kitti": .pfm or 16-bit PNG as well. Default: "exr".
+        /// With "disparity_to": "exr", that file alone; "middlebury", "kitti": also .pfm or 16-bit PNG. Default: "exr".
         optional disparity_format: Placed<CorrespondenceFormat> = choice();
-        /// Boxes of the objects, in the picture (what is seen, and the whole object) and in space, with the part that is seen and the part that lies
-        /// within the picture, JSON. Default: false.
+        /// Boxes of the objects, in the image (visible part, and whole object) and in space, with the visible fraction and the fraction within the
+        /// image, JSON. Default: false.
         optional boxes: Placed<bool> = flag();
-        /// With "boxes": the boxes of all frames of the run once more in one file, object by object, "tracks.json". Default: false.
+        /// With "boxes": also the boxes of all frames of the run in one file, by object, "tracks.json". Default: false.
         optional tracks: Placed<bool> = flag();
-        /// Which objects and materials each pixel sees and how much of it each covers, through the lens and over the exposure, by as many samples as the light has
-        /// (64 at most): "cryptomatte.exr", of Psyop's specification 1.2. Default: false.
+        /// Coverage of each pixel by objects and materials, through the lens and over the exposure, by as many samples as the light has (64 at most):
+        /// "cryptomatte.exr", Psyop's specification 1.2. Default: false.
         optional cryptomatte: Placed<bool> = flag();
-        /// The pictures of all frames of the run as one video, "picture.y4m"; needs `[isp]` with pictures of 8 bits as PNG, and
-        /// `[sequence]`. Default: none.
+        /// Images of all frames of the run as one video, "picture.y4m"; needs `[isp]` with 8-bit PNG images, and `[sequence]`. Default: none.
         optional video: Placed<VideoFormat> = choice();
-        /// Where this camera stands and how it projects, for other programs: in the folder "calibration" beside the cameras' own, files
-        /// of all cameras that ask for them, as ROS, Kalibr and COLMAP know them. Default: false.
+        /// Pose and projection of this camera for other programs: files for ROS, Kalibr and COLMAP, of all cameras with this key, in the folder
+        /// "calibration" next to the cameras' own. Default: false.
         optional calibration_files: Placed<bool> = flag();
     }
 }
 
 words! {
-    /// The files of optical flow or disparity.
+    /// File formats of optical flow or disparity.
     pub enum CorrespondenceFormat {
         /// EXR.
         "exr" => Exr,
@@ -98,14 +96,14 @@ words! {
 }
 
 words! {
-    /// A file format of videos.
+    /// A video file format.
     pub enum VideoFormat {
-        /// YUV4MPEG2: not compressed, 8 bits, 4:4:4, the matrix of ITU-R BT.709 in limited range.
+        /// YUV4MPEG2: uncompressed, 8 bits, 4:4:4, the matrix of ITU-R BT.709 in limited range.
         "y4m" => Y4m,
     }
 }
 
-/// How depths become numbers.
+/// Scale of depth in a PNG.
 #[derive(Clone, Debug)]
 pub enum DepthScale {
     /// Numbers per metre.
@@ -115,7 +113,7 @@ pub enum DepthScale {
 }
 
 words! {
-    /// The convention of a data set for depths.
+    /// The depth convention of a data set.
     pub enum DepthConvention {
         /// 256 per metre.
         "kitti" => Kitti,

@@ -1,40 +1,40 @@
-//! The keys of `[render]` that only integrator = "path" needs.
+//! The keys of `[render]` that belong to integrator = "path".
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{among, flag, record, whole};
 
 record! {
-    /// What only paths need.
+    /// Settings of the path integrator.
     pub struct PathKeys {
-        /// Surfaces that a path meets at most, 1 … 1 024; belongs to integrator = "path". Default: 16, or as `--quality` says.
+        /// Maximum number of surfaces along a path, 1 … 1 024. Belongs to integrator = "path". Default: 16, or as set by `--quality`.
         optional max_bounces: Placed<u64> = whole(1, 1024);
-        /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones, and mirrors on much less glossy surfaces, is followed. Without it the
-        /// picture is darker by that light, and free of the rare bright samples that find it; and rain or snow turns only light on its way to the
-        /// camera, not between matt surfaces. Belongs to integrator = "path".
-        /// Default: true.
+        /// Includes caustics: light of suns and glowing surfaces that smooth surfaces focus onto diffuse ones, and mirrors onto much less glossy
+        /// ones. Without them the image lacks that light and the rare bright samples (fireflies) that find it, and rain or snow deflects only light
+        /// on its way to the camera, not between diffuse surfaces. Belongs to integrator = "path". Default: true.
         optional caustics: Placed<bool> = flag();
-        /// Whether lobes that come after wider ones are widened (path-space regularisation): metals, coats, glass and paint that a path meets behind a glossy
-        /// surface (and behind a matt one where caustics are followed) are rougher than they are, so that lamps in them are found without rare bright
-        /// samples. The picture is biased: mirror images in what other surfaces mirror, and caustics, are blurred. What is seen straight or in
-        /// mirrors is as it was. Belongs to integrator = "path". Default: false.
+        /// Path-space regularisation: metals, coats, glass and paint that a path meets after a glossy surface (and after a diffuse one where caustics
+        /// are included) are treated as rougher, so that lights in them are found without fireflies. The image is biased: reflections within
+        /// reflections and caustics are blurred. Surfaces seen directly or in mirrors do not change. Belongs to integrator = "path". Default: false.
         optional regularize: Placed<bool> = flag();
-        /// Whether matt surfaces scatter paths to where light was found to come from (path guiding): before each pass a sixteenth as many paths as it has (with "noise_threshold", as "min_spp" makes),
-        /// at most 524 288, are followed. Noise of indirect light depends on it, no mean does. Belongs to integrator = "path". Default: false.
+        /// Path guiding: diffuse surfaces scatter paths towards directions in which light was found. Before each pass one sixteenth of its number of
+        /// paths (with "noise_threshold": of those of "min_spp"), at most 524 288, is traced to learn them. It affects the noise of indirect light,
+        /// never a mean. Belongs to integrator = "path". Default: false.
         optional guiding: Placed<bool> = flag();
-        /// Paths that go on, and lights that are drawn, at the first surface that is no mirror, for each sample, 1 … 64 (branched path tracing): the way there is paid once, and
-        /// light has the noise of as many more samples, for less time where that way is long. Edges, depth of field and motion
-        /// have the noise of "spp". No mean changes. Excludes "path_reuse_px" above 1; belongs to integrator = "path". Default: 1.
+        /// Branched path tracing: number of paths that continue and of lights that are sampled at the first surface that is no mirror, per sample, 1
+        /// … 64. The path to that surface is traced once, so light has the noise of that many more samples in less time where that path is long.
+        /// Edges, depth of field and motion keep the noise of "spp". No mean changes. Excludes "path_reuse_px" above 1. Belongs to integrator =
+        /// "path". Default: 1.
         optional branches: Placed<u64> = whole(1, 64);
-        /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes
-        /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of
-        /// a block are then alike. Belongs to integrator = "path". Default: 1.
+        /// Path reuse: side of the blocks of pixels of one colour whose paths share their tails, px: 1 (no reuse), 2, 4 or 8. The same error takes
+        /// much less time where light is scattered between surfaces, but errors within a block are correlated. Belongs to integrator = "path".
+        /// Default: 1.
         optional path_reuse_px: Placed<u64> = among(&[1, 2, 4, 8]);
     }
 }
 
 impl PathKeys {
-    /// Paths that continue from a first surface, for each sample.
+    /// Number of paths that continue from a first surface, per sample.
     #[must_use]
     pub fn branches_in_force(&self) -> u64 {
         match above_one(&self.branches) {
@@ -53,13 +53,13 @@ impl PathKeys {
         }
     }
 
-    /// Whether the command line's "path_reuse_px" supersedes the "branches" of a file.
+    /// True if "path_reuse_px" of the command line overrides "branches" of a file.
     fn reuse_counts(&self) -> bool {
         let is_of_command = |key: &Option<Placed<u64>>| above_one(key).is_some_and(|key| key.place.is_command_line());
         is_of_command(&self.path_reuse_px) && !is_of_command(&self.branches)
     }
 
-    /// Paths that branch share no tails: of the two keys that of the command line counts.
+    /// Reports branched paths with path reuse, which exclude each other. The key of the command line counts.
     pub(super) fn check_branches(&self, faults: &mut Faults) {
         let (Some(branches), Some(reuse)) = (above_one(&self.branches), above_one(&self.path_reuse_px)) else { return };
         let (key, of, other, cause) = match self.reuse_counts() {

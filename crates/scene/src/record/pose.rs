@@ -1,4 +1,4 @@
-//! Where a camera stands and looks, or moves.
+//! Pose and motion of a camera.
 
 use etendue_core::{CameraPose, ExactTime};
 use glam::{DMat3, DVec3};
@@ -10,64 +10,64 @@ use crate::place::{Place, Placed};
 use crate::reader::{keyed, list, name_of, number, record, time, vector};
 
 record! {
-    /// Where a camera stands and looks, or moves.
+    /// Pose and motion of a camera.
     pub struct Pose check(check) {
-        /// Where the centre of the entrance pupil stands in the world, m.
+        /// Position of the centre of the entrance pupil in the world, m.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Where it looks.
+        /// Viewing direction.
         group aim: Aim;
-        /// With "look_at_m": the direction that shall appear upwards. Default: +z.
+        /// With "look_at_m": direction that appears upwards in the image. Default: +z.
         optional up: Placed<[f64; 3]> = vector::<3>(number(""));
-        /// Where it stands and looks over time, in place of one position; one key stands still.
+        /// Poses over time, instead of one position; one key is stationary.
         many keys: PoseKey = list(record(), 1);
-        /// How it moves.
+        /// Motion.
         group course: Course;
-        /// The frame of the scene that it is placed in, and moves with; positions, points and directions are in it. Default: the
-        /// world.
+        /// Frame of the scene in which the camera is placed, and with which it moves; positions, points and directions are relative to it. Default:
+        /// the world.
         optional frame: Placed<String> = name_of(Named::Frame);
     }
 }
 
 record! {
-    /// Where a camera stands and looks at a time.
+    /// Pose of a camera at a time.
     pub struct PoseKey check(check_key) {
         /// Simulated time, s.
         required time_s: Placed<ExactTime> = time();
-        /// Where the centre of the entrance pupil stands in the world, m.
+        /// Position of the centre of the entrance pupil in the world, m.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Where it looks.
+        /// Viewing direction.
         inside aim: Aim;
-        /// With "look_at_m": the direction that shall appear upwards. Default: +z.
+        /// With "look_at_m": direction that appears upwards in the image. Default: +z.
         optional up: Placed<[f64; 3]> = vector::<3>(number(""));
     }
 }
 
 keyed! {
-    /// Where a camera looks.
+    /// Viewing direction of a camera.
     pub enum Aim {
-        /// The point in the middle of the view, in the world, m.
+        /// Point in the middle of the view, in the world, m.
         look_at_m => LookAt(Placed<[f64; 3]>) = vector::<3>(number("m"));
-        /// Yaw, pitch and roll, degrees, as for objects; at 0, 0, 0 the camera looks along +x with +z upwards. Positive
-        /// yaw turns to the left, positive pitch lowers the view, positive roll lowers the right side of the camera.
+        /// Yaw, pitch and roll, degrees, as for objects. At 0, 0, 0 the camera looks along +x with +z upwards. Positive yaw turns to the left,
+        /// positive pitch lowers the view, positive roll lowers the right side of the camera.
         rotation_deg => Rotation(Placed<[f64; 3]>) = vector::<3>(number("°"));
     }
 }
 
 impl Pose {
-    /// A camera that stands still in the world and looks at a point.
+    /// A stationary camera in the world that looks at a point.
     #[must_use]
     pub fn looking_at(position_m: [f64; 3], target_m: [f64; 3], up: [f64; 3]) -> Self {
         let aim = Some(Aim::LookAt(target_m.into()));
         Self { position_m: Some(position_m.into()), aim, up: Some(up.into()), ..Self::default() }
     }
 
-    /// Its own pose in its frame, where it states one; a record that was checked has that, keys or a trajectory.
+    /// The pose in its frame, if stated; a checked record has that, keys or a trajectory.
     #[must_use]
     pub fn to_camera_pose(&self) -> Option<CameraPose> {
         of_aim(self.position_m.as_ref()?, self.aim.as_ref()?, self.up.as_ref())
     }
 
-    /// Where it says where it is.
+    /// Place of the statement of its pose.
     #[must_use]
     pub fn stated_at(&self) -> &Place {
         let keys = self.keys.first().map(|key| &key.place);
@@ -78,20 +78,20 @@ impl Pose {
 }
 
 impl PoseKey {
-    /// The pose in the camera's frame; a record that was checked has one.
+    /// The pose in the camera's frame; a checked record has one.
     #[must_use]
     pub fn to_camera_pose(&self) -> Option<CameraPose> {
         of_aim(&self.position_m, &self.aim, self.up.as_ref())
     }
 }
 
-/// The camera's axes (x right, y down, z forward) in a frame that it looks along the x axis of, with z upwards.
+/// The camera's axes (x right, y down, z forward) in a frame along whose x axis it looks, with z upwards.
 #[must_use]
 pub fn camera_axes() -> DMat3 {
     DMat3::from_cols(DVec3::NEG_Y, DVec3::NEG_Z, DVec3::X)
 }
 
-/// `None` where it cannot be told: the camera looks at itself or along "up".
+/// Returns `None` for an undefined direction: the camera looks at itself or along "up".
 fn of_aim(position_m: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]>>) -> Option<CameraPose> {
     let position_m = DVec3::from_array(position_m.value);
     match aim {

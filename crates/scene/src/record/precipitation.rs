@@ -4,18 +4,18 @@ use crate::place::{Place, Placed};
 use crate::reader::{choice, flag, number, record, variants, vector, whole, words};
 
 variants! {
-    /// What falls all over the scene below a height. Near a camera drops and flakes are modelled one by one, farther away as a medium of
-    /// the same extinction; where they are depends on seed and time alone. Ground truth does not see them.
+    /// Precipitation over the whole scene below a height. Near a camera drops and flakes are modelled individually, farther away as a medium of the
+    /// same extinction. Their positions depend only on seed and time. Ground truth ignores them.
     pub enum Precipitation by "type" {
-        /// Rain, by Marshall and Palmer's law of sizes (1948) with Atlas's terminal speeds (1973).
+        /// Rain, with the size distribution of Marshall and Palmer (1948) and the terminal speeds of Atlas (1973).
         "rain" => Rain(Rain),
-        /// Snow, by Sekhon and Srivastava's law of sizes (1970).
+        /// Snow, with the size distribution of Sekhon and Srivastava (1970).
         "snow" => Snow(Snow),
     }
 }
 
 impl Precipitation {
-    /// Where its table stands.
+    /// Place of its table.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {
@@ -28,12 +28,12 @@ impl Precipitation {
 record! {
     /// Rain.
     pub struct Rain {
-        /// How much falls, mm/h, 0.1 … 150: 1 is light, 10 heavy, 50 a cloudburst. The law was measured up to some 25.
+        /// Rain rate, mm/h, 0.1 … 150: 1 is light, 10 heavy, 50 a cloudburst. The distribution was measured up to about 25.
         required rate_mm_h: Placed<f64> = number("mm/h").above(0.0);
-        /// Whether the number of drops is rescaled so that with their speeds they bring `rate_mm_h`. The law itself brings 5 to 18 % more.
-        /// Default: false.
+        /// Rescales the number of drops so that with their speeds they give `rate_mm_h`. The distribution itself gives 5 to 18 % more. Default:
+        /// false.
         optional rescaled: Placed<bool> = flag();
-        /// Where it falls, and how it is modelled.
+        /// Extent, and modelling.
         inside fall: Fall;
     }
 }
@@ -41,25 +41,25 @@ record! {
 record! {
     /// Snow.
     pub struct Snow {
-        /// How much falls, mm/h of molten water, 0.1 … 3: 0.5 is light, 2.5 heavy.
+        /// Snow rate, mm/h of melted water, 0.1 … 3: 0.5 is light, 2.5 heavy.
         required rate_mm_h: Placed<f64> = number("mm/h").above(0.0);
-        /// What the flakes are made of. Default: "aggregates".
+        /// Type of the flakes. Default: "aggregates".
         optional crystals: Placed<Crystals> = choice();
-        /// Whether the number of flakes is rescaled so that with their speeds they bring `rate_mm_h`. Default: false.
+        /// Rescales the number of flakes so that with their speeds they give `rate_mm_h`. Default: false.
         optional rescaled: Placed<bool> = flag();
-        /// Where it falls, and how it is modelled.
+        /// Extent, and modelling.
         inside fall: Fall;
     }
 }
 
 words! {
-    /// What flakes are made of: their density, by which flakes of the same water are large and slow or small and quick.
+    /// Type of flakes, which sets their density: for equal water they are large and slow or small and fast.
     pub enum Crystals {
         /// Dry, feathery crystals: half the density of aggregates.
         "dendrites" => Dendrites,
         /// Flakes of many crystals (Brandes et al. 2007).
         "aggregates" => Aggregates,
-        /// Flakes covered by frozen droplets: twice the density.
+        /// Flakes covered with frozen droplets: twice the density.
         "rimed" => Rimed,
         /// Soft hail: four times the density.
         "graupel" => Graupel,
@@ -67,19 +67,20 @@ words! {
 }
 
 record! {
-    /// Where something falls, and how it is modelled.
+    /// Extent and modelling of precipitation.
     pub struct Fall {
-        /// Velocity of the air, m/s, with which all drops or flakes drift. Default: none.
+        /// Velocity of the air, m/s; all drops or flakes drift with it. Default: none.
         optional wind_m_s: Placed<[f64; 3]> = vector::<3>(number("m/s").at_least(-100.0).at_most(100.0));
-        /// Height in the world from which they fall, m. Default: 500.
+        /// Height in the world from which precipitation falls, m. Default: 500.
         optional top_m: Placed<f64> = number("m");
-        /// Distance from the camera within which nothing falls, m, 0 … 100: under a roof, or behind a wind-screen. Default: 0.
+        /// Distance from the camera within which nothing falls, m, 0 … 100: under a roof, or behind a windscreen. Default: 0.
         optional clear_m: Placed<f64> = number("m").at_least(0.0).at_most(100.0);
-        /// Which drops and flakes of all that may be. Default: 0.
+        /// Seed of the drops and flakes. Default: 0.
         optional seed: Placed<u64> = whole(0, 4_294_967_295);
-        /// From which part of a pixel's width on a drop or flake is modelled by itself, above 0 … 10. Default: 0.25.
+        /// Width on the image, px, from which a drop or flake is modelled individually, above 0 … 10. Default: 0.25.
         optional smallest_px: Placed<f64> = number("").above(0.0).at_most(10.0);
-        /// How many are modelled at most in what a camera sees during an exposure, 0 … 5 000 000; where there would be more, they are modelled less far. Default: 200 000.
+        /// Maximum number modelled individually in a camera's view during an exposure, 0 … 5 000 000; beyond it the modelled range is shortened.
+        /// Default: 200 000.
         optional most: Placed<u64> = whole(0, 5_000_000);
     }
 }

@@ -10,28 +10,28 @@ use crate::place::{Place, Placed};
 use crate::reader::{Number, Rule, RuleExt as _, either, keyed, known, name_of, number, record, variant, vector};
 use etendue_spectra::reflectance;
 
-/// The share of light that a surface reflects or lets through.
+/// Reflectance or transmittance of a surface.
 #[derive(Clone, Debug)]
 pub enum Reflectance {
-    /// The same everywhere.
+    /// Constant over the surface.
     Plain(Colour),
-    /// A picture.
+    /// An image.
     Texture {
-        /// The name of the texture.
+        /// Name of the texture.
         name: Placed<String>,
-        /// A factor on the picture, 1 where it is not given.
+        /// Factor on the image, 1 if absent.
         scale: Option<Placed<f64>>,
     },
 }
 
-/// A share of light over the wavelength, 0 … 1.
+/// A fraction of light by wavelength, 0 … 1.
 #[derive(Clone, Debug)]
 pub enum Colour {
-    /// The same at all wavelengths.
+    /// Constant over wavelength.
     Grey(Placed<f64>),
-    /// Linear sRGB, made a smooth spectrum.
+    /// Linear sRGB, converted to a smooth spectrum.
     LinearSrgb(Placed<[f64; 3]>),
-    /// sRGB as encoded in pictures, made a smooth spectrum.
+    /// sRGB as encoded in images, converted to a smooth spectrum.
     EncodedSrgb(Placed<[f64; 3]>),
     /// Tabulated over the wavelength.
     Spectrum(Placed<PathBuf>),
@@ -40,7 +40,7 @@ pub enum Colour {
 }
 
 impl Colour {
-    /// Where it stands.
+    /// Place in the description.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {
@@ -69,37 +69,37 @@ impl NamesFiles for Reflectance {
 }
 
 record! {
-    /// A reflectance that needs a word.
+    /// A reflectance given by a table.
     pub struct ReflectanceTable check(check) {
-        /// What it is.
+        /// Source.
         inside source: ReflectanceSource;
-        /// A factor on a texture, above 0 and at most 1. Default: 1.
+        /// Factor on a texture, above 0 and at most 1. Default: 1.
         optional scale: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
 
 keyed! {
-    /// What a reflectance is taken from.
+    /// Source of a reflectance.
     pub enum ReflectanceSource {
-        /// The name of a texture.
+        /// Name of a texture.
         texture => Texture(Placed<String>) = name_of(Named::Texture);
-        /// A colour as encoded in pictures (sRGB, 0 … 1), made a smooth spectrum.
+        /// A colour as encoded in images (sRGB, 0 … 1), converted to a smooth spectrum.
         srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
         /// A table of two columns, wavelength in nm and reflectance 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
-        /// A spectrum of the library that is typical of a material.
+        /// A spectrum of the library, typical of a material.
         named => Named(Placed<String>) = known("a material of the library", reflectance::names());
     }
 }
 
 keyed! {
-    /// What a colour is taken from.
+    /// Source of a colour.
     pub enum ColourTable {
-        /// A colour as encoded in pictures (sRGB, 0 … 1), made a smooth spectrum.
+        /// A colour as encoded in images (sRGB, 0 … 1), converted to a smooth spectrum.
         srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
-        /// A table of two columns, wavelength in nm and a share of light 0 … 1.
+        /// A table of two columns, wavelength in nm and a fraction of light 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
-        /// A spectrum of the library that is typical of a material.
+        /// A spectrum of the library, typical of a material.
         named => Named(Placed<String>) = known("a material of the library", reflectance::names());
     }
 }
@@ -138,7 +138,7 @@ impl ColourTable {
         }
     }
 
-    /// The table that becomes a colour; `None` where no table does.
+    /// Returns the table form of a colour; `None` for forms that are no table.
     fn of(colour: &Colour) -> Option<Self> {
         match colour {
             Colour::EncodedSrgb(v) => Some(Self::Srgb(v.clone())),
@@ -150,7 +150,7 @@ impl ColourTable {
 }
 
 impl ReflectanceTable {
-    /// The table that becomes a reflectance; `None` where no table does.
+    /// Returns the table form of a reflectance; `None` for forms that are no table.
     fn of(reflectance: &Reflectance) -> Option<Self> {
         match reflectance {
             Reflectance::Texture { name, scale } => {

@@ -1,4 +1,4 @@
-//! `[render]`: how the light is found. `None` everywhere means: the plan decides.
+//! `[render]`: light transport and sampling. `None` means that the plan decides.
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
@@ -11,59 +11,58 @@ use etendue_core::{Accelerator, Integrator, LightSampling};
 pub const MAX_SEED: u64 = i64::MAX.cast_unsigned();
 
 record! {
-    /// How the light is found.
+    /// Light transport and sampling.
     pub struct Render check(check) {
-        /// What decides the samples.
+        /// Number of samples.
         inline samples: SampleKeys;
-        /// How much of the light's ways is followed. Depth and identities are the same by every integrator. Default: "path".
+        /// Light paths that are simulated. Depth and identities are equal for every integrator. Default: "path".
         optional integrator: Placed<Integrator> = choice();
-        /// What only paths need.
+        /// Settings of the path integrator.
         inline paths: PathKeys;
-        /// By what a light's chance of being drawn at a surface goes: the noise of surfaces that mirror lamps depends on it, no mean does. Default: "gloss".
+        /// Criterion by which lights are sampled at a surface. It affects the noise of surfaces that mirror lights, never a mean. Default: "gloss".
         optional light_sampling: Placed<LightSampling> = choice();
-        /// Wavelengths that a path carries. Default: 4.
+        /// Wavelengths that a path carries: 1, 4 or 8. Default: 4.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
-        /// The density by which the wavelengths of pixels that sum electrons are drawn: their noise depends on it, their mean does not.
-        /// Default: "auto".
+        /// Density from which wavelengths are sampled for pixels that sum electrons. It affects their noise, not their mean. Default: "auto".
         optional wavelength_density: Placed<WavelengthDensity> = choice();
-        /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable). Default: "lens".
+        /// Optical path: through the lens (exact), or from the centre of the entrance pupil (fast, reusable). Default: "lens".
         optional route: Placed<Route> = choice();
-        /// Width of the spectral bands, nm, 1 … 100; the range is a whole number of bands. Default: 5.
+        /// Width of the spectral bands, nm, 1 … 100. The wavelength range is a whole number of bands. Default: 5.
         optional band_width_nm: Placed<f64> = number("nm").at_least(1.0).at_most(100.0);
-        /// First and last wavelength, nm, within 300 … 1 100. Default: what the cameras need.
+        /// First and last wavelength, nm, within 300 … 1 100. Default: the range that the cameras need.
         optional wavelength_range_nm: Placed<[f64; 2]> = vector::<2>(number("nm").at_least(300.0).at_most(1100.0));
-        /// Whether a spectral cube is kept or pixels sum electrons directly. Default: "auto", what the outputs need.
+        /// Quantity that pixels sum: a spectral cube, or electrons directly. Default: "auto", as the outputs need.
         optional accumulate: Placed<Accumulate> = choice();
-        /// What is spent on the trees by which rays find surfaces. No pixel depends on it; of several cameras, the
-        /// last of "fast", "default", "best" counts. Default: "default".
+        /// Build effort for the acceleration structures of ray tracing. No pixel depends on it. With several cameras, the last of "fast", "default",
+        /// "best" among them counts. Default: "default".
         optional accelerator: Placed<Accelerator> = choice();
         /// Side of a tile, px, 4 … 1 024. Default: 32.
         optional tile_px: Placed<u64> = whole(4, 1024);
-        /// Seed of every random number, 0 … 2⁶³ − 1. Default: 0.
+        /// Seed of all random numbers, 0 … 2⁶³ − 1. Default: 0.
         optional seed: Placed<u64> = whole(0, MAX_SEED);
-        /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1. Default: 0.
+        /// With route "pupil": margin on every side, as a fraction of the image's width and height, 0 … 1. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// With route "pupil": how things out of focus are blurred in the picture. Default: "physical".
+        /// With route "pupil": method of defocus blur. Default: "physical".
         optional depth_of_field: DepthOfField = depth_of_field();
     }
 }
 
-/// How things out of focus are blurred behind stored radiance.
+/// Defocus blur computed from stored radiance.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a description has few of them, and places of values take most of it")]
 pub enum DepthOfField {
-    /// By a method without parameters.
+    /// A method without parameters.
     Named(Placed<DepthMethod>),
-    /// By a blend.
+    /// A blend with a blurred image.
     Fast(FastBlend),
 }
 
 words! {
     /// A method without parameters.
     pub enum DepthMethod {
-        /// The pupil's own outline of each field point, spread in the order of depth.
+        /// The outline of the pupil at each field point, spread in order of depth.
         "physical" => Physical,
-        /// Nothing is blurred.
+        /// No defocus blur.
         "none" => None,
     }
 }
@@ -71,22 +70,22 @@ words! {
 keyed! {
     /// A method with parameters.
     pub enum DepthOfFieldTable {
-        /// A look, by a blend with one blurred copy of the picture by distance.
+        /// An artistic approximation: a blend with one blurred copy of the image, by distance.
         fast => Fast(FastBlend) = record::<FastBlend>();
     }
 }
 
 record! {
-    /// A blend with one blurred copy of the picture: none of it in the sharp range, all of it where things are blurred, and
-    /// linear in the distance (along the ray) between.
+    /// A blend with one blurred copy of the image. The weight of the copy is 0 in the sharp range, 1 in the blurred range, and linear in the distance
+    /// (along the ray) between them.
     pub struct FastBlend check(check_blend) {
-        /// Two rising distances, m: to the first from the camera everything is blurred, from the second on it is sharp. Default:
+        /// Two rising distances from the camera, m. Everything nearer than the first is blurred, everything beyond the second is sharp. Default:
         /// nothing near is blurred.
         optional near_m: Placed<[f64; 2]> = vector::<2>(number("m").at_least(0.0));
-        /// Two rising distances, m: to the first everything is sharp, from the second on it is blurred. Default: nothing far is
-        /// blurred.
+        /// Two rising distances from the camera, m. Everything nearer than the first is sharp, everything beyond the second is blurred. Default:
+        /// nothing far is blurred.
         optional far_m: Placed<[f64; 2]> = vector::<2>(number("m").at_least(0.0));
-        /// Diameter of the blur, px, above 0, at most 1 000: a bell as wide as a disc of it.
+        /// Diameter of the blur, px, above 0, at most 1 000. The kernel is a bell as wide as a disc of this diameter.
         required blur_px: Placed<f64> = number("px").above(0.0).at_most(1000.0);
     }
 }
@@ -111,7 +110,7 @@ fn check_blend(blend: &FastBlend, faults: &mut Faults) {
 }
 
 impl DepthOfField {
-    /// Where it stands.
+    /// Place in the description.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {
@@ -122,33 +121,33 @@ impl DepthOfField {
 }
 
 words! {
-    /// The way to the sensor plane.
+    /// The optical path to the sensor plane.
     pub enum Route {
-        /// Every sample goes through the lens.
+        /// Every sample passes through the lens.
         "lens" => Lens,
-        /// The radiance at the centre of the entrance pupil, then the lens on the picture.
+        /// Radiance at the centre of the entrance pupil; the lens is then applied to the image.
         "pupil" => Pupil,
     }
 }
 
 words! {
-    /// The density by which the wavelengths of pixels that sum electrons are drawn.
+    /// Density from which wavelengths are sampled for pixels that sum electrons.
     pub enum WavelengthDensity {
-        /// By the response, and by the light's spectrum with it where that is foretold to lessen the variance and no bands are kept.
+        /// The pixel's response, multiplied by the spectrum of the light where that is estimated to lower the variance and no bands are stored.
         "auto" => Auto,
-        /// Evenly over the range.
+        /// Uniform over the range.
         "uniform" => Uniform,
-        /// By the pixel's response.
+        /// The pixel's response.
         "response" => Response,
-        /// By the pixel's response times the spectra of the scene's sources of light.
+        /// The pixel's response times the spectra of the scene's light sources.
         "response_and_source" => ResponseAndSource,
     }
 }
 
 words! {
-    /// What pixels sum.
+    /// The quantity that pixels sum.
     pub enum Accumulate {
-        /// What the outputs need.
+        /// The quantity that the outputs need.
         "auto" => Auto,
         /// Spectral bands.
         "cube" => Cube,
@@ -158,7 +157,7 @@ words! {
 }
 
 impl Render {
-    /// The keys of the record, and those of `base` where it has none.
+    /// Returns the keys of the record, completed by those of `base`.
     pub(crate) fn over(&self, base: &Self) -> Self {
         let (mut own, mut base) = (self.clone(), base.clone());
         own.samples.exclude(&mut base.samples);
@@ -210,8 +209,8 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
     }
 }
 
-/// Checks the records of all cameras, into which the job's has been merged: what only paths need must serve a camera that
-/// traces them.
+/// Checks the records of all cameras, into which the job's has been merged. A key of the path integrator must apply to at least one camera that
+/// traces paths.
 pub(crate) fn check_path_keys<'r>(cameras: impl Iterator<Item = &'r Render> + Clone, faults: &mut Faults) {
     let traces = |render: &Render| render.integrator.as_ref().is_none_or(|key| key.value == Integrator::Path);
     let serves = |place: &Place| {

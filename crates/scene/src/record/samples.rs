@@ -1,42 +1,41 @@
-//! What decides how many samples a pixel gets: "spp", "passes" or "noise_threshold".
+//! Number of samples per pixel: "spp", "passes" or "noise_threshold".
 //!
-//! One of them counts. A camera's own choice stands in the place of the job's; what the command line says, in the place of what files say. Two
-//! in one record exclude each other.
+//! Only one of them counts. A camera's choice overrides the job's, and the command line overrides files. Two in one record exclude each other.
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{list, number, record, whole};
 
-/// The most samples of a pixel.
+/// Largest number of samples per pixel.
 pub const MAX_SPP: u64 = 1 << 20;
 
 record! {
-    /// What decides the samples.
+    /// Number of samples.
     pub struct SampleKeys {
-        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or as `--quality` says.
+        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or as set by `--quality`.
         optional spp: Placed<u64> = whole(1, MAX_SPP);
-        /// Samples per pixel of each of the passes whose weighted mean is the light, in the place of "spp": [8, 8, 16] are 32 in three
-        /// independent passes. Each is a multiple of "replicates", or less than that many: then so many on average, as that part
-        /// of the pixels, evenly spread, gets one sample in each replicate. At least one pass is whole; 64 passes at most.
-        /// Default: one pass of "spp" samples, with `--progressive` by its schedule.
+        /// Samples per pixel of each pass; the image is the weighted mean of the passes. [8, 8, 16] gives 32 in three independent passes. Each is a
+        /// multiple of "replicates", or a smaller number: then that many on average, as an evenly spread part of the pixels receives one sample per
+        /// replicate. At least one pass is a multiple of "replicates"; 64 passes at most. Excludes "spp". Default: one pass of "spp" samples; with
+        /// `--progressive`, its schedule.
         many passes: Placed<f64> = list(number("").above(0.0).at_most(MAX_SPP as f64), 1);
-        /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance. Samples
-        /// are spread evenly within a replicate only: where light is even, one replicate of few samples is less noisy than
-        /// several. Wavelengths of bands are spread over all replicates, but where "variance" is asked for. Default: 4, or 2 or 1 where "spp" is no multiple.
+        /// Independent replicates from which the variance is estimated, 1 … 1 024; one gives no variance. Samples are stratified within a replicate
+        /// only: where light is uniform, one replicate of few samples is less noisy than several. Wavelengths of bands are stratified over all
+        /// replicates, unless "variance" is requested. Default: 4, or 2 or 1 where "spp" is no multiple.
         optional replicates: Placed<u64> = whole(1, 1024);
-        /// A pixel gets samples until its standard error is at most this part of the noise that the sensor adds there (shot, dark,
-        /// read, quantisation), above 0 … 100; of the pixel's own mean where no electrons are made, or with route "pupil". The number is
-        /// decided for each replicate by what others show after "min_spp" samples, so that no mean is
-        /// biased; there are 8 replicates unless said otherwise, and 5 at least. In the place of "spp". Default: every pixel gets "spp" samples.
+        /// Adaptive sampling: a pixel is sampled until its standard error is at most this fraction of the noise that the sensor adds there (shot,
+        /// dark, read, quantisation), above 0 … 100. Without electrons, or with route "pupil", it is the fraction of the pixel's own mean. The number
+        /// for each replicate is decided by what the other replicates show after "min_spp" samples, so that no mean is biased. There are 8 replicates
+        /// by default, at least 5. Excludes "spp". Default: every pixel receives "spp" samples.
         optional noise_threshold: Placed<f64> = number("").above(0.0).at_most(100.0);
-        /// With "noise_threshold": samples that every pixel gets, 8 … 65 536, a multiple of "replicates". Default: 16.
+        /// With "noise_threshold": samples that every pixel receives, 8 … 65 536, a multiple of "replicates". Default: 16.
         optional min_spp: Placed<u64> = whole(8, 65_536);
-        /// With "noise_threshold": samples that a pixel gets at most, a multiple of "replicates", from "min_spp" to 1 048 576. Default: 4 096.
+        /// With "noise_threshold": maximum samples of a pixel, a multiple of "replicates", from "min_spp" to 1 048 576. Default: 4 096.
         optional max_spp: Placed<u64> = whole(8, 1 << 20);
     }
 }
 
-/// What decides the samples.
+/// The key that decides the number of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Choice {
     Noise,
@@ -45,7 +44,7 @@ enum Choice {
 }
 
 impl Choice {
-    /// In the order in which they count where a record, which is then refused, says several.
+    /// Priority where a record, which is then refused, states several.
     const ALL: [Self; 3] = [Self::Noise, Self::Passes, Self::Spp];
 
     fn key(self) -> &'static str {
@@ -56,7 +55,7 @@ impl Choice {
         }
     }
 
-    /// Where a record says it.
+    /// Place in a record.
     fn place(self, keys: &SampleKeys) -> Option<&Place> {
         match self {
             Self::Noise => keys.noise_threshold.as_ref().map(|limit| &limit.place),
@@ -69,7 +68,7 @@ impl Choice {
         self.place(keys).is_some_and(Place::is_command_line)
     }
 
-    /// Takes it out of a record.
+    /// Removes it from a record.
     fn remove(self, keys: &mut SampleKeys) {
         match self {
             Self::Noise => (keys.noise_threshold, keys.min_spp, keys.max_spp) = (None, None, None),
@@ -78,7 +77,7 @@ impl Choice {
         }
     }
 
-    /// Which of them counts in a record.
+    /// The one that counts in a record.
     fn in_force(keys: &SampleKeys) -> Option<Self> {
         let stated = Self::ALL.into_iter().filter(|choice| choice.place(keys).is_some());
         let by_command_line = stated.clone().find(|choice| choice.is_of_command_line(keys));
@@ -87,19 +86,19 @@ impl Choice {
 }
 
 impl SampleKeys {
-    /// The limit of noise, where it decides the samples: the command line's "spp" or "passes" supersede that of a file.
+    /// Noise threshold, where it decides the number of samples. "spp" or "passes" of the command line override that of a file.
     #[must_use]
     pub fn threshold_in_force(&self) -> Option<&Placed<f64>> {
         self.noise_threshold.as_ref().filter(|_| Choice::in_force(self) == Some(Choice::Noise))
     }
 
-    /// The passes, where they are stated and count.
+    /// Passes, where they are stated and count.
     #[must_use]
     pub fn passes_in_force(&self) -> Option<&[Placed<f64>]> {
         (Choice::in_force(self) == Some(Choice::Passes)).then_some(&self.passes[..])
     }
 
-    /// Takes out of a camera's keys and the job's, `base`, what the other supersedes.
+    /// Removes from a camera's keys and from `base`, the job's, those overridden by the other.
     pub(super) fn exclude(&mut self, base: &mut Self) {
         if let Some(choice) = Choice::ALL.into_iter().find(|choice| choice.place(self).is_some()) {
             for other in Choice::ALL.into_iter().filter(|other| *other != choice) {
@@ -113,7 +112,7 @@ impl SampleKeys {
         }
         if Choice::Passes.is_of_command_line(base) {
             self.passes.clear();
-            // Those of the passes.
+            // The replicates belong to the passes.
             if base.replicates.as_ref().is_some_and(|given| given.place.is_command_line()) {
                 self.replicates = None;
             }
@@ -136,7 +135,7 @@ impl SampleKeys {
     }
 }
 
-/// Refuses a choice beside the one that counts.
+/// Refuses a choice that conflicts with the one that counts.
 fn refuse(other: Choice, choice: Choice, keys: &SampleKeys, faults: &mut Faults) {
     let Some(place) = other.place(keys) else { return };
     let problem = match (other, choice) {

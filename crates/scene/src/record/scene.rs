@@ -1,4 +1,4 @@
-//! The scene: everything that is seen.
+//! The scene.
 
 use super::environment::Environment;
 use super::frame::{self, Frame};
@@ -14,27 +14,27 @@ use crate::place::Placed;
 use crate::reader::{keyed_by_name, list, record, whole};
 
 record! {
-    /// Everything that is seen.
+    /// A scene: everything that cameras see.
     pub struct Scene check(check) {
         /// Triangle meshes from files.
         many meshes: Mesh = list(record(), 0);
-        /// Pictures on surfaces.
+        /// Images on surfaces.
         many textures: Texture = list(record(), 0);
-        /// What surfaces do with light.
+        /// Optical properties of surfaces.
         many materials: Material = list(record(), 0);
-        /// Semantic classes: name and number, 1 … 65 535. Class 0 is the background and what has no class.
+        /// Semantic classes: name and number, 1 … 65 535. Class 0 is the background and everything without a class.
         many classes: (Placed<String>, Placed<u64>) = keyed_by_name(whole(1, 65_535));
-        /// What moves and carries objects, lamps and cameras.
+        /// Coordinate frames that move and carry objects, lamps and cameras.
         many frames: Frame = list(record(), 0);
-        /// What stands where; the order numbers the instances.
+        /// Objects; their order numbers the instances.
         many objects: Object = list(record(), 0);
         /// Lights that are no surfaces.
         many lights: Light = list(record(), 0);
-        /// Fog and the like, between the surfaces.
+        /// Participating media such as fog, between the surfaces.
         many media: Medium = list(record(), 0);
         /// Rain or snow. Default: none.
         optional precipitation: Precipitation = record();
-        /// The light from infinitely far. Default: none, black.
+        /// Light from infinity. Default: none, black.
         optional environment: Environment = record();
     }
 }
@@ -50,7 +50,7 @@ fn check(scene: &Scene, faults: &mut Faults) {
     }
 }
 
-/// A sky brings its sun.
+/// Refuses a second sun besides that of the sky.
 fn check_sun(scene: &Scene, faults: &mut Faults) {
     let Some(Environment::Sky(sky)) = &scene.environment else { return };
     if sky.sun.as_ref().is_some_and(|sun| !sun.value) {

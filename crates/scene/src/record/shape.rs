@@ -1,4 +1,4 @@
-//! Shapes that need no file.
+//! Shapes without a file.
 
 use crate::place::Placed;
 use crate::reader::{number, record, variants, vector};
@@ -6,14 +6,14 @@ use crate::reader::{number, record, variants, vector};
 variants! {
     /// A shape in the frame of its object.
     pub enum Shape by "type" {
-        /// A rectangle in the plane z = 0, centred, its front towards +z; u runs along x and v along y, 0 … 1.
+        /// A rectangle in the plane z = 0, centred, with its front towards +z; u runs along x and v along y, 0 … 1.
         "quad" => Quad(Quad),
-        /// A cuboid, centred, its faces outward; every face has u, v = 0 … 1.
+        /// A cuboid, centred, with its faces outward; every face has u, v = 0 … 1.
         "box" => Box(Cuboid),
         /// A sphere about the origin.
         "sphere" => Sphere(Sphere),
-        /// A disc in the plane z = 0, centred, its front towards +z: a regular polygon of 256 sides and the same area; u
-        /// runs along x and v along y, 0 … 1 over its diameter.
+        /// A disc in the plane z = 0, centred, with its front towards +z: a regular polygon of 256 sides and equal area; u runs along x and v along
+        /// y, 0 … 1 over its diameter.
         "disc" => Disc(Disc),
     }
 }

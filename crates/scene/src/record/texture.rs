@@ -1,4 +1,4 @@
-//! `[[textures]]`: pictures on surfaces.
+//! `[[textures]]`: images on surfaces.
 
 use std::path::PathBuf;
 
@@ -7,44 +7,43 @@ use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
 
 record! {
-    /// A picture that materials use as reflectance, as a number, as normals or on their light.
+    /// An image that materials use as reflectance, as a factor, as normals or on their emission.
     pub struct Texture check(check) {
-        /// The name by which materials call it.
+        /// Name by which materials refer to it.
         required name: Placed<String> = text("the name of the texture");
-        /// The picture. Its first row is at v = 1.
+        /// The image. Its first row is at v = 1.
         required file: Placed<PathBuf> = path(&["png", "jpg", "jpeg", "hdr", "exr"]);
-        /// What the numbers of the file mean.
+        /// Meaning of the file's values.
         required encoding: Placed<Encoding> = choice();
-        /// What is outside of u, v = 0 … 1. Default: "repeat".
+        /// Extension outside u, v = 0 … 1. Default: "repeat".
         optional wrap: Placed<Wrap> = choice();
-        /// By what points of a surface find their place in the picture. Default: "uv".
+        /// Mapping from points of a surface to the image. Default: "uv".
         optional mapping: Placed<Mapping> = choice();
-        /// With mapping = "triplanar": width and height of the picture on the surface, m, above 0, in the frame of the mesh's
-        /// file or of the shape.
+        /// With mapping = "triplanar": width and height of the image on the surface, m, above 0, in the frame of the mesh's file or of the shape.
         optional size_m: Placed<f64> = number("m").above(0.0);
-        /// With mapping = "triplanar": how sharply the three sides meet, 1 … 64. Default: 4.
+        /// With mapping = "triplanar": sharpness of the transition between the three projections, 1 … 64. Default: 4.
         optional sharpness: Placed<f64> = number("").at_least(1.0).at_most(64.0);
-        /// With mapping = "uv": how often the picture stands along u and v from 0 to 1, above 0. Default: 1, 1.
+        /// With mapping = "uv": repetitions of the image along u and v from 0 to 1, above 0. Default: 1, 1.
         optional uv_scale: Placed<[f64; 2]> = vector::<2>(number("").above(0.0));
-        /// With mapping = "uv": where in the picture u, v = 0, 0 lies, in its widths and heights. Default: 0, 0.
+        /// With mapping = "uv": position of u, v = 0, 0 in the image, in widths and heights. Default: 0, 0.
         optional uv_offset: Placed<[f64; 2]> = vector::<2>(number(""));
     }
 }
 
 words! {
-    /// What the numbers of a picture mean.
+    /// Meaning of an image's values.
     pub enum Encoding {
         /// Colours, encoded by the curve of IEC 61966-2-1.
         "srgb" => Srgb,
-        /// Colours in proportion to reflectance or light, primaries of sRGB.
+        /// Colours proportional to reflectance or light, primaries of sRGB.
         "linear" => Linear,
-        /// Plain numbers: roughness, opacity, weights, normals.
+        /// Plain values: roughness, opacity, weights, normals.
         "data" => Data,
     }
 }
 
 words! {
-    /// By what points of a surface find their place in a picture.
+    /// Mapping from points of a surface to an image.
     pub enum Mapping {
         /// By the texture coordinates of the mesh.
         "uv" => Uv,
@@ -54,19 +53,19 @@ words! {
 }
 
 words! {
-    /// What is outside of a picture.
+    /// Extension outside an image.
     pub enum Wrap {
-        /// The picture again.
+        /// Repeated.
         "repeat" => Repeat,
-        /// Its edge.
+        /// Clamped to its edge.
         "clamp" => Clamp,
-        /// The picture, mirrored.
+        /// Mirrored.
         "mirror" => Mirror,
     }
 }
 
 impl Texture {
-    /// By what points of a surface find their place.
+    /// Mapping from points of a surface to the image.
     #[must_use]
     pub fn mapping(&self) -> Mapping {
         self.mapping.as_ref().map_or(Mapping::Uv, |m| m.value)

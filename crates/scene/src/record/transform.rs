@@ -1,4 +1,4 @@
-//! Where an object stands and how it is turned.
+//! Placement of an object.
 
 use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -7,13 +7,12 @@ use crate::place::{Place, Placed};
 use crate::reader::{Rule, RuleExt as _, either, number, record, vector};
 
 record! {
-    /// From an object's frame to the world: first scaled, then rotated, then moved.
+    /// Transform from an object's frame to the world: scale, then rotation, then translation.
     pub struct Transform {
-        /// Where the object's origin stands in the world, m. Default: the world's origin.
+        /// Position of the object's origin in the world, m. Default: the world's origin.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Yaw, pitch and roll, degrees, right-handed about z, y and x: the object is first rolled about its x axis, then
-        /// pitched about y (positive lowers the front), then yawed about z (positive turns to the left).
-        /// Default: not turned.
+        /// Yaw, pitch and roll, degrees, right-handed about z, y and x: the object is first rolled about its x axis, then pitched about y (positive
+        /// lowers the front), then yawed about z (positive turns to the left). Default: no rotation.
         optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
         /// Factor on the object's size, above 0: a number or one for each axis. Default: 1.
         optional scale: Placed<[f64; 3]> = scale();
@@ -30,31 +29,31 @@ fn scale() -> impl Rule<Out = Placed<[f64; 3]>> {
 }
 
 impl Transform {
-    /// From the object's frame to the world.
+    /// Transform from the object's frame to the world.
     #[must_use]
     pub fn to_world(&self) -> DAffine3 {
         DAffine3::from_mat3_translation(self.rotation() * DMat3::from_diagonal(self.factors()), self.position())
     }
 
-    /// The same without its scale.
+    /// The same without the scale.
     #[must_use]
     pub fn to_world_unscaled(&self) -> DAffine3 {
         DAffine3::from_mat3_translation(self.rotation(), self.position())
     }
 
-    /// Where the object's origin is, m.
+    /// Position of the object's origin, m.
     #[must_use]
     pub fn position(&self) -> DVec3 {
         self.position_m.as_ref().map_or(DVec3::ZERO, |p| DVec3::from_array(p.value))
     }
 
-    /// Its rotation as a quaternion.
+    /// The rotation as a quaternion.
     #[must_use]
     pub fn quaternion(&self) -> DQuat {
         self.rotation_deg.as_ref().map_or(DQuat::IDENTITY, |r| yaw_pitch_roll_quaternion(r.value))
     }
 
-    /// Its scale along each axis.
+    /// The scale along each axis.
     #[must_use]
     pub fn factors(&self) -> DVec3 {
         self.scale.as_ref().map_or(DVec3::ONE, |s| DVec3::from_array(s.value))
@@ -64,13 +63,13 @@ impl Transform {
         self.rotation_deg.as_ref().map_or(DMat3::IDENTITY, |r| yaw_pitch_roll(r.value))
     }
 
-    /// Where the first of its keys that is given stands.
+    /// Place of the first key that is given.
     pub(crate) fn stated_at(&self) -> Option<&Place> {
         let keys = [&self.position_m, &self.rotation_deg, &self.scale];
         keys.into_iter().flatten().next().map(|key| &key.place)
     }
 
-    /// Whether any of its keys is given.
+    /// True if any key is given.
     pub(crate) fn is_given(&self) -> bool {
         self.position_m.is_some() || self.rotation_deg.is_some() || self.scale.is_some()
     }
@@ -94,7 +93,7 @@ pub fn yaw_pitch_roll_quaternion(degrees: [f64; 3]) -> DQuat {
     yaw * pitch * DQuat::from_xyzw(sx, 0.0, 0.0, cx)
 }
 
-/// Yaw, pitch and roll of a rotation, degrees: what [`yaw_pitch_roll`] makes it of. Where the front points straight up or down there is no roll.
+/// Yaw, pitch and roll of a rotation, degrees: the inverse of [`yaw_pitch_roll`]. Roll is 0 where the front points straight up or down.
 #[must_use]
 pub fn angles_deg(rotation: DMat3) -> [f64; 3] {
     let (x, y, z) = (rotation.x_axis, rotation.y_axis, rotation.z_axis);
@@ -136,7 +135,7 @@ mod tests {
     fn quaternions_are_the_rotations() {
         for degrees in [[0.0; 3], [90.0, 0.0, 0.0], [10.0, 20.0, 30.0], [-170.0, 85.0, 721.0], [180.0, 90.0, -180.0]] {
             let off = DMat3::from_quat(yaw_pitch_roll_quaternion(degrees)) - yaw_pitch_roll(degrees);
-            // Products of three unit quaternions and matrices, each rounded a few times; 721° as radians is rounded to 2e-15.
+            // Products of three unit quaternions and matrices, with a few roundings each; 721° as radians is rounded to 2e-15.
             assert!(off.to_cols_array().iter().all(|x| x.abs() < 1e-14), "{degrees:?} {off}");
         }
     }
@@ -147,7 +146,7 @@ mod tests {
         {
             let rotation = yaw_pitch_roll(degrees);
             let off = yaw_pitch_roll(angles_deg(rotation)) - rotation;
-            // Straight up, what is left of the front's level part is rounding, below 1e-9.
+            // Straight up, the level part of the front is rounding only, below 1e-9.
             assert!(off.to_cols_array().iter().all(|x| x.abs() < 2e-9), "{degrees:?} {off}");
         }
     }
@@ -158,7 +157,7 @@ mod tests {
             let r = yaw_pitch_roll(degrees);
             let error =
                 (r * r.transpose() - DMat3::IDENTITY).to_cols_array().map(f64::abs).into_iter().fold(0.0, f64::max);
-            // Three products of unit vectors, each rounded a few times.
+            // Three products of unit vectors, with a few roundings each.
             assert!(error < 8.0 * f64::EPSILON && (r.determinant() - 1.0).abs() < 8.0 * f64::EPSILON);
         }
     }

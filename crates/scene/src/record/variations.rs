@@ -1,4 +1,4 @@
-//! A variations file: what differs from sample to sample of a data set, and how its files are laid out.
+//! A variations file: differences between the samples of a data set, and the layout of its files.
 
 use super::render::MAX_SEED;
 use crate::fault::{ErrorCode, Faults};
@@ -8,30 +8,30 @@ use crate::reader::{
 };
 use crate::written::Item;
 
-/// Most samples of a data set: their numbers have six digits in names of files.
+/// Largest number of samples of a data set: file names have six digits for it.
 pub const MAX_SAMPLES: u64 = 1_000_000;
 
 record! {
-    /// What `etendue dataset` varies, sample after sample. Each draw is a function of the seed, the number of the sample and the key (of a preset: its
-    /// name) alone.
+    /// Variations between the samples of `etendue dataset`. Each drawn value depends only on the seed, the number of the sample and the key (of a
+    /// preset: its name).
     pub struct Variations check(check) {
-        /// The seed of all draws and of each sample's light and noise. Default: 0.
+        /// Seed of all drawn values and of each sample's light and noise. Default: 0.
         optional seed: Placed<u64> = whole(0, MAX_SEED);
-        /// Formats that are written, as `--format` names them, which comes before this. Default: "coco".
+        /// Formats that are written, as for `--format`, which overrides this. Default: "coco".
         many formats: Placed<SetFormat> = list(choice(), 1);
-        /// The part of the samples, drawn each by itself, that is for validation ("val"); the others are for training ("train"). Default: 0.
+        /// Probability with which a sample is assigned to validation ("val"); the others are for training ("train"), 0 … 1. Default: 0.
         optional validation_fraction: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// Samples of a shard of "webdataset". Default: 1000.
+        /// Samples per shard of "webdataset". Default: 1000.
         optional shard_samples: Placed<u64> = whole(1, MAX_SAMPLES);
-        /// The unit of depth in "bop", mm; 65 535 of them are the greatest depth. Default: 1.
+        /// Unit of depth in "bop", mm; the greatest depth is 65 535 units. Default: 1.
         optional bop_depth_unit_mm: Placed<f64> = number("mm").above(0.0);
-        /// The classes of Cityscapes for classes of the scene: `{ car_body = "car" }`. A class that is not listed has the label of its own name, "-" and "_"
-        /// being blanks, or "unlabeled" where Cityscapes has none of that name.
+        /// Cityscapes classes for classes of the scene: `{ car_body = "car" }`. A class that is not listed has the label of its own name, with "-"
+        /// and "_" replaced by blanks, or "unlabeled" where Cityscapes has no such name.
         many cityscapes_labels: (Placed<String>, Placed<String>) = keyed_by_name(text("a label of Cityscapes"));
-        /// The types of KITTI for classes of the scene: `{ bike = "Cyclist" }`. A class that is not listed has its own name with a capital letter ("person":
-        /// "Pedestrian"), and is left out where KITTI has none of that name.
+        /// KITTI types for classes of the scene: `{ bike = "Cyclist" }`. A class that is not listed has its own name with a capital letter ("person":
+        /// "Pedestrian"), and is omitted where KITTI has no such name.
         many kitti_types: (Placed<String>, Placed<String>) = keyed_by_name(text("a type of KITTI"));
-        /// Keys that are drawn; each sample draws every one.
+        /// Keys whose value is drawn; each sample draws every one.
         many vary: Variation = list(record(), 1);
         /// Changes of several keys that belong together; each sample draws one choice of every preset.
         many presets: Preset = list(record(), 1);
@@ -41,25 +41,25 @@ record! {
 words! {
     /// Formats of data sets.
     pub enum SetFormat {
-        /// COCO: pictures, and one JSON file with boxes and masks.
+        /// COCO: images, and one JSON file with boxes and masks.
         "coco" => Coco,
-        /// KITTI: pictures, calibrations and labels of objects.
+        /// KITTI: images, calibrations and labels of objects.
         "kitti" => Kitti,
-        /// Cityscapes: pictures of label and instance ids.
+        /// Cityscapes: images of label and instance ids.
         "cityscapes" => Cityscapes,
-        /// YOLO: pictures, and boxes as lines of text.
+        /// YOLO: images, and boxes as lines of text.
         "yolo" => Yolo,
         /// BOP: poses of objects, depth and masks.
         "bop" => Bop,
-        /// WebDataset: shards (tar) of pictures with their truth.
+        /// WebDataset: shards (tar) of images with ground truth.
         "webdataset" => WebDataset,
         /// nuScenes: JSON tables of scenes, poses and boxes in space.
         "nuscenes" => NuScenes,
-        /// Cryptomatte: EXR files of objects and materials with their coverage.
+        /// Cryptomatte: EXR files with the coverage of objects and materials.
         "cryptomatte" => Cryptomatte,
-        /// MCAP: messages of ROS 2, pictures, depth, point clouds, calibrations and poses.
+        /// MCAP: ROS 2 messages of images, depth, point clouds, calibrations and poses.
         "mcap" => Mcap,
-        /// ASAM OpenLABEL: boxes in pictures and in space, JSON.
+        /// ASAM OpenLABEL: boxes in images and in space, JSON.
         "openlabel" => OpenLabel,
         /// ASAM OSI: ground truth of the world's objects, a trace of protocol buffers.
         "osi" => Osi,
@@ -67,98 +67,98 @@ words! {
 }
 
 record! {
-    /// A key of the job, its scene or a camera, and how its value is drawn.
+    /// A key of the job, its scene or a camera, and the distribution of its value.
     pub struct Variation {
-        /// The dotted key, as of `--set`: "scene.environment.luminance_cd_m2", "cameras.front.lens.f_number", "scene.objects.car.position_m.0" (the first of
-        /// a list). Several keys in a list have the same value.
+        /// Dotted key, as for `--set`: "scene.environment.luminance_cd_m2", "cameras.front.lens.f_number", "scene.objects.car.position_m.0" (the
+        /// first of a list). Several keys in a list have the same value.
         required key: Vec<Placed<String>> = either(
             text("a dotted key").map(|key| vec![key], |keys| (keys.len() == 1).then(|| keys[0].clone())),
             list(text("a dotted key"), 1),
         );
-        /// How its value is drawn.
+        /// Distribution of its value.
         inside distribution: Distribution;
     }
 }
 
 variants! {
-    /// How a value is drawn.
+    /// Distribution of a value.
     pub enum Distribution by "type" {
-        /// Every number from "min" to "max" alike.
+        /// Uniform between "min" and "max".
         "uniform" => Uniform(Uniform),
-        /// Normally distributed numbers.
+        /// Normal.
         "normal" => Normal(Normal),
-        /// Numbers whose logarithm is uniform.
+        /// Uniform in the logarithm.
         "log_uniform" => LogUniform(LogUniform),
-        /// Every whole number from "min" to "max", both included, alike.
+        /// Uniform over the whole numbers from "min" to "max", both included.
         "integer" => Integer(Integer),
-        /// One of some values.
+        /// One of several values.
         "choice" => Choice(ChoiceOf),
     }
 }
 
 record! {
-    /// Every number alike.
+    /// A uniform distribution.
     pub struct Uniform check(check_uniform) {
-        /// The least, in the unit of the key.
+        /// Minimum, in the unit of the key.
         required min: Placed<f64> = number("");
-        /// The greatest, which is not drawn itself.
+        /// Maximum, excluded.
         required max: Placed<f64> = number("");
     }
 }
 
 record! {
-    /// Normally distributed numbers; with "min" or "max" those within, drawn until one is (a truncated normal distribution).
+    /// A normal distribution; with "min" or "max" truncated to that range.
     pub struct Normal check(check_normal) {
-        /// The mean, in the unit of the key.
+        /// Mean, in the unit of the key.
         required mean: Placed<f64> = number("");
-        /// The standard deviation, above 0.
+        /// Standard deviation, above 0.
         required standard_deviation: Placed<f64> = number("").above(0.0);
-        /// The least, at most the mean. Default: none.
+        /// Minimum, at most the mean. Default: none.
         optional min: Placed<f64> = number("");
-        /// The greatest, at least the mean. Default: none.
+        /// Maximum, at least the mean. Default: none.
         optional max: Placed<f64> = number("");
     }
 }
 
 record! {
-    /// Numbers whose logarithm is uniform.
+    /// A distribution uniform in the logarithm.
     pub struct LogUniform check(check_log_uniform) {
-        /// The least, above 0, in the unit of the key.
+        /// Minimum, above 0, in the unit of the key.
         required min: Placed<f64> = number("").above(0.0);
-        /// The greatest, which is not drawn itself.
+        /// Maximum, excluded.
         required max: Placed<f64> = number("").above(0.0);
     }
 }
 
 record! {
-    /// Whole numbers.
+    /// A uniform distribution of whole numbers.
     pub struct Integer check(check_integer) {
-        /// The least.
+        /// Minimum.
         required min: Placed<u64> = whole(0, MAX_SEED);
-        /// The greatest, which is drawn as well.
+        /// Maximum, included.
         required max: Placed<u64> = whole(0, MAX_SEED);
     }
 }
 
 record! {
-    /// One of some values.
+    /// One of several values.
     pub struct ChoiceOf check(check_choice) {
-        /// The values, each as the key takes it: numbers, texts, lists, tables.
+        /// Values, each as the key accepts it: numbers, texts, lists, tables.
         required values: Vec<Item> = list(any_value(), 1);
-        /// How often each is drawn, in proportion; 0 for never. Default: all alike.
+        /// Relative frequency of each value, 0 or more. Default: all equal.
         many weights: Placed<f64> = list(number("").at_least(0.0), 1);
     }
 }
 
 record! {
-    /// Choices of changes that belong together: clear weather or fog.
+    /// Alternative sets of changes that belong together: clear weather or fog.
     pub struct Preset check(check_preset) {
-        /// Its name, by which it is drawn and recorded.
+        /// Name, by which it is drawn and recorded.
         required name: Placed<String> = text("the name of the preset");
-        /// The choices, each a list of changes as of `--set`: "scene.environment.luminance_cd_m2=80"; an empty list changes nothing, and "key=null" takes
-        /// the key out.
+        /// Choices, each a list of changes as for `--set`: "scene.environment.luminance_cd_m2=80". An empty list changes nothing, and "key=null"
+        /// removes the key.
         required choices: Vec<Vec<Placed<String>>> = list(list(text("a change KEY=VALUE"), 0), 1);
-        /// How often each is drawn, in proportion; 0 for never. Default: all alike.
+        /// Relative frequency of each choice, 0 or more. Default: all equal.
         many weights: Placed<f64> = list(number("").at_least(0.0), 1);
     }
 }
@@ -220,7 +220,8 @@ fn check_integer(range: &Integer, faults: &mut Faults) {
     }
 }
 
-/// So that at least one number of some fifty is within: 4 % of a normal distribution lie within a tenth of its deviation beside the mean.
+/// Refuses a distribution with less than about one number in fifty within the limits: 4 % of a normal distribution lie within a tenth of a deviation
+/// next to the mean.
 fn check_normal(normal: &Normal, faults: &mut Faults) {
     let (mean, least) = (normal.mean.value, 0.1 * normal.standard_deviation.value);
     if let Some(min) = normal.min.as_ref().filter(|min| min.value > mean) {

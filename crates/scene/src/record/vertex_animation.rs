@@ -1,4 +1,4 @@
-//! Meshes whose vertices move, from one file for each of several times.
+//! Meshes with moving vertices, from one file for each of several times.
 
 use etendue_core::{Cycle, Epoch, ExactTime};
 
@@ -10,42 +10,41 @@ use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, time, whole, words};
 
 record! {
-    /// Vertices that move within their mesh: the same mesh in several files, one for each time. From one to the next every vertex goes
-    /// straight at an even speed.
+    /// Vertex animation: the same mesh in several files, one for each time. Every vertex moves straight and at constant speed between two files.
     pub struct VertexAnimation check(check) {
-        /// The files (Wavefront OBJ), numbered: `%d` in the name stands for the number, `%03d` for the number in three digits with zeros
-        /// before it. All have the same faces; texture coordinates and materials are those of the first.
+        /// The files (Wavefront OBJ), numbered: `%d` in the name stands for the number, `%03d` for the number in three digits with leading zeros. All
+        /// have the same faces; texture coordinates and materials are those of the first.
         required files: Placed<PathBuf> = path(&["obj"]);
-        /// The number of the first file. Default: 0.
+        /// Number of the first file. Default: 0.
         optional first: Placed<u64> = whole(0, 999_999_999);
-        /// How many files, 2 or more.
+        /// Number of files, 2 or more.
         required count: Placed<u64> = whole(2, 100_000);
-        /// When the vertices are those of each file.
+        /// Times of the files.
         inside times: FrameTimes;
-        /// Added to all times, s. Default: 0.
+        /// Offset added to all times, s. Default: 0.
         optional time_offset_s: Placed<ExactTime> = time();
-        /// What follows the last file and precedes the first. Default: "hold".
+        /// Behaviour after the last file and before the first. Default: "hold".
         optional repeat: Placed<FrameRepeat> = choice();
     }
 }
 
 keyed! {
-    /// When the vertices are those of each file.
+    /// Times of the files.
     pub enum FrameTimes {
-        /// Files a second, above 0: the first at 0 s of simulated time, the next 1 / "rate_hz" later. In a loop the first comes again as much
+        /// Files per second, above 0: the first at 0 s of simulated time, the next 1 / "rate_hz" later. In a loop the first recurs the same time
         /// after the last.
         rate_hz => Rate(Placed<f64>) = number("Hz").above(0.0).at_most(1e6);
-        /// A time for each file, s, rising; in a loop one more, at which the first comes again.
+        /// A time for each file, s, rising; in a loop one more, at which the first recurs.
         times_s => Times(Vec<Placed<ExactTime>>) = list(time(), 2);
     }
 }
 
 words! {
-    /// What follows the last file of moving vertices and precedes the first.
+    /// Behaviour after the last file of moving vertices and before the first.
     pub enum FrameRepeat {
-        /// The last holds, and the first before its time.
+        /// Holds the last file, and the first before its time.
         "hold" => Hold,
-        /// The first again, and so on, also before its time.
+        /// Repeats from the first file, also before its time.
         "loop" => Loop,
     }
 }
@@ -59,14 +58,14 @@ impl VertexAnimation {
         (first..first + self.count.value).map(file).collect()
     }
 
-    /// What follows the last file.
+    /// Behaviour after the last file.
     #[must_use]
     pub fn repeats(&self) -> FrameRepeat {
         self.repeat.as_ref().map_or(FrameRepeat::Hold, |repeat| repeat.value)
     }
 
-    /// The time of each file since the epoch, s, and of a loop that at which the first comes again. A loop far from the epoch is moved by
-    /// whole periods to near it.
+    /// Time of each file since the epoch, s; for a loop also the time at which the first recurs. A loop far from the epoch is shifted by whole
+    /// periods to near it.
     #[must_use]
     pub fn frame_times_s(&self, epoch: Epoch) -> Vec<f64> {
         let offset = self.time_offset_s.as_ref().map_or(ExactTime::default(), |offset| offset.value) - epoch.start();
@@ -133,7 +132,7 @@ mod tests {
     use super::*;
     use crate::place::Place;
 
-    /// A loop of 0.4 s that began at 0 s is in the same phase after any number of periods, and one that holds is long over.
+    /// A loop of 0.4 s that began at 0 s has the same phase after any number of periods; a held animation is long over.
     #[test]
     fn loops_keep_their_phase_at_unix_times() {
         let animation = |repeat: FrameRepeat| VertexAnimation {

@@ -1,4 +1,4 @@
-//! A weather file: what `etendue weather` lays over stored radiance.
+//! A weather file: weather that `etendue weather` adds to stored radiance.
 
 use super::light::Emission;
 use super::medium::{Extinction, MediumShape, Unevenness};
@@ -11,35 +11,35 @@ use crate::place::Placed;
 use crate::reader::{list, number, record, text, variants};
 
 record! {
-    /// Fog laid over stored radiance by Koschmieder's law (1924): L = L₀ T + L_air (1 − T), T = exp(−∫β dt) along each pixel's ray; and
-    /// streaks of rain or snow over it. One of both at least.
+    /// Fog added to stored radiance by Koschmieder's law (1924): L = L₀ T + L_air (1 − T), T = exp(−∫β dt) along each pixel's ray; and streaks of
+    /// rain or snow. At least one of the two.
     pub struct Weather check(check_weather) {
-        /// The radiance of fog so deep that nothing is seen through it.
+        /// Airlight: radiance of fog of infinite depth.
         required airlight: Airlight = record();
-        /// The fog; where several overlap they add up. Default: none.
+        /// Fog; overlapping fogs add up. Default: none.
         many fog: Fog = list(record(), 0);
-        /// Rain or snow: near drops and flakes as streaks, far ones by Koschmieder's law. The same keys and the same drops as those of a
-        /// scene. Default: none.
+        /// Rain or snow: near drops and flakes as streaks, far ones by Koschmieder's law. The same keys and the same drops as in a scene. Default:
+        /// none.
         optional precipitation: Precipitation = record();
-        /// How long streaks are exposed from the image's time on, s, above 0 … 60; needed with "precipitation", and without effect else.
+        /// Exposure of streaks from the image's time on, s, above 0 … 60; required with "precipitation", without effect otherwise.
         optional exposure_s: Placed<f64> = number("s").above(0.0).at_most(60.0);
     }
 }
 
 variants! {
-    /// The radiance of fog without end.
+    /// Radiance of fog of infinite depth.
     pub enum Airlight by "type" {
-        /// The same everywhere, with the keys of an emission.
+        /// Equal in all directions, with the keys of an emission.
         "uniform" => Uniform(Emission),
-        /// The mean of what the picture shows of the sky over the horizon.
+        /// Mean of the image's sky above the horizon.
         "sky" => Sky(AirlightSky),
     }
 }
 
 record! {
-    /// Airlight of the sky's own radiance.
+    /// Airlight from the sky's own radiance.
     pub struct AirlightSky {
-        /// Up to which height above the horizon the sky is averaged, degrees, above 0 … 90. Default: 10.
+        /// Greatest height above the horizon of the averaged sky, degrees, above 0 … 90. Default: 10.
         optional elevation_deg: Placed<f64> = number("°").above(0.0).at_most(90.0);
     }
 }
@@ -47,15 +47,15 @@ record! {
 record! {
     /// Fog in a part of the world.
     pub struct Fog check(check) {
-        /// Its name.
+        /// Name of the fog.
         required name: Placed<String> = text("the name of the fog");
-        /// How dense it is.
+        /// Density.
         inside extinction: Extinction;
-        /// The part of the world that it fills. Default: everywhere.
+        /// Part of the world that it fills. Default: everywhere.
         optional shape: MediumShape = record();
-        /// Where the shape's origin is in the world; of shapes with bounds.
+        /// Placement of the shape in the world; only of shapes with bounds.
         inside transform: Transform;
-        /// How its density changes from place to place. Default: it is the same everywhere.
+        /// Spatial variation of the density. Default: homogeneous.
         optional unevenness: Unevenness = record();
     }
 }

@@ -1,16 +1,15 @@
-//! A table as bytes: one form for one meaning, for hashes.
+//! A table as bytes for hashes: one form for one meaning.
 
 use std::path::Path;
 
 use super::{Item, Table, Value};
 
-/// The hash of a file's contents, by its path; a file that nobody read has none.
+/// The hash of a file's contents, by its path; empty for a file that was not read.
 pub type FileHash<'f> = dyn Fn(&Path) -> Vec<u8> + 'f;
 
 impl Table {
-    /// Feeds the table to `sink`: every value behind a tag of its kind, numbers as 64 bits in little-endian order, texts and lists
-    /// behind their lengths, keys in the order of the record, a file by what `file` says of its contents in place of its path.
-    /// Places are left out, and so are comments and the way it was written.
+    /// Feeds the table to `sink`: every value after a tag of its kind, numbers as 64 bits in little-endian order, texts and lists after their
+    /// lengths, keys in the order of the record, and for a file the bytes of `file` instead of its path. Places, comments and formatting are ignored.
     pub fn feed(&self, file: &FileHash<'_>, sink: &mut dyn FnMut(&[u8])) {
         feed_length(self.entries.len(), sink);
         for (key, item) in &self.entries {

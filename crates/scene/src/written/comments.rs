@@ -8,11 +8,11 @@ use std::fmt;
 pub(super) struct Comments {
     /// Above keys and sections.
     pub(super) above: BTreeMap<String, String>,
-    /// On the lines of keys.
+    /// At the end of the lines of keys.
     pub(super) beside: BTreeMap<String, String>,
 }
 
-/// The lines of a comment. A control character would end it, and is a space.
+/// Writes the lines of a comment. A control character would end it, and is replaced by a space.
 pub(super) fn write_comment(f: &mut fmt::Formatter<'_>, comment: Option<&String>) -> fmt::Result {
     for line in comment.into_iter().flat_map(|comment| comment.split('\n')) {
         let line: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();

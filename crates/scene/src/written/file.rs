@@ -8,10 +8,9 @@ use super::layout::write_section;
 
 /// A file of the format: `format = 1`, a table, and comments.
 ///
-/// Its text ([`fmt::Display`]) has the keys in the table's order, but tables of their own behind the values: a table that is a
-/// value of its own is `[key]`, one that stands for a value is written in line, lists of tables are `[[key]]`, within one of these
-/// lists of lines. A file of the format is UTF-8: a table with a path that is not has no text, and to write it is an error
-/// (`to_string` panics).
+/// Its text ([`fmt::Display`]) has the keys in the table's order, with values before sections: a table is a section `[key]`, one that stands for a
+/// value is written inline, lists of tables are `[[key]]`, and within one of these lists of lines. A file of the format is UTF-8: a table with a path
+/// that is not has no text, and writing it is an error (`to_string` panics).
 #[derive(Clone, Debug, Default)]
 pub struct File {
     head: String,
@@ -20,28 +19,28 @@ pub struct File {
 }
 
 impl File {
-    /// A file that says what the table says.
+    /// Creates a file with the table's keys.
     #[must_use]
     pub fn new(table: Table) -> Self {
         Self { table, ..Self::default() }
     }
 
-    /// With a comment at its head, one line or more.
+    /// Adds a comment at its head, one line or more.
     #[must_use]
     pub fn head(mut self, comment: impl Into<String>) -> Self {
         self.head = comment.into();
         self
     }
 
-    /// With a comment, one line or more, above a key or a section: `sensor.dark`, `materials.glass` of an entry with a name.
-    /// A key that is not written has none.
+    /// Adds a comment, one line or more, above a key or a section: `sensor.dark`, `materials.glass` of a named entry. A key that is not written has
+    /// no comment.
     #[must_use]
     pub fn above(mut self, key: &str, comment: impl Into<String>) -> Self {
         self.comments.above.insert(key.to_owned(), comment.into());
         self
     }
 
-    /// With a comment on the line of a key.
+    /// Adds a comment at the end of a key's line.
     #[must_use]
     pub fn beside(mut self, key: &str, comment: impl Into<String>) -> Self {
         self.comments.beside.insert(key.to_owned(), comment.into());

@@ -1,4 +1,4 @@
-//! How tables are laid out in a file: what is a section, what a line.
+//! Layout of tables in a file: sections and lines.
 
 use std::fmt::{self, Write as _};
 use std::path::{MAIN_SEPARATOR, Path};
@@ -7,15 +7,15 @@ use super::comments::{Comments, write_comment};
 use super::{Item, Table, Value};
 use crate::document::join;
 
-/// A table within an entry of a list is written in line where the line is no longer than this, characters.
+/// Maximum line length of an inline table within an entry of a list, characters.
 const LINE: usize = 120;
 
-/// The keys of a table: values first, then sections.
+/// Writes the keys of a table: values first, then sections.
 pub(super) fn write_section(f: &mut fmt::Formatter<'_>, comments: &Comments, path: &str, table: &Table) -> fmt::Result {
     write_keys(f, comments, path, table, is_section)
 }
 
-/// As a table of its own.
+/// True for a table that is a section.
 fn is_section(item: &Item, _: &str) -> bool {
     match &item.value {
         Value::Table(table) => !table.inline,
@@ -74,7 +74,7 @@ fn write_head(f: &mut fmt::Formatter<'_>, comments: &Comments, path: &str, head:
     writeln!(f, "{}", head.concat())
 }
 
-/// The entries of a list of tables of their own.
+/// The entries of a list of tables that are sections.
 fn tables_of(item: &Item) -> Option<Vec<(&Item, &Table)>> {
     let Value::List(list) = &item.value else { return None };
     let tables = list.iter().map(|item| match &item.value {
@@ -84,7 +84,7 @@ fn tables_of(item: &Item) -> Option<Vec<(&Item, &Table)>> {
     tables.collect::<Option<Vec<_>>>().filter(|tables| !tables.is_empty())
 }
 
-/// In line, but a list of tables in a line each.
+/// Writes a value inline, but a list of tables with one line each.
 fn write_value(f: &mut fmt::Formatter<'_>, item: &Item) -> fmt::Result {
     let Some(tables) = tables_of(item) else { return write!(f, "{}", InLine(item)) };
     f.write_str("[\n")?;
@@ -95,7 +95,7 @@ fn write_value(f: &mut fmt::Formatter<'_>, item: &Item) -> fmt::Result {
 }
 
 impl Item {
-    /// The value in one line, as TOML writes it. A path that is not UTF-8 has no text (an empty one).
+    /// The value in one line, as TOML. A path that is not UTF-8 has no text (an empty one).
     #[must_use]
     pub fn in_one_line(&self) -> String {
         let mut line = String::new();
@@ -145,18 +145,18 @@ fn write_parted<T>(
     Ok(())
 }
 
-/// The shortest decimal that reads back to the same bits; with an exponent where it would have many zeros.
+/// Writes the shortest decimal that reads back to the same bits; with an exponent where it would have many zeros.
 fn write_number(f: &mut fmt::Formatter<'_>, number: f64) -> fmt::Result {
     let plain = number == 0.0 || (1e-5..1e15).contains(&number.abs());
     match plain {
-        // TOML's whole numbers have no minus zero.
+        // TOML's integers have no negative zero.
         true if number == 0.0 && number.is_sign_negative() => f.write_str("-0.0"),
         true => write!(f, "{number}"),
         false => write!(f, "{number:e}"),
     }
 }
 
-/// With `/` between its parts, as files of the format have it on every system.
+/// Writes a path with `/` separators, as in files of the format on every system.
 fn write_path(f: &mut fmt::Formatter<'_>, path: &Path) -> fmt::Result {
     let text = path.to_str().ok_or(fmt::Error)?;
     match MAIN_SEPARATOR {
@@ -165,7 +165,7 @@ fn write_path(f: &mut fmt::Formatter<'_>, path: &Path) -> fmt::Result {
     }
 }
 
-/// A basic string of TOML.
+/// Writes a basic string of TOML.
 fn write_text(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     f.write_char('"')?;
     for c in text.chars() {
@@ -178,7 +178,7 @@ fn write_text(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     f.write_char('"')
 }
 
-/// A key, in quotes where it needs them.
+/// A key, quoted if necessary.
 struct Key<'a>(&'a str);
 
 impl fmt::Display for Key<'_> {

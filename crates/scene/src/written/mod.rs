@@ -1,8 +1,7 @@
-//! What a record says, as a table of the format: what the macros of `reader` write back.
+//! A record as a table of the format, written by the macros of `reader`.
 //!
-//! A [`Table`] is text of a file ([`File`]), the bytes of a hash ([`Table::feed`]) and the places of keys
-//! ([`Table::place_of`]), all three from the one statement of each key that also reads it. Keys that were not given are not
-//! there: a default is never spelt out.
+//! A [`Table`] gives the text of a file ([`File`]), the bytes of a hash ([`Table::feed`]) and the places of keys ([`Table::place_of`]), all from the
+//! same statement of each key that reads it. Keys that were not given are absent: a default is never written.
 
 mod bytes;
 mod comments;
@@ -20,12 +19,12 @@ use std::path::{Path, PathBuf};
 use crate::document::join;
 use crate::place::{Place, Placed};
 
-/// A value and where it stands. Equality looks at the value only.
+/// A value and its place. Equality ignores the place.
 #[derive(Clone, Debug)]
 pub struct Item {
     /// The value.
     pub value: Value,
-    /// Where it stands; [`Place::unstated`] of what no file says.
+    /// Its place; [`Place::unstated`] if no file states it.
     pub place: Place,
 }
 
@@ -40,15 +39,15 @@ impl PartialEq for Item {
 pub enum Value {
     /// `true` or `false`.
     Flag(bool),
-    /// A whole number.
+    /// A non-negative integer.
     Whole(u64),
     /// A finite number, in the unit of its key.
     Number(f64),
-    /// A text: a name, or a word that has a meaning.
+    /// A text: a name, or a word of the format.
     Text(String),
-    /// The path of a file, relative to where the written file will stand.
+    /// Path of a file, relative to the location of the written file.
     Path(PathBuf),
-    /// A day or a time, as TOML writes it: 2026-06-21, 09:30:00.
+    /// A date or a time, as in TOML: 2026-06-21, 09:30:00.
     Moment(String),
     /// A list.
     List(Vec<Item>),
@@ -60,9 +59,9 @@ pub enum Value {
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     entries: Vec<(String, Item)>,
-    /// Where the table stands.
+    /// Place of the table.
     place: Option<Place>,
-    /// Whether it stands for a value, and is written in one line.
+    /// True if it represents a value and is written in one line.
     inline: bool,
 }
 
@@ -73,27 +72,27 @@ impl PartialEq for Table {
 }
 
 impl Table {
-    /// No keys.
+    /// Creates an empty table.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The table with a key more.
+    /// Adds a key.
     #[must_use]
     pub fn with(mut self, key: &str, value: impl Into<Item>) -> Self {
         self.put(key, value);
         self
     }
 
-    /// The table with all keys of another after its own.
+    /// Appends all keys of another table.
     #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.entries.extend(other.entries);
         self
     }
 
-    /// The same, written in one line: `{ a = 1, b = 2 }`.
+    /// Marks the table for one line: `{ a = 1, b = 2 }`.
     #[must_use]
     pub fn in_line(mut self) -> Self {
         self.inline = true;
@@ -116,8 +115,8 @@ impl Table {
         self.entries().find(|(known, _)| *known == key).map(|(_, item)| item)
     }
 
-    /// Where the innermost part of a dotted key stands that is stated: of `dark.hot.share` the share, else `hot`, else `dark`;
-    /// of a list its first entry. `None` where none of it is.
+    /// Place of the innermost stated part of a dotted key: of `dark.hot.share` the share, else `hot`, else `dark`; of a list its first entry. `None`
+    /// if no part is stated.
     #[must_use]
     pub fn place_of(&self, key: &str) -> Option<&Place> {
         let (first, rest) = key.split_once('.').unwrap_or((key, ""));
@@ -129,12 +128,12 @@ impl Table {
         inner.or(Some(&item.place)).filter(|place| place.is_stated())
     }
 
-    /// Notes where the table stands, unless it is known.
+    /// Sets the place of the table, unless it is known.
     pub(crate) fn stand(&mut self, place: &Place) {
         self.place.get_or_insert_with(|| place.clone());
     }
 
-    /// The name by which a list's entry is called.
+    /// Name of a list's entry.
     fn name(&self) -> Option<&str> {
         match self.get("name").map(|item| &item.value) {
             Some(Value::Text(name)) => Some(name),
@@ -144,12 +143,12 @@ impl Table {
 }
 
 impl Item {
-    /// A value at a place.
+    /// Creates a value at a place.
     pub(crate) fn at(place: &Place, value: Value) -> Self {
         Self { value, place: place.clone() }
     }
 
-    /// The same, a table in one line.
+    /// Marks a table for one line.
     pub(crate) fn in_line(self) -> Self {
         match self.value {
             Value::Table(table) => Self { value: Value::Table(table.in_line()), ..self },
@@ -157,7 +156,7 @@ impl Item {
         }
     }
 
-    /// The dotted key of the list's entry `index` that this is.
+    /// Dotted key of this value as the entry `index` of a list.
     fn key_in(&self, list: &str, index: usize) -> String {
         match &self.value {
             Value::Table(table) => table.name().map(|name| join(list, name)),
@@ -201,7 +200,7 @@ impl<T: Into<Self>> From<Placed<T>> for Item {
     }
 }
 
-/// Values that are a variant of [`Value`] as they are.
+/// Conversions of values that are a variant of [`Value`].
 macro_rules! values {
     ($($ty:ty => $variant:ident,)*) => {$(
         impl From<$ty> for Item {

@@ -1,4 +1,4 @@
-//! What is read is written, every key of it, and what is written is read back: for tables made of the format's own schema.
+//! Writing and reading back every key, for tables generated from the format's own schema.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::place::Place;
 use crate::reader::{Record, Rule as _, record};
 use crate::record::{DataSheet, Job};
 
-/// Enough for every variant of the format to come.
+/// Large enough for every variant of the format to occur.
 const SAMPLES: usize = 60;
 
 #[test]
@@ -36,14 +36,14 @@ fn check<T: Record>() {
     }
 }
 
-/// Whether the samples make sense together is not asked: each key of them is right.
+/// Reads a sample. Keys are valid one by one; contradictions between them are ignored.
 fn read<T: Record>(tree: &Node) -> T {
     let mut faults = Faults::none();
     let read = record::<T>().read(tree, &mut faults);
     read.unwrap_or_else(|| panic!("{}", faults.list().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")))
 }
 
-/// A value that the schema admits, another each turn.
+/// A value that the schema admits, different in each turn.
 fn of_schema(schema: &Json, turn: usize) -> Json {
     if let Some(options) = schema["oneOf"].as_array().or(schema["anyOf"].as_array()) {
         let options: Vec<_> = options.iter().filter(|option| !is_of_files(option)).collect();
@@ -74,7 +74,7 @@ fn of_schema(schema: &Json, turn: usize) -> Json {
     }
 }
 
-/// What stands for a record of its own only before records are read: a file's name, a preset's.
+/// True for text that is replaced before records are read: the name of a file or of a preset.
 fn is_of_files(option: &Json) -> bool {
     let is_file = |schema: &Json| schema["pattern"] == "\\.(toml)$";
     let keys = &option["properties"];
@@ -96,7 +96,7 @@ fn of_table(schema: &Json, turn: usize) -> Json {
             table.remove(*key);
         }
     }
-    // A check refuses these, and no record keeps them.
+    // These keys are refused by a check, and no record contains them.
     for (key, owner) in [("peak", "camera"), ("scale", "texture")] {
         if ["srgb", "spectrum", "named", "channels"].iter().any(|k| table.contains_key(*k))
             && !table.contains_key(owner)
@@ -107,7 +107,7 @@ fn of_table(schema: &Json, turn: usize) -> Json {
     Json::Object(table)
 }
 
-/// Within the bounds, and no round number.
+/// A number within the bounds that is not round.
 fn number(schema: &Json, turn: usize) -> f64 {
     let low = schema["minimum"].as_f64().or(schema["exclusiveMinimum"].as_f64());
     let high = schema["maximum"].as_f64().or(schema["exclusiveMaximum"].as_f64());
@@ -158,7 +158,7 @@ fn at_home(value: Value) -> Node {
     Node { place: Place::file_head(Path::new("job.toml")), value }
 }
 
-/// Where two values are not the same, a line each.
+/// Differences between two values, one line each.
 fn differences(key: &str, a: &Json, b: &Json) -> String {
     match (a, b) {
         (Json::Object(a), Json::Object(b)) => {
@@ -175,7 +175,7 @@ fn differences(key: &str, a: &Json, b: &Json) -> String {
     }
 }
 
-/// What a hash knows of a table.
+/// The bytes that a hash covers of a table.
 fn bytes(table: &Table) -> Vec<u8> {
     let mut bytes = Vec::new();
     table.feed(&|path| path.to_string_lossy().into_owned().into_bytes(), &mut |part| bytes.extend_from_slice(part));
@@ -201,7 +201,7 @@ fn item(json: &Json) -> Item {
     }
 }
 
-/// The value with its part `which` another, of as many as it has.
+/// The value with its part `which` changed.
 fn changed(json: &Json, which: &mut usize) -> Json {
     match json {
         Json::Array(list) => list.iter().map(|entry| changed(entry, which)).collect(),

@@ -1,10 +1,10 @@
-//! Files laid over a base.
+//! Files merged over a base.
 
 use etendue_scene::record::{Environment, Lens};
 
 use crate::files::{Files, load};
 
-/// The page's example, its scene and camera made bases of files that say only what `scene` and `camera` say.
+/// The page's example; its scene and camera are bases of files that state only `scene` and `camera`.
 fn derived(scene: &str, camera: &str) -> Files {
     let mut files = Files::of_example();
     files.rename("scene.toml", "base/scene.toml");
@@ -24,7 +24,7 @@ fn a_base_alone_is_the_base() {
     let (plain, over) = (plain.expect("the example"), over.expect("over the example"));
     assert_eq!(plain.scene.objects.len(), over.scene.objects.len());
     assert_eq!(plain.cameras[0].camera.sensor.width_px, over.cameras[0].camera.sensor.width_px);
-    // Paths belong to the file that names them.
+    // Paths are relative to the file that names them.
     let paths = |d: &etendue_scene::Description| d.assets().iter().map(|a| a.path.clone()).collect::<Vec<_>>();
     let moved: Vec<_> = paths(&plain).iter().map(|p| std::path::Path::new("base").join(p)).collect();
     assert_eq!(paths(&over), moved);
@@ -73,7 +73,7 @@ fn faults_name_the_file_that_says_it() {
     assert!(faults("remove = 3\n", "").contains("remove: found 3; give a list of dotted keys"));
     let mut files = derived("", "");
     files.edit("base/scene.toml", "format = 1", "format = 1\nbase = \"../scene.toml\"");
-    // In memory, paths are not made shorter: "base/../scene.toml" is no file here, as a missing base.
+    // In memory, paths are not normalised: "base/../scene.toml" is no file here, as a missing base.
     assert!(load(&files, &[]).expect_err("a fault").to_string().contains("cannot read \"base/../scene.toml\""));
     let mut files = derived("", "");
     files.edit("scene.toml", "base/scene.toml", "scene.toml");

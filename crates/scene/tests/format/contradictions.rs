@@ -1,4 +1,4 @@
-//! Lights, skies, textures and materials that contradict themselves.
+//! Contradictions of lights, skies, textures and materials.
 
 use crate::files::{Files, load};
 
@@ -18,17 +18,17 @@ encoding = "srgb"
 
 "#;
 
-/// The faults of a job with `more` at its end, one a line.
+/// Errors of a job with `more` appended, one per line.
 fn faults_of(more: &str) -> String {
     load(&Files::of_job(&format!("{JOB}{more}")), &[]).err().map_or(String::new(), |f| f.to_string())
 }
 
-/// The faults of a light with these keys.
+/// Errors of a light with these keys.
 fn light(keys: &str) -> String {
     faults_of(&format!("[[scene.lights]]\nname = \"l\"\n{keys}\n"))
 }
 
-/// The faults of a material with these keys.
+/// Errors of a material with these keys.
 fn material(keys: &str) -> String {
     faults_of(&format!("[[scene.materials]]\nname = \"m\"\n{keys}\n"))
 }
@@ -180,7 +180,7 @@ fn levels_that_trace_no_paths() {
     assert_eq!(level(&shared, "integrator = \"flat\""), "", "the other camera traces paths of eight bounces");
 }
 
-/// The faults of a camera with these keys in its [effects.psf], line 2 of the file `camera.toml`.
+/// Errors of a camera with these keys in its [effects.psf], line 2 of the file `camera.toml`.
 fn psf(keys: &str) -> String {
     let text = format!(
         "format = 1\neffects = {{ psf = {{ {keys} }} }}\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 6\n\

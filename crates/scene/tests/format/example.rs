@@ -1,4 +1,4 @@
-//! The examples of the pages are read as they say.
+//! The examples of the pages are read with the described meaning.
 
 use std::path::Path;
 

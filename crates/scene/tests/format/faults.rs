@@ -1,4 +1,4 @@
-//! Faults in the user's words: each text is pinned.
+//! Texts of errors: each is pinned.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use etendue_scene::{Overrides, load_camera};
 
 use crate::files::{Files, load};
 
-/// What makes a small job that is right.
+/// Body of a small valid job.
 const JOB: &str = r#"
 [[scene.materials]]
 name = "grey"
@@ -20,14 +20,14 @@ material = "grey"
 position_m = [5, 0, 1]
 "#;
 
-/// The faults of the job with `old` replaced by `new`, one a line.
+/// Errors of the job with `old` replaced by `new`, one per line.
 pub(crate) fn faults_of(old: &str, new: &str) -> String {
     let mut files = Files::with_camera(JOB);
     files.edit("job.toml", old, new);
     load(&files, &[]).err().map_or(String::new(), |f| f.to_string())
 }
 
-/// The faults of the job under overrides.
+/// Errors of the job under overrides.
 fn faults_of_sets(sets: &[&str]) -> String {
     load(&Files::with_camera(JOB), sets).err().map_or(String::new(), |f| f.to_string())
 }
@@ -37,7 +37,7 @@ fn the_job_itself_is_right() {
     assert_eq!(faults_of_sets(&[]), "");
 }
 
-/// A mistyped key that is needed is one fault: it is not said to be missing as well.
+/// A misspelt required key is one error: it is not reported as missing as well.
 #[test]
 fn a_misspelt_key() {
     assert_eq!(
@@ -274,7 +274,7 @@ fn a_margin_without_its_route() {
     assert_eq!(faults_of_sets(&["cameras.front.render={overscan=0.1}", "render.route=pupil"]), "");
 }
 
-/// The notices of the job with `render` added under overrides.
+/// Notices of the job with `render` added under overrides.
 fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>, String> {
     let files = Files::with_camera(&format!("{JOB}\n[render]\n{render}\n"));
     let mut overrides = Overrides::default();
@@ -374,7 +374,7 @@ fn text_that_is_not_toml() {
     assert!(text.starts_with("job.toml:11:12: this is not TOML: "), "{text}");
     let text = faults_of("f_number = 2.0", "f_number = 2.0\nf_number = 2.0");
     assert!(text.contains("job.toml:12:1: this is not TOML: duplicate key"), "{text}");
-    // A quotation mark that is missing makes every later line wrong: the first place is told, and not all of them.
+    // A missing quotation mark invalidates every later line: only the first place is reported.
     let text = faults_of("format = 1", "format = { a = \"");
     assert!(text.starts_with("job.toml:1:") && text.lines().count() <= 3, "{text}");
 }

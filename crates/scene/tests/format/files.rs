@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use etendue_scene::{Description, Faults, Overrides};
 
-/// Where a page of the documentation stands.
+/// Path of a page of the documentation.
 pub(crate) fn page_path(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs")).join(name)
 }
@@ -15,7 +15,7 @@ pub(crate) fn page(name: &str) -> String {
     std::fs::read_to_string(page_path(name)).expect("the page is in the repository")
 }
 
-/// A job's head: its format and a camera that is right.
+/// Head of a job: its format and a valid camera.
 const CAMERA: &str = r#"format = 1
 
 [[cameras]]
@@ -60,12 +60,12 @@ impl Files {
         Self(pages.into_iter().map(file).collect())
     }
 
-    /// One job.
+    /// A job without other files.
     pub(crate) fn of_job(text: &str) -> Self {
         Self([("job.toml".to_owned(), text.to_owned())].into())
     }
 
-    /// A job of one camera that is right, and `text`.
+    /// A job with a valid camera, and `text`.
     pub(crate) fn with_camera(text: &str) -> Self {
         Self::of_job(&format!("{CAMERA}{text}"))
     }
@@ -79,7 +79,7 @@ impl Files {
         self.put(new, &text);
     }
 
-    /// Changes a text that must be there.
+    /// Replaces a text that must be present.
     pub(crate) fn edit(&mut self, name: &str, old: &str, new: &str) {
         let text = self.text(name);
         assert!(text.contains(old), "{name} has no {old}");

@@ -1,4 +1,4 @@
-//! Descriptions that would take a program down: long lines, deep keys.
+//! Descriptions that could crash a program: long lines, deep keys.
 
 use crate::files::{Files, load};
 
@@ -19,7 +19,7 @@ fn objects(count: usize) -> String {
     (0..count).map(object).collect::<Vec<_>>().join(",")
 }
 
-/// With the columns counted from the head of the line, this many took minutes.
+/// With columns counted from the start of the line, this number took minutes.
 #[test]
 fn a_hundred_thousand_objects_on_one_line() {
     let files = Files::with_camera(&format!("{JOB}objects=[{}]\n", objects(100_000)));
@@ -43,7 +43,7 @@ fn a_base_of_many_objects_under_as_many() {
     assert_eq!(load(&files, &[]).expect("a right job").scene.objects.len(), 30_000);
 }
 
-/// A table within a table for each part overflowed the stack.
+/// One nested table per part overflowed the stack.
 #[test]
 fn a_key_of_twenty_thousand_parts() {
     let set = format!("{}=1", vec!["a"; 20_000].join("."));

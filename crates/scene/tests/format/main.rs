@@ -1,4 +1,4 @@
-//! The format of descriptions: the examples of its pages, faults in the user's words, schema and reference.
+//! The format of descriptions: the examples of its pages, texts of errors, schema and reference.
 
 mod base;
 mod contradictions;

@@ -1,8 +1,8 @@
-//! Lights whose strength changes over time, and what contradicts itself there.
+//! Contradictions of lights with modulated strength.
 
 use crate::files::{Files, load};
 
-/// The faults of a job with `more` at its end, one a line.
+/// Errors of a job with `more` appended, one per line.
 fn faults_of(more: &str) -> String {
     load(&Files::with_camera(more), &[]).err().map_or(String::new(), |f| f.to_string())
 }

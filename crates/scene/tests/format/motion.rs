@@ -1,4 +1,4 @@
-//! What is said of motion: refused where it contradicts itself.
+//! Contradictory statements of motion are refused.
 
 use crate::faults::faults_of;
 

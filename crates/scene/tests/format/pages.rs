@@ -1,4 +1,4 @@
-//! The pieces of TOML on the pages of materials and lights are read as they stand.
+//! The TOML blocks on the pages of materials and lights are valid.
 
 use std::collections::HashSet;
 
@@ -15,8 +15,7 @@ fn blocks(page: &str) -> Vec<&str> {
     page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().expect("a block")).collect()
 }
 
-/// A page as jobs: its pieces together, and each environment by itself, of which a scene has one. A piece with cameras is the
-/// job's.
+/// A page as jobs: its blocks together, and each environment by itself, of which a scene has one. A block with cameras belongs to the job.
 fn jobs(page: &str) -> Vec<Files> {
     let (views, scenes): (Vec<_>, Vec<_>) = blocks(page).into_iter().partition(|block| block.contains("[[cameras]]"));
     let (environments, parts): (Vec<_>, Vec<_>) = scenes.into_iter().partition(|block| block.contains("[environment]"));
@@ -30,13 +29,13 @@ fn jobs(page: &str) -> Vec<Files> {
     core::iter::once(job(&parts.concat())).chain(environments.into_iter().map(job)).collect()
 }
 
-/// The pieces of a page together, after all of it has been read.
+/// The blocks of a page together, after all of it has been read.
 fn read(page: &str) -> Description {
     let all: Result<Vec<_>, Faults> = jobs(page).iter().map(|files| load(files, &[])).collect();
     all.unwrap_or_else(|faults| panic!("{faults}")).swap_remove(0)
 }
 
-/// How often a page begins a table of this kind.
+/// Number of tables of this kind on a page.
 fn count(page: &str, head: &str) -> usize {
     blocks(page).iter().flat_map(|block| block.lines()).filter(|line| *line == head).count()
 }

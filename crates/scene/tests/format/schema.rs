@@ -1,11 +1,11 @@
-//! The schema says what the parser accepts, and the parser accepts what the schema says.
+//! The schema and the parser accept the same descriptions.
 
 use etendue_scene::{FileKind, schema};
 use serde_json::{Map, Value as Json, json};
 
 use crate::files::{Files, load};
 
-/// Why `value` does not fit `schema`, if it does not: the keywords that our schemas use.
+/// Returns the cause if `value` does not fit `schema`, for the keywords that our schemas use.
 fn misfit(value: &Json, schema: &Json, path: &str) -> Option<String> {
     let of = |key: &str| schema.get(key);
     let fail = |why: &str| Some(format!("{path}: {value} {why} the schema"));
@@ -85,7 +85,7 @@ fn words(list: &Json) -> impl Iterator<Item = &str> {
     list.as_array().into_iter().flatten().filter_map(Json::as_str)
 }
 
-/// The keys of every choice of a table's schema, and whether none of them may be given.
+/// The keys of every choice of a table's schema, and whether all of them may be absent.
 fn choices(schema: &Json) -> Vec<(Vec<&str>, bool)> {
     let all = schema["allOf"].as_array().into_iter().flatten();
     all.map(|s| {
@@ -124,10 +124,10 @@ fn what_the_parser_refuses_does_not_fit_the_schema() {
     }
 }
 
-/// Values that fit the schema: together they have every key, every variant and every way to write a value.
+/// Values that fit the schema: together they have every key, every variant and every notation of a value.
 fn samples(schema: &Json) -> Vec<Json> {
     if let Some(options) = schema.get("anyOf").or(schema.get("oneOf")).and_then(Json::as_array) {
-        // Which keys fit a preset depends on which it is: the schema does not tell.
+        // The keys that fit a preset depend on the preset, which the schema does not describe.
         return options.iter().filter(|o| !words(&o["required"]).any(|k| k == "preset")).flat_map(samples).collect();
     }
     if let Some(list) = schema.get("enum").and_then(Json::as_array) {
@@ -144,7 +144,7 @@ fn samples(schema: &Json) -> Vec<Json> {
     }
 }
 
-/// Every key with each of its values in turn; none where a key has none.
+/// Samples of every key with each of its values in turn; none if a key has none.
 fn table_samples(schema: &Json) -> Vec<Json> {
     let Some(properties) = schema.get("properties").and_then(Json::as_object) else {
         return samples(&schema["additionalProperties"]).into_iter().map(|v| json!({ "any": v })).collect();
@@ -159,7 +159,7 @@ fn table_samples(schema: &Json) -> Vec<Json> {
     (0..count).map(|i| Json::Object(table_sample(&values, &choices, i))).collect()
 }
 
-/// The `i`th sample: of each choice one key, and of each key one value.
+/// The `i`th sample: one key of each choice, and one value of each key.
 fn table_sample(values: &[(String, Vec<Json>)], choices: &[(Vec<&str>, bool)], i: usize) -> Map<String, Json> {
     let mut sample = Map::new();
     for (key, values) in values {
@@ -176,7 +176,7 @@ fn table_sample(values: &[(String, Vec<Json>)], choices: &[(Vec<&str>, bool)], i
     sample
 }
 
-/// A value that another sample shows whole: of a list of tables the first.
+/// A value that another sample shows completely: of a list of tables the first.
 fn short(value: &Json) -> Json {
     match value.as_array().map(Vec::as_slice) {
         Some([first, ..]) if first.is_object() => json!([first]),
@@ -198,7 +198,7 @@ fn array_samples(schema: &Json) -> Vec<Json> {
     items.iter().map(|v| (0..count).map(|i| scaled(v, i)).collect()).collect()
 }
 
-/// A text; none for the path of a description, which would be read.
+/// A text; `None` for the path of a description, which would be read.
 fn string_sample(schema: &Json) -> Option<Json> {
     if let Some(example) = schema["examples"].get(0) {
         return Some(example.clone());

@@ -1,4 +1,4 @@
-//! What nothing uses is not asked for.
+//! Unused parts of a scene are not required.
 
 use crate::files::{Files, load};
 use etendue_scene::Description;

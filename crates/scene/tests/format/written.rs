@@ -1,4 +1,4 @@
-//! Descriptions that were read are written, and are the same when they are read again.
+//! Descriptions are equal after writing and reading back.
 
 use std::path::{Path, PathBuf};
 
@@ -16,13 +16,13 @@ fn check(description: &Description) {
 
 #[test]
 fn the_examples_of_the_pages() {
-    // The job's keys are those of each camera: of none may they be idle.
+    // The job's keys apply to each camera: none may be without effect.
     let sets = ["cameras.left.render.integrator=path"];
     check(&load(&Files::of_example(), &sets).unwrap_or_else(|faults| panic!("{faults}")));
     check(&load(&Files::of_small_example(), &[]).unwrap_or_else(|faults| panic!("{faults}")));
 }
 
-/// Files that are jobs, in all folders of the scenes.
+/// Jobs in all folders of the scenes.
 fn shipped_jobs() -> Vec<(PathBuf, Description)> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let folders = std::fs::read_dir(scenes).expect("the scenes").map(|folder| folder.expect("a folder").path());

@@ -1,4 +1,4 @@
-//! `etendue chart`: a chart as a scene ready to render, with its truth beside it. The closed list, each chart with its own options.
+//! `etendue chart`: a chart as a scene ready to render, with reference data. The closed list, each chart with its own options.
 
 mod options;
 
@@ -25,33 +25,33 @@ impl Chart {
 subcommands! {
     /// The charts.
     Design:
-    /// Black dots over all of the field: focal length, distortion, chromatic displacement (ISO 17850, ISO 19084)
+    /// Black dots over the whole field: focal length, distortion, chromatic displacement (ISO 17850, ISO 19084)
     Dots(Dots),
-    /// A checkerboard, all of it in view: calibration
+    /// A checkerboard, fully in view: calibration
     Checkerboard(Checkerboard),
-    /// Circles in a square or a staggered lattice, all in view: calibration
+    /// Circles in a square or a staggered lattice, fully in view: calibration
     Circles(Circles),
-    /// An even white sheet in even light: vignetting, shading, photon transfer (ISO 17957, EMVA 1288)
+    /// A uniform white sheet in uniform illumination: vignetting, shading, photon transfer (ISO 17957, EMVA 1288)
     FlatField(FlatField),
-    /// A panel that shines by itself in the dark, with a series of exposures: tone curve, photon transfer
+    /// A luminous panel in the dark, with a series of exposures: tone curve, photon transfer
     Backlit(Backlit),
-    /// Squares turned by a small angle over the field: spatial frequency response by place and direction (ISO 12233)
+    /// Squares turned by a small angle over the field: spatial frequency response by position and direction (ISO 12233)
     SlantedEdges(SlantedEdges),
     /// Stars of slanted wedges: spatial frequency response in many directions (ISO 12233)
     SlantedStar(SlantedStar),
     /// A star of many cycles: modulation over spatial frequency (ISO 12233)
     SiemensStar(SiemensStar),
-    /// Discs upon discs, with the statistics of natural scenes: loss of texture (ISO 19567-2)
+    /// Overlapping discs with the statistics of natural scenes: texture loss (ISO 19567-2)
     DeadLeaves(DeadLeaves),
     /// Grey steps around a ring: opto-electronic conversion function (ISO 14524)
     OecfSteps(OecfSteps),
     /// The 24 patches of the ColorChecker by their measured spectra: colour error
     Colorchecker(ColorChecker),
-    /// Shining grey patches over several decades: contrast detection probability
+    /// Luminous grey patches over several decades: contrast detection probability
     ContrastPatches(ContrastPatches),
     /// A white field with light traps: veiling glare (ISO 18844)
     Flare(Flare),
-    /// Lamps in pulses of several frequencies and duties, in the dark: LED flicker (IEEE P2020)
+    /// Pulsed lamps of several frequencies and duty cycles, in the dark: LED flicker (IEEE P2020)
     LedFlicker(LedFlicker),
     /// Small lamps in the dark: point-spread function, chromatic displacement
     Points(Points),
@@ -206,7 +206,7 @@ pub struct SiemensStar {
     /// Cycles around the centre
     #[arg(long, value_name = "N", default_value_t = 72)]
     pub cycles: u32,
-    /// In black and white instead of a cosine
+    /// Black and white instead of a cosine
     #[arg(long)]
     pub binary: bool,
     #[command(flatten)]
@@ -243,13 +243,13 @@ impl DeadLeaves {
 /// `etendue chart oecf-steps`
 #[derive(Debug, Args)]
 pub struct OecfSteps {
-    /// How many steps
+    /// Number of steps
     #[arg(long, value_name = "N", default_value_t = 12)]
     pub steps: u32,
     /// Density of the darkest step [default: 2, with --backlit 3]
     #[arg(long, value_name = "D", allow_negative_numbers = true)]
     pub density: Option<f64>,
-    /// A transparency on a light box in the dark instead of a print in even light
+    /// A transparency on a light box in the dark instead of a print in uniform illumination
     #[arg(long)]
     pub backlit: bool,
     #[command(flatten)]
@@ -322,7 +322,7 @@ pub struct LedFlicker {
     /// Frequencies of the columns, Hz
     #[arg(long, value_name = "HZ,…", value_delimiter = ',', default_values_t = [90.0, 110.0, 200.0, 400.0], allow_negative_numbers = true)]
     pub frequencies_hz: Vec<f64>,
-    /// Duties of the rows: shares of the period that a pulse lasts
+    /// Duty cycles of the rows: fractions of the period that a pulse lasts
     #[arg(long, value_name = "SHARE,…", value_delimiter = ',', default_values_t = [0.1, 0.25, 0.5], allow_negative_numbers = true)]
     pub duty_cycles: Vec<f64>,
     #[command(flatten)]
@@ -342,7 +342,7 @@ impl LedFlicker {
 pub struct Points {
     #[command(flatten)]
     pub size: Size,
-    /// Diameter of a lamp, px of the picture's middle
+    /// Diameter of a lamp, px of the image's middle
     #[arg(long, value_name = "PX", default_value_t = 0.5, allow_negative_numbers = true)]
     pub diameter_px: f64,
     #[command(flatten)]

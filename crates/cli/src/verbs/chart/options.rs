@@ -1,4 +1,4 @@
-//! Options that charts share.
+//! Options shared by charts.
 
 use crate::args::folder::Output;
 use crate::console::{Console, print_paths};
@@ -9,35 +9,35 @@ use etendue::chart::{self, Chart, ChartError, ChartRequest, Exposures, MAX_VIEWS
 use etendue_arguments::seed;
 use etendue_arguments::{Word, choice};
 
-/// What all charts have in common.
+/// Options common to all charts.
 #[derive(Debug, Args)]
 pub struct Common {
     /// The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory
     #[arg(long, value_name = "CAMERA.toml", default_value = "web")]
     pub camera: String,
-    /// Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for
-    /// the changed camera, and the change is written into the files
+    /// Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made
+    /// for the changed camera, and the change is written into the files
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1]
+    /// Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1]
     #[arg(long, value_name = "M", conflicts_with = "width_mm", allow_negative_numbers = true)]
     pub distance_m: Option<f64>,
-    /// Width of what the camera sees of the sheet, mm: the distance follows
+    /// Width of the sheet that the camera sees, mm; determines the distance
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub width_mm: Option<f64>,
-    /// The light's spectrum: D65, A, E, LED-B3, …
+    /// Spectrum of the light: D65, A, E, LED-B3, …
     #[arg(long, value_name = "NAME", default_value = "D65")]
     pub illuminant: String,
-    /// Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for]
+    /// Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white]
     #[arg(long, value_name = "CD_M2", conflicts_with = "white", allow_negative_numbers = true)]
     pub luminance_cd_m2: Option<f64>,
-    /// The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure
+    /// Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure
     #[arg(long, value_name = "SHARE", default_value_t = 0.7, allow_negative_numbers = true)]
     pub white: f64,
-    /// The seed of all random numbers
+    /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed)]
     pub seed: u64,
-    /// Write the print as chart.png too, at this many pixels an inch
+    /// Also write the print as chart.png, at this many pixels per inch
     #[arg(long, value_name = "DPI", allow_negative_numbers = true)]
     pub png: Option<f64>,
     #[command(flatten)]
@@ -45,7 +45,7 @@ pub struct Common {
 }
 
 impl Common {
-    /// A chart by these options, in one view without a series.
+    /// Returns a chart with these options, in one view without a series.
     pub fn request(&self, chart: Chart) -> ChartRequest {
         ChartRequest {
             set: self.set.clone(),
@@ -60,23 +60,23 @@ impl Common {
         }
     }
 
-    /// Makes the chart that is asked for, and prints its files.
+    /// Makes the requested chart, and prints its files.
     pub fn make(&self, console: &dyn Console, request: &ChartRequest) -> Result<(), Error> {
         print_paths(console, &chart::make(request, self.output.path(), self.output.existing())?);
         Ok(())
     }
 }
 
-/// How many figures, and how far apart.
+/// Number and distance of figures.
 #[derive(Debug, Args)]
 pub struct Size {
-    /// Columns [default: as many as the field takes]
+    /// Columns [default: as many as fit the field]
     #[arg(long, value_name = "N")]
     pub columns: Option<u32>,
-    /// Rows [default: as many as the field takes]
+    /// Rows [default: as many as fit the field]
     #[arg(long, value_name = "N")]
     pub rows: Option<u32>,
-    /// Distance from centre to centre (of squares: their side), mm [default: what the columns allow]
+    /// Distance between centres (of squares: their side), mm [default: as the columns allow]
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub pitch_mm: Option<f64>,
 }
@@ -87,31 +87,31 @@ impl Size {
     }
 }
 
-/// How many cameras look at the chart.
+/// Number of cameras that look at the chart.
 #[derive(Debug, Args)]
 pub struct Views {
-    /// Views of the chart: the first square to it, the others tilted by 25 degrees all round
+    /// Views of the chart: the first perpendicular to it, the others tilted by 25 degrees in all directions
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_VIEWS)))]
     pub views: u32,
-    /// Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed
+    /// Simulate hand-held views: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, at random by --seed
     #[arg(long)]
     pub hand_held: bool,
 }
 
 impl Views {
-    /// The request with these views.
+    /// Returns the request with these views.
     pub fn of(&self, request: ChartRequest) -> ChartRequest {
         ChartRequest { views: self.views, hand_held: self.hand_held, ..request }
     }
 }
 
-/// How a slanted edge lies between light and dark.
+/// Angle and contrast of a slanted edge.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Edge {
-    /// By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45
+    /// Clockwise rotation, degrees: a square by 2 … 43 in either direction, or the first edge of a star by up to 45
     #[arg(long, value_name = "DEG", default_value_t = 5.0, allow_negative_numbers = true)]
     pub angle_deg: f64,
-    /// Luminance of light over dark
+    /// Luminance of the bright side over that of the dark side
     #[arg(long, value_name = "RATIO", default_value_t = 4.0, allow_negative_numbers = true)]
     pub contrast: f64,
 }
@@ -127,25 +127,25 @@ const SPACINGS: [Word<Spacing>; 2] =
 /// A series of exposures.
 #[derive(Debug, Args)]
 pub struct Series {
-    /// How many exposures, one camera each
+    /// Number of exposures, one camera each
     #[arg(long, value_name = "N", conflicts_with = "levels", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub exposures: Option<u32>,
-    /// How they are spaced from --lowest to --highest [default: log]
+    /// Spacing from --lowest to --highest [default: log]
     #[arg(long, value_parser = choice(SPACINGS), conflicts_with = "levels")]
     pub spacing: Option<Spacing>,
-    /// Share of saturation that white reaches in the shortest [default: 0.003]
+    /// Fraction of saturation that white reaches in the shortest exposure [default: 0.003]
     #[arg(long, value_name = "SHARE", conflicts_with = "levels", allow_negative_numbers = true)]
     pub lowest: Option<f64>,
-    /// The same in the longest [default: 1.3]
+    /// The same in the longest exposure [default: 1.3]
     #[arg(long, value_name = "SHARE", conflicts_with = "levels", allow_negative_numbers = true)]
     pub highest: Option<f64>,
-    /// The shares themselves, e.g. 0.01,0.1,0.5,1.2
+    /// The fractions themselves, e.g. 0.01,0.1,0.5,1.2
     #[arg(long, value_name = "SHARES", value_delimiter = ',', allow_negative_numbers = true)]
     pub levels: Option<Vec<f64>>,
 }
 
 impl Series {
-    /// The series that is asked for; `usual` exposures where nothing is, which a camera without electronics does without.
+    /// Returns the requested series; by default `usual` exposures, except for a camera without electronics.
     pub fn asked(&self, usual: Option<u32>) -> Result<Option<chart::Series>, Error> {
         let required = self.exposures.is_some() || self.levels.is_some();
         let exposures = self.exposures(usual).map_err(chart::chart_error)?;
@@ -166,7 +166,7 @@ impl Series {
         Exposures::spaced(count, spacing, lowest, highest).map(Some)
     }
 
-    /// An option of a series, and its value, where there is no series.
+    /// Returns an option of a series and its value, if there is no series.
     fn idle(&self) -> Option<(&'static str, String)> {
         let given = [("lowest", self.lowest), ("highest", self.highest)];
         let number = given.into_iter().find_map(|(name, value)| Some((name, value?.to_string())));

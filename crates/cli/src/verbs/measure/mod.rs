@@ -27,15 +27,14 @@ impl Measure {
 }
 
 subcommands! {
-    /// What is measured.
+    /// The measurements.
     Measurement:
     /// Focal lengths, principal planes, pupils and field of view; by field: distortion, illumination, spots, field
     /// curvature, colour
     Lens(lens::LensArgs),
-    /// Distortion from one picture of a plane chart, without a model: the curve over the field, line distortion, k1 and k2 (ISO
-    /// 17850)
+    /// Distortion from one image of a plane chart, without a model: the curve over the field, line distortion, k1 and k2 (ISO 17850)
     Distortion(ShownOrStored<DistortionRequest>),
-    /// Focal length and principal point, from one picture of a chart at a known distance or from several
+    /// Focal length and principal point, from one image of a chart at a known distance or from several
     #[command(
         after_help = "One picture needs --distance-mm; its principal point is taken for the picture's middle unless --principal-px \
         says otherwise. What is told is the principal distance (camera constant): the focal length for a lens focused at infinity; at \
@@ -48,38 +47,38 @@ subcommands! {
     Ptc(ShownOrStored<PtcRequest>),
     /// Slanted edges: the spatial frequency response with MTF50 and MTF10 (ISO 12233)
     Sfr(Shown<SfrRequest>),
-    /// The tone curve from a series of exposures or from steps, with linearity and dynamic range (ISO 14524); the camera's
-    /// response from a scene at exposures known relatively
+    /// Tone curve from a series of exposures or from steps, with linearity and dynamic range (ISO 14524); camera response from a scene at exposures
+    /// with known ratios
     Oecf(Shown<OecfRequest>),
-    /// A flat field's fall-off over the radial field position
+    /// Fall-off of a flat field over the radial field position
     Vignetting(ShownOrStored<VignettingRequest>),
-    /// A flat field's fall-off as a map, and its colour shading (ISO 17957)
+    /// Fall-off of a flat field as a map, and its colour shading (ISO 17957)
     Shading(Shown<ShadingRequest>),
-    /// Temporal and fixed-pattern noise of an even surface (ISO 15739)
+    /// Temporal and fixed-pattern noise of a uniform surface (ISO 15739)
     Noise(Shown<NoiseRequest>),
-    /// Light in traps that send none (ISO 18844)
+    /// Flare: light in the image of light traps (ISO 18844)
     Flare(Shown<FlareRequest>),
-    /// Light that goes up and down: frequency, modulation over rows and frames, duty of pulses (IEEE P2020)
+    /// Flicker of a light: frequency, modulation over rows and frames, duty cycle of pulses (IEEE P2020)
     Flicker(Shown<FlickerRequest>),
     /// Colours of a ColorChecker after a fitted matrix, CIEDE2000
     Colour(Shown<ColourRequest>),
     /// Contrast detection probability of pairs of patches (IEEE P2020)
     Cdp(Shown<CdpRequest>),
-    /// An estimated depth picture against the truth: bias, error and outliers by range, edges apart
+    /// An estimated depth image against ground truth: bias, error and outliers by range, edges separately
     Depth(Shown<DepthRequest>),
-    /// The dark current's growth with temperature, by three laws
+    /// Increase of the dark current with temperature, by three laws
     DarkCurrent(Shown<DarkCurrentRequest>),
     /// A Siemens star: response over frequency (ISO 12233)
     Star(Shown<StarRequest>),
-    /// Texture such as dead leaves against its reference: response, invented structure, coherence
+    /// Texture such as dead leaves against its reference: response, artefacts, coherence
     Texture(Shown<TextureRequest>),
-    /// Two cameras' measurements side by side, or a camera file against what was measured; exit status 1 where they differ
+    /// Measurements of two cameras side by side, or a camera file against its measurements; exit status 1 if they differ
     Compare(compare::CompareArgs),
 }
 
-/// A request that is answered by a report.
+/// A request answered by a report.
 pub trait Measured: Args {
-    /// Measures; with `camera_keys` the report holds what was found as keys of a camera file.
+    /// Measures; with `camera_keys` the report contains the results as keys of a camera file.
     fn measure(&self, camera_keys: bool, observer: &dyn Observer) -> Result<Report, Error>;
 }
 
@@ -115,7 +114,7 @@ measured! {
     VignettingRequest: |request, camera_keys, _| measure::vignetting(&VignettingRequest { camera_keys, ..request.clone() }),
 }
 
-/// A measurement and how its report is shown.
+/// A measurement and the output of its report.
 #[derive(Debug, Args)]
 pub struct Shown<R: Measured> {
     #[command(flatten)]
@@ -130,7 +129,7 @@ impl<R: Measured> Shown<R> {
     }
 }
 
-/// A measurement of what a camera file states.
+/// A measurement of properties that a camera file states.
 #[derive(Debug, Args)]
 pub struct ShownOrStored<R: Measured> {
     #[command(flatten)]

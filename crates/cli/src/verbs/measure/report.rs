@@ -1,4 +1,4 @@
-//! How a report is printed, and what is written of it.
+//! Output of a report, printed and as files.
 
 use crate::console::Console;
 use clap::Args;
@@ -8,16 +8,16 @@ use etendue::{Error, Existing, write_file};
 use etendue_arguments::{html, svg, toml};
 use std::path::PathBuf;
 
-/// How results are printed.
+/// Output of results.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-    /// Draw the curves here; an earlier drawing is replaced
+    /// Draw the curves here; an existing drawing is replaced
     #[arg(long, value_name = "FILE.svg", value_parser = svg)]
     pub plot: Option<PathBuf>,
-    /// Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced
+    /// Write results, tables, curves and notes as one page for a browser; an existing page is replaced
     #[arg(long, value_name = "FILE.html", value_parser = html)]
     pub html: Option<PathBuf>,
 }
@@ -39,19 +39,19 @@ impl ReportArgs {
     }
 }
 
-/// Of measurements of what a camera file states.
+/// Camera file written from a measurement.
 #[derive(Debug, Default, Args)]
 pub struct CameraOut {
-    /// Write what was found as keys of a camera file
+    /// Write the results as keys of a camera file
     #[arg(id = "camera_keys", long = "camera-out", value_name = "CAMERA.toml", value_parser = toml)]
     pub camera_out: Option<PathBuf>,
-    /// Replace a camera file that is already there
+    /// Replace an existing camera file
     #[arg(long, requires = "camera_keys")]
     pub overwrite: bool,
 }
 
 impl CameraOut {
-    /// Writes the keys of a camera file that a report holds, where it is asked for.
+    /// Writes the keys of a camera file in a report, if requested.
     pub fn write(&self, report: &Report) -> Result<(), Error> {
         let Some((file, keys)) = self.camera_out.as_ref().zip(report.camera_keys()) else { return Ok(()) };
         let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };

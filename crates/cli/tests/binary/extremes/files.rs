@@ -1,4 +1,4 @@
-//! Files that are none, or more than a file may be.
+//! Invalid files, and files beyond the limits.
 
 use super::refused;
 use crate::bad_input::Spoilt;
@@ -8,7 +8,7 @@ use etendue_testkit::page::{Row, check};
 use std::os::unix::fs::symlink;
 use std::path::Path;
 
-/// The small job with other contents of one of its files; its plan.
+/// Plans the small job with other contents of one of its files.
 fn with_file(name: &str, bytes: &[u8]) -> (Spoilt, Ran) {
     let spoilt = Spoilt::new();
     spoilt.write(name, bytes);
@@ -20,13 +20,13 @@ fn row(extreme: &str, expected: &str, (spoilt, ran): &(Spoilt, Ran)) -> Row {
     refused(extreme, expected, ran, &[spoilt.folder()])
 }
 
-/// The part of a file of the small job up to there.
+/// The first part of a file of the small job.
 fn part(name: &str, of: f64) -> Vec<u8> {
     let bytes = std::fs::read(Spoilt::new().folder().join(name)).expect("a file of the job");
     bytes[..(bytes.len() as f64 * of) as usize].to_vec()
 }
 
-/// With other words in a text file.
+/// Replaces text in a text file.
 fn spoilt(name: &str, from: &str, to: &str) -> (Spoilt, Ran) {
     let spoilt = Spoilt::new();
     spoilt.spoil(name, from, to);
@@ -64,10 +64,10 @@ fn counts() -> Vec<Row> {
     ]
 }
 
-/// A TIFF of one pixel that says it is big-endian and is not.
+/// A TIFF of one pixel that states big-endian order and is not.
 const WRONG_ENDS: &[u8] = b"MM*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\0\0\0\0\0";
 
-/// What a file may cost, at its limit: docs/limits.md.
+/// Files at their limits: docs/limits.md.
 fn budgets() -> Vec<Row> {
     let raised = "refused, with the limit that may be raised";
     let long = |spoilt: &Spoilt| {

@@ -1,4 +1,4 @@
-//! Measurements of pictures that show nothing, or something else.
+//! Measurements of images without content, or with other content.
 
 use super::told;
 use crate::bad_pictures::{MEASUREMENTS, SIZE, coloured, floats, grey, of_picture};
@@ -6,7 +6,7 @@ use crate::support::{error_message, etendue};
 use etendue_testkit::page::{Row, check};
 use std::path::Path;
 
-/// How many of all measurements refuse a picture, and what one of them says.
+/// Number of measurements that refuse an image, and one of the messages.
 fn measured(extreme: &str, expected: &str, picture: &str, folder: &Path) -> Row {
     let runs: Vec<_> = MEASUREMENTS.iter().map(|line| etendue(of_picture(line, picture))).collect();
     let refused = runs.iter().filter(|run| run.status == 2 && run.out.is_empty()).count();

@@ -1,4 +1,4 @@
-//! Runs that cannot go on.
+//! Runs that cannot continue.
 
 use super::ended;
 use crate::support::{Ran, contents, root, small, text};
@@ -6,7 +6,7 @@ use etendue_testkit::page::{Row, check};
 use std::path::Path;
 use std::process::Command;
 
-/// Runs the program by a shell that first does `before`.
+/// Runs the program from a shell that first executes `before`.
 fn after(before: &str, arguments: &[&str]) -> Ran {
     let mut shell = Command::new("sh");
     shell.args(["-c", &format!("{before}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_etendue")]).args(arguments);
@@ -33,7 +33,7 @@ fn runs_that_cannot_go_on() {
     let render = [&["render", &job, "-o", &out, "--threads", "1", "--spp", "2"][..], &size].concat();
     let memory = after("ulimit -c 0; ulimit -v 1500000", &render);
     let memory = nothing_left(2, "a film for which there is no memory", &memory, place.path());
-    // What is free depends on the addresses that the system gave.
+    // Free memory depends on the addresses given by the system.
     let needed = memory.found.split(", and ").next().unwrap_or_default().to_owned();
     let memory = Row { found: format!("{needed}, and less is free"), ..memory };
     let about = "With real limits of the system. Smaller allocations that fail and panics of workers have tests of their own (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/library/errors.rs); \

@@ -1,4 +1,4 @@
-//! Faults of places: distortion, centre, focal length, axes, channels.
+//! Seeded geometric defects: distortion, centre, focal length, axes, channels.
 
 use super::{Bench, CAMERA, COLOUR, Compared, flagged, sound};
 use crate::support::{etendue, text};
@@ -37,7 +37,7 @@ fn focal(bench: &Bench, picture: &Path, pitch: &str) -> Compared {
 #[test]
 fn faults_of_distortion_centre_focal_length_and_axes_are_flagged() {
     let bench = Bench::new();
-    // Many points: the places of pixels beneath few large dots are errors that rows share.
+    // Many points: with few large dots, position errors of pixels are shared by rows.
     let chart = bench.chart("dots", CAMERA, &["--columns", "33"]);
     let pitch = pitch_mm(&chart);
     let render = |name: &str, fault: &[&str]| {
@@ -69,7 +69,7 @@ fn faults_of_distortion_centre_focal_length_and_axes_are_flagged() {
     flagged("both axes turned", seeded, "forward_centre_x_px", &distortion(&bench, &turned), &curve);
 }
 
-/// The chart's marks say that an axis is mirrored, wherever the centre lies.
+/// The chart's marks reveal a mirrored axis, wherever the centre lies.
 fn refused(fault: &str, seeded: &str, picture: &Path) {
     etendue(["measure", "distortion", &text(picture), "--target", "dots"])
         .refused(&["shows its chart mirrored", "dots"]);
@@ -99,7 +99,7 @@ fn a_channel_that_is_shifted_is_flagged() {
     flagged("channel shifted by 0.5 px", seeded, "red_shift_x_px", &chromatic(&shifted), &healthy);
 }
 
-/// A picture's pixels.
+/// Pixels of an image.
 struct Picture {
     size: [usize; 2],
     pixels: Vec<[f32; 3]>,
@@ -122,7 +122,7 @@ impl Picture {
     }
 }
 
-/// A picture of a size, each pixel made of another picture's.
+/// An image of a given size, each pixel from a pixel of another image.
 fn redrawn(
     bench: &Bench,
     file: &Path,

@@ -1,4 +1,4 @@
-//! Faults of light: fall-off, tone curve.
+//! Seeded photometric defects: fall-off, tone curve.
 
 use super::{Bench, CAMERA, Compared, flagged, sound};
 use crate::support::{etendue, text};
@@ -11,14 +11,14 @@ const PRINCIPAL_MM: f64 = 2.4 * 10_000.0 / (10_000.0 - 2.4);
 /// Radius of the pupil of f/2, mm.
 const PUPIL_MM: f64 = 0.6;
 
-/// Share of the irradiance of a hemisphere behind a disc of even radiance (Foote 1915): as cos⁴ θ but for the pupil's size.
+/// Fraction of the irradiance of a hemisphere behind a disc of uniform radiance (Foote 1915): as cos⁴ θ except for the pupil's size.
 fn behind_a_disc(radius_mm: f64) -> f64 {
     let (d2, p2, r2) = (PRINCIPAL_MM * PRINCIPAL_MM, PUPIL_MM * PUPIL_MM, radius_mm * radius_mm);
     let all = d2 + p2 + r2;
     0.5 * (1.0 + (p2 - d2 - r2) / (all * all - 4.0 * p2 * r2).sqrt())
 }
 
-/// The camera without distortion, which spreads light as well; its fall-off is stated, over a power of the cosine.
+/// The camera without distortion, which also spreads light; its fall-off is stated, over a power of the cosine.
 fn fall_off(bench: &Bench, chart: &Path, over: f64) -> Compared {
     let radii: Vec<f64> = (0..=90).map(|i| 0.025 * f64::from(i)).collect();
     let ratios: Vec<f64> =
@@ -44,13 +44,13 @@ fn a_fall_off_by_the_third_power_of_the_cosine_is_flagged() {
     assert!(faulty["profile"].differs(), "{faulty:?}");
 }
 
-/// Even light on the bare sensor, developed, at exposures from a fiftieth of saturation up to nine tenths.
+/// Uniform illumination of the bare sensor, developed, at exposures from a fiftieth of saturation up to nine tenths.
 #[test]
 fn a_power_for_the_tone_curve_of_srgb_is_flagged() {
     let bench = Bench::new();
     let exposures = [2e-5, 5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4, 7e-4, 8e-4, 9e-4];
     let told = exposures.map(|s| s.to_string()).join(",");
-    // As bright by smear as its rows are many.
+    // Smear brightens in proportion to the number of rows.
     let small = ["--set", "sensor.width_px=96", "--set", "sensor.height_px=64", "--set", "isp.picture_bits=16"];
     let measured = |name: &str, fault: &[&str]| {
         let picture = |exposure_s: f64| {

@@ -1,11 +1,11 @@
-//! Faults of the sensor: gain, noise, patterns, filters, dark current.
+//! Seeded defects of the sensor: gain, noise, patterns, filters, dark current.
 
 use super::{Bench, CAMERA, COLOUR, Compared, flagged, sound};
 use crate::support::{etendue, text};
 
 const SMALL: [&str; 4] = ["--set", "sensor.width_px=240", "--set", "sensor.height_px=180"];
 
-/// The series of photon transfer of a camera at a wavelength: its descriptor.
+/// The photon-transfer series of a camera at a wavelength: its descriptor.
 fn series(bench: &Bench, camera: &str, name: &str, nm: &str, options: &[&str]) -> String {
     let folder = bench.path(name);
     let output = text(&folder);
@@ -33,15 +33,15 @@ fn faults_of_gain_noise_and_pattern_are_flagged() {
     flags("PRNU doubled", "sensor.non_uniformity.prnu", "0.016", "0.008", "prnu_percent_pixel");
 }
 
-/// Blue pixels are where red ones are declared: what is read there is another colour's quantum efficiency. By red light, of which
-/// green pixels smear little into the red ones of their columns.
+/// Blue pixels are at the positions declared as red, so the measured quantum efficiency is that of another colour. Red light is used, of which green
+/// pixels smear little into the red ones of their columns.
 #[test]
 fn a_swapped_phase_of_the_filters_is_flagged() {
     let bench = Bench::new();
     let measured = |name: &str, fault: &[&str]| -> Compared {
         let levels = ["--photon-transfer", "12", "--stack", "3", "--seed", "1"];
         let descriptor = series(&bench, COLOUR, name, "600", &[&SMALL[..], &levels, fault].concat());
-        // The list of levels does not tell the filters: those declared are.
+        // The list of levels does not state the filters: the declared ones count.
         let declared = ["ptc", &descriptor, "--cfa", "RGGB", "--channel", "R"];
         bench.beside(&declared, COLOUR, &["--wavelength-nm", "600"])
     };
@@ -51,7 +51,7 @@ fn a_swapped_phase_of_the_filters_is_flagged() {
     flagged("Bayer phase swapped", "`sensor.cfa` bggr for rggb", "quantum_efficiency", &faulty, &healthy);
 }
 
-/// Declared is a doubling every 8 K.
+/// The declared law is a doubling every 8 K.
 #[test]
 fn a_swapped_law_of_the_dark_current_is_flagged() {
     let bench = Bench::new();

@@ -1,15 +1,14 @@
 //! The luminous flux of a grid: ∫ I dΩ, exact for intensities that are bilinear in the two angles.
 //!
-//! One angle, the longitude, enters the solid angle as it is, the other by the sine of its distance from the pole:
-//! dΩ = sin V dV dH for type C, cos V dV dH for A, cos H dH dV for B. Along a latitude t, with f linear between
-//! t₀ and t₁ and b its slope, ∫ f cos t dt = [f sin t + b cos t].
+//! One angle, the longitude, enters the solid angle linearly, the other by the sine of its distance from the pole: dΩ = sin V dV dH for type C, cos V
+//! dV dH for A, cos H dH dV for B. Along a latitude t, with f linear between t₀ and t₁ and b its slope, ∫ f cos t dt = [f sin t + b cos t].
 
 use etendue_core::maths::f64::{cos, sin};
 
 use super::{PhotometryAsset, PhotometryAxes};
 
 impl PhotometryAsset {
-    /// The flux of all that the grid holds, lm.
+    /// Total flux of the grid, lm.
     #[must_use]
     pub fn flux_lm(&self) -> f64 {
         let columns: Vec<usize> = (0..self.horizontal_deg.len()).collect();
@@ -26,7 +25,7 @@ impl PhotometryAsset {
         }
     }
 
-    /// The flux where vertical angles are latitudes once `latitude` has been applied.
+    /// Flux of a grid whose vertical angles are latitudes after `latitude` is applied.
     fn by_column(&self, columns: &[usize], latitude: impl Fn(f64) -> f64 + Copy) -> f64 {
         let bands: Vec<f64> =
             columns.iter().map(|h| latitudes(&self.vertical_deg, |v| self.column(*h)[v], latitude)).collect();
@@ -58,7 +57,7 @@ mod tests {
     use super::super::tests::grid;
     use super::*;
 
-    /// Sums of a few dozen terms of order 1 to 10, each good to some 1e-15.
+    /// Sums of a few dozen terms of order 1 to 10, each accurate to about 1e-15.
     const ROUNDING: f64 = 1e-12;
 
     fn steps(low: f64, high: f64, count: usize) -> Vec<f64> {

@@ -6,18 +6,17 @@
 //! | A | vertical, about a vertical axis | optical axis | −90° down … 90° up, a latitude | −180° … 180°, clockwise from above |
 //! | B | planes of one V share a horizontal axis | optical axis | −180° … 180° up, about that axis | −90° left … 90° right, a latitude |
 //!
-//! (ANSI/IESNA LM-63-2002, section 3; CIE 121:1996.) The grid is complete: symmetries are written out and a full turn
-//! holds both its ends, so that whoever reads it needs no rule but bilinear interpolation in the two angles. Outside of
-//! the grid a lamp is dark.
+//! (ANSI/IESNA LM-63-2002, section 3; CIE 121:1996.) The grid is complete: symmetries are expanded and a full turn holds both its ends, so that
+//! bilinear interpolation in the two angles is sufficient. Outside the grid a lamp is dark.
 
 mod flux;
 
 use etendue_core::maths::f64::{atan2, sin_cos};
 
-/// The systems of angles in which lamps are measured.
+/// Systems of angles of photometric measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PhotometryAxes {
-    /// Vertical planes about a vertical axis, zero ahead: head lamps and signals (the H-V of UN R149).
+    /// Vertical planes about a vertical axis, zero ahead: headlamps and signals (the H-V of UN R149).
     A,
     /// Planes about a horizontal axis, zero ahead: flood lights.
     B,
@@ -25,19 +24,19 @@ pub enum PhotometryAxes {
     C,
 }
 
-/// What becomes of the light of lamps that burn at a tilt.
+/// Dependence of a lamp's light on its tilt.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tilt {
-    /// The light does not depend on the tilt, or the file does not say how.
+    /// Independent of the tilt, or not stated by the file.
     None,
-    /// A table of tilts (degrees) and factors; not applied: the grid holds for the tilt it was measured at.
+    /// A table of tilts (degrees) and factors; not applied: the grid holds for the tilt of the measurement.
     Table {
-        /// Where the lamp sits in the luminaire: 1 base up or down, 2 horizontal and not turning, 3 horizontal and turning.
+        /// Position of the lamp in the luminaire: 1 base up or down, 2 horizontal and not turning, 3 horizontal and turning.
         geometry: u8,
         /// Angles from the position of measurement, degrees, and factors.
         factors: Vec<(f64, f64)>,
     },
-    /// The luminaire was tilted by so many degrees when it was measured (EULUMDAT); the angles are its own.
+    /// Tilt of the luminaire during the measurement, degrees (EULUMDAT); the angles are its own.
     Measured(f64),
 }
 
@@ -46,15 +45,15 @@ pub enum Tilt {
 pub enum OpeningShape {
     /// A point.
     Point,
-    /// A box; a rectangle where it has no height.
+    /// A box; a rectangle if its height is zero.
     Rectangular,
     /// A round body: a disc or an upright cylinder, or an ellipse with two diameters.
     Round,
-    /// A ball or an ellipsoid.
+    /// A sphere or an ellipsoid.
     Ball,
-    /// A cylinder that lies, its axis along the length.
+    /// A horizontal cylinder, its axis along the length.
     Lying,
-    /// A cylinder that lies, its axis along the width.
+    /// A horizontal cylinder, its axis along the width.
     LyingAcross,
 }
 
@@ -63,58 +62,58 @@ pub enum OpeningShape {
 pub struct Opening {
     /// Its shape.
     pub shape: OpeningShape,
-    /// Along the C0–C180 plane of type C, along the vertical plane through the axis of types A and B.
+    /// Extent along the C0–C180 plane of type C, along the vertical plane through the axis of types A and B.
     pub length_m: f64,
-    /// Across it.
+    /// Extent across it.
     pub width_m: f64,
-    /// Upwards.
+    /// Extent upwards.
     pub height_m: f64,
 }
 
 /// A measured lamp.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhotometryAsset {
-    /// What the file is, with its version.
+    /// Format of the file, with its version.
     pub format: String,
     /// The system of angles.
     pub axes: PhotometryAxes,
-    /// Vertical angles, degrees, rising; one at least.
+    /// Vertical angles, degrees, rising; at least one.
     pub vertical_deg: Vec<f64>,
-    /// Horizontal angles, degrees, rising; two at least. Type C: 0 … 360.
+    /// Horizontal angles, degrees, rising; at least two. Type C: 0 … 360.
     pub horizontal_deg: Vec<f64>,
-    /// Intensity, cd, every factor applied: all vertical angles of the first horizontal one, then of the next.
+    /// Intensity, cd, with every factor applied: all vertical angles of the first horizontal one, then of the next.
     pub candela: Vec<f64>,
-    /// Lumens of all lamps together as rated; `None` for a luminaire that was measured by itself (absolute photometry).
+    /// Total rated lumens of all lamps; `None` for a luminaire that was measured by itself (absolute photometry).
     pub rated_lumens: Option<f64>,
-    /// Share of the rated lumens that leaves the luminaire, where the file states it.
+    /// Fraction of the rated lumens that leaves the luminaire, if the file states it.
     pub output_ratio: Option<f64>,
-    /// How many lamps.
+    /// Number of lamps.
     pub lamps: u32,
-    /// The factor that was applied to the numbers of the file, ballast factors and lumens of the lamps included.
+    /// Factor applied to the numbers of the file, ballast factors and lumens of the lamps included.
     pub factor: f64,
     /// Electrical power, ballast included, W.
     pub watts: f64,
     /// The luminous opening.
     pub opening: Opening,
-    /// The dependence on the tilt.
+    /// Dependence on the tilt.
     pub tilt: Tilt,
     /// Texts of the file: name and content, in its order.
     pub texts: Vec<(String, String)>,
-    /// What is odd, assumed or not used, in sentences for the user; the check of the flux is among them.
+    /// Anomalies, assumptions and unused content, in sentences for the user, with the check of the flux.
     pub report: Vec<String>,
     /// SHA-256 of the file and of the file of tilts it names.
     pub hash: [u8; 32],
 }
 
 impl PhotometryAsset {
-    /// The intensities of a horizontal angle by its index, one a vertical angle.
+    /// Intensities at the horizontal angle with this index, one per vertical angle.
     #[must_use]
     pub fn column(&self, horizontal: usize) -> &[f64] {
         let rows = self.vertical_deg.len();
         &self.candela[horizontal * rows..][..rows]
     }
 
-    /// The intensity at two angles (degrees), cd: bilinear within the grid, 0 outside of it.
+    /// Intensity at two angles (degrees), cd: bilinear within the grid, 0 outside it.
     #[must_use]
     pub fn candela_at(&self, horizontal_deg: f64, vertical_deg: f64) -> f64 {
         let (Some((h, s)), Some((v, t))) =
@@ -129,8 +128,8 @@ impl PhotometryAsset {
         blend(along(h), along((h + 1).min(self.horizontal_deg.len() - 1)), s)
     }
 
-    /// The intensity (cd) towards the right and up as UN regulations for head lamps count (a latitude and a longitude
-    /// about a vertical axis, degrees); `None` for type C, which has no direction ahead.
+    /// Intensity (cd) towards the right and up as in UN regulations for headlamps (a latitude and a longitude about a vertical axis, degrees); `None`
+    /// for type C, which has no forward direction.
     #[must_use]
     pub fn candela_ahead(&self, right_deg: f64, up_deg: f64) -> Option<f64> {
         match self.axes {
@@ -146,7 +145,7 @@ impl PhotometryAsset {
         }
     }
 
-    /// The greatest intensity (cd) with its horizontal and vertical angle (degrees): the first of equals.
+    /// Greatest intensity (cd) with its horizontal and vertical angle (degrees): the first of equals.
     #[must_use]
     pub fn peak(&self) -> (f64, f64, f64) {
         let rows = self.vertical_deg.len();
@@ -157,14 +156,14 @@ impl PhotometryAsset {
         (best.1, self.horizontal_deg[best.0 / rows], self.vertical_deg[best.0 % rows])
     }
 
-    /// The lumens that the file says leave the luminaire, where it says so.
+    /// Luminous flux that leaves the luminaire, lm, if the file states it.
     #[must_use]
     pub fn stated_flux_lm(&self) -> Option<f64> {
         Some(self.rated_lumens? * self.output_ratio.unwrap_or(1.0))
     }
 }
 
-/// The cell of a rising grid in which `at` lies, and where in it (0 … 1).
+/// Cell of a rising grid that contains `at`, and the position in it (0 … 1).
 fn cell(grid: &[f64], at: f64) -> Option<(usize, f64)> {
     let above = grid.partition_point(|g| *g <= at);
     let last = grid.len() - 1;
@@ -182,7 +181,7 @@ fn blend(a: f64, b: f64, t: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// A lamp of the given intensities by horizontal and vertical angle.
+    /// A lamp with the given intensities by horizontal and vertical angle.
     pub(super) fn grid(
         axes: PhotometryAxes,
         horizontal_deg: &[f64],

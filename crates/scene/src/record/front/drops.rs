@@ -1,4 +1,4 @@
-//! Drops of water on a wind-screen.
+//! Drops of water on a windscreen.
 
 use etendue_core::ExactTime;
 
@@ -8,69 +8,69 @@ use crate::reader::{flag, keyed, number, record, time, vector, whole};
 use crate::record::render::MAX_SEED;
 
 record! {
-    /// Drops of water on the outer face of a wind-screen: spherical caps, at random in a rectangle. Each refracts what is behind it;
-    /// those that touch have become one of their joint volume. Ground truth does not see them.
+    /// Drops of water on the outer face of a windscreen: spherical caps at random positions in a rectangle. Each refracts the scene behind it;
+    /// touching drops merge into one of their total volume. Ground truth ignores them.
     pub struct Drops check(check) {
-        /// Width and height of the rectangle that they lie in, in the plane that touches the glass in its middle (where the camera's axis
-        /// meets it), mm, above 0.
+        /// Width and height of the rectangle with drops, in the plane tangent to the glass at its middle (where the camera's axis meets it), mm,
+        /// above 0.
         required size_mm: Placed<[f64; 2]> = vector::<2>(number("mm").above(0.0));
-        /// How far its middle lies aside of that point, to the right and down along the glass, mm. Default: not at all.
+        /// Offset of the rectangle's middle from that point, to the right and down along the glass, mm. Default: none.
         optional offset_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
-        /// How many fell on the glass.
+        /// Number of drops on the glass.
         inside amount: DropAmount;
-        /// Least radius of a drop's base, mm, above 0.
+        /// Smallest radius of a drop's base, mm, above 0.
         required min_radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// Greatest radius of a drop's base, mm, above 0; those that join grow larger. Real drops keep the shape of a cap up to some 2.7 mm.
+        /// Largest radius of a drop's base, mm, above 0; merged drops are larger. Real drops keep the shape of a cap up to about 2.7 mm.
         required max_radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// The size law: numbers by base radius a fall as a^(−size_exponent) from the least to the greatest, 0 … 6. Default: 8/3, of drops that
-        /// condense and join (Le Fevre and Rose 1966).
+        /// Exponent of the size distribution: numbers by base radius a fall as a^(−size_exponent) from the smallest to the largest, 0 … 6. Default:
+        /// 8/3, for drops that condense and merge (Le Fevre and Rose 1966).
         optional size_exponent: Placed<f64> = number("").at_least(0.0).at_most(6.0);
-        /// Contact angle: between glass and surface, within the water, degrees, 5 … 150. Less than 30 on clean glass, some 60 on used, 100
-        /// and more where it is treated against water. Default: 60.
+        /// Contact angle between glass and surface, within the water, degrees, 5 … 150. Less than 30 on clean glass, about 60 on used glass, 100 and
+        /// more on water-repellent glass. Default: 60.
         optional contact_angle_deg: Placed<f64> = number("°").at_least(5.0).at_most(150.0);
-        /// Whether the water's index depends on the wavelength (Hale and Querry 1973), so that a path carries one wavelength; else it is that at
-        /// 587.56 nm. Default: true.
+        /// Includes the dispersion of water (Hale and Querry 1973), so that a path carries one wavelength; otherwise the index is that at 587.56 nm.
+        /// Default: true.
         optional dispersion: Placed<bool> = flag();
-        /// Seed of places and sizes. Default: 0.
+        /// Seed of positions and sizes. Default: 0.
         optional seed: Placed<u64> = whole(0, MAX_SEED);
-        /// Simulated time at which they lie on the glass as they fell, s; until then they do not change. Frames long after it take longer: each is
-        /// followed from there. Default: 0.
+        /// Simulated time at which the drops lie on the glass as they fell, s; they do not change before it. Much later frames take longer, as the
+        /// drops are simulated from this time. Default: 0.
         optional start_s: Placed<ExactTime> = time();
-        /// How long a drop of "max_radius_mm" takes to dry, s, above 0; the square of a radius falls evenly with time. Default: they do not dry.
+        /// Time in which a drop of "max_radius_mm" dries, s, above 0; the square of a radius falls linearly with time. Default: they do not dry.
         optional drying_s: Placed<f64> = number("s").above(0.0);
-        /// Drops that fall on the rectangle after "start_s", 1/s, above 0 … 10 000. Default: none.
+        /// Rate of new drops on the rectangle after "start_s", 1/s, above 0 … 10 000. Default: none.
         optional arrivals_per_s: Placed<f64> = number("1/s").above(0.0).at_most(10_000.0);
-        /// How they slide down the glass. Default: they stay.
+        /// Sliding of drops down the glass. Default: none.
         optional sliding: Sliding = record();
-        /// What wipes them away. Default: nothing.
+        /// Wiper that removes drops. Default: none.
         optional wiper: Wiper = record();
     }
 }
 
 record! {
-    /// How drops slide down tilted glass: v = speed_mm_s (a² sin α − still_radius_mm²)/(max_radius_mm² − still_radius_mm²) for a drop of radius a on a
-    /// slope α, never below 0, along gravity on the plane that touches the glass in its middle, as the camera stands at "start_s".
+    /// Sliding of drops down tilted glass: v = speed_mm_s (a² sin α − still_radius_mm²)/(max_radius_mm² − still_radius_mm²) for a drop of radius a on
+    /// a slope α, never below 0, along gravity in the plane tangent to the glass at its middle, for the camera's pose at "start_s".
     pub struct Sliding {
-        /// Speed of a drop of "max_radius_mm" on upright glass, mm/s, above 0; those that joined can be faster.
+        /// Speed of a drop of "max_radius_mm" on vertical glass, mm/s, above 0; merged drops can be faster.
         required speed_mm_s: Placed<f64> = number("mm/s").above(0.0).at_most(10_000.0);
-        /// Radius below which drops stay on upright glass, mm, 0 or more and below "max_radius_mm"; some 1 to 2 mm on glass in use.
+        /// Radius below which drops on vertical glass do not slide, mm, 0 or more and below "max_radius_mm"; about 1 to 2 mm on glass in use.
         required still_radius_mm: Placed<f64> = number("mm").at_least(0.0);
     }
 }
 
 record! {
-    /// A wiper, which is not seen itself: each drop that its blade touches is gone.
+    /// A wiper, itself invisible: drops that its blade touches are removed.
     pub struct Wiper check(check_wiper) {
-        /// Its axis, as "offset_mm" of drops, mm.
+        /// Position of its axis, as "offset_mm" of drops, mm.
         required pivot_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
         /// Distances from the axis between which the blade wipes, mm, the smaller first.
         required blade_mm: Placed<[f64; 2]> = vector::<2>(number("mm").at_least(0.0));
-        /// Where the blade rests and where it turns back: degrees from upwards, clockwise as the camera sees it, −360 … 360, not equal and less than
+        /// Rest position and turning point of the blade: degrees from upwards, clockwise as seen from the camera, −360 … 360, not equal and less than
         /// 360 apart.
         required angles_deg: Placed<[f64; 2]> = vector::<2>(number("°").at_least(-360.0).at_most(360.0));
-        /// Time of one way, at an even rate, s, at least 0.1.
+        /// Duration of one stroke, at constant speed, s, at least 0.1.
         required sweep_s: Placed<f64> = number("s").at_least(0.1);
-        /// From the beginning of one sweep to that of the next, s, at least twice "sweep_s"; the blade rests in between.
+        /// Time between the starts of two sweeps, s, at least twice "sweep_s"; the blade rests in between.
         required period_s: Placed<f64> = number("s").above(0.0);
         /// Simulated time of the first sweep, s. Default: "start_s" of the drops.
         optional start_s: Placed<ExactTime> = time();
@@ -78,11 +78,11 @@ record! {
 }
 
 keyed! {
-    /// How many drops fell, before those that touch joined.
+    /// Number of fallen drops, before touching drops merge.
     pub enum DropAmount {
         /// Drops in the rectangle, 1 … 1 000 000, or 0 with "arrivals_per_s".
         count => Count(Placed<u64>) = whole(0, 1_000_000);
-        /// Drops a square decimetre, above 0; 1 … 1 000 000 in all.
+        /// Drops per square decimetre, above 0; 1 … 1 000 000 in all.
         count_per_dm2 => Density(Placed<f64>) = number("").above(0.0);
     }
 }
@@ -115,7 +115,7 @@ fn check(drops: &Drops, faults: &mut Faults) {
 }
 
 impl Drops {
-    /// Whether anything changes them over time.
+    /// True if the drops change over time.
     #[must_use]
     pub fn changes(&self) -> bool {
         self.drying_s.is_some() || self.arrivals_per_s.is_some() || self.sliding.is_some() || self.wiper.is_some()

@@ -1,4 +1,4 @@
-//! A mirror that the camera looks at.
+//! A mirror in front of the camera.
 
 use std::path::PathBuf;
 
@@ -10,33 +10,32 @@ use crate::record::reflectance::{Colour, any_colour};
 use etendue_spectra::metal;
 
 record! {
-    /// A mirror that the camera looks at. Its frame has x to the right, y down and z away from the camera; its vertex is the
-    /// origin.
+    /// A mirror in front of the camera. Its frame has x to the right, y down and z away from the camera; its vertex is the origin.
     pub struct Mirror check(check) {
-        /// What surface it is.
+        /// Shape of its surface.
         inside shape: MirrorShape;
-        /// Distance of its vertex (of a mesh: its origin) from the centre of the entrance pupil, along the camera's axis, mm, above 0. Default, of a
-        /// hyperboloid only: where the pupil is its outer focus, so that there is a single viewpoint.
+        /// Distance from the centre of the entrance pupil to its vertex (of a mesh: its origin), along the camera's axis, mm, above 0. Default, of a
+        /// hyperboloid only: the pupil at its outer focus, which gives a single viewpoint.
         optional distance_mm: Placed<f64> = number("mm").above(0.0);
-        /// How far its vertex lies aside of the camera's axis, to the right and down, mm. Default: on the axis.
+        /// Offset of its vertex from the camera's axis, to the right and down, mm. Default: on the axis.
         optional offset_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
-        /// How it is turned, right-handed about the camera's x, then its y, then its z axis, degrees. Default: not at all.
+        /// Rotation, right-handed about the camera's x, then its y, then its z axis, degrees. Default: none.
         optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
-        /// How much light it reflects.
+        /// Reflectance.
         inside finish: Finish;
     }
 }
 
 variants! {
-    /// The surface of a mirror. Quadrics are convex towards the camera.
+    /// Shape of a mirror. Quadrics are convex towards the camera.
     pub enum MirrorShape by "type" {
         /// A sphere.
         "sphere" => Sphere(Sphere),
         /// A paraboloid; with a telecentric camera it has a single viewpoint.
         "paraboloid" => Paraboloid(Sphere),
-        /// A hyperboloid; with the pupil in its outer focus it has a single viewpoint.
+        /// A hyperboloid; with the pupil at its outer focus it has a single viewpoint.
         "hyperboloid" => Hyperboloid(Hyperboloid),
-        /// A cone, its apex towards the camera.
+        /// A cone with its apex towards the camera.
         "cone" => Cone(Cone),
         /// A mesh, with its smooth normals.
         "mesh" => Mesh(MeshFile),
@@ -44,10 +43,10 @@ variants! {
 }
 
 record! {
-    /// A mesh in the mirror's frame: x to the right, y down, z away from the camera. Its reflecting side is where its triangles
-    /// are counter-clockwise.
+    /// A mesh in the mirror's frame: x to the right, y down, z away from the camera. It reflects on the side from which its triangles are
+    /// counter-clockwise.
     pub struct MeshFile {
-        /// The file (Wavefront OBJ). Without normals, each corner has the mean of its triangles'.
+        /// The file (Wavefront OBJ). Without normals, each corner has the mean normal of its triangles.
         required file: Placed<PathBuf> = path(&["obj"]);
         /// Millimetres per unit of the file. Default: 1.
         optional scale_mm: Placed<f64> = number("mm").above(0.0);
@@ -59,7 +58,7 @@ record! {
     pub struct Sphere {
         /// Radius of curvature at the vertex, mm, above 0.
         required radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// Where it ends.
+        /// Edges.
         inside edges: Edges;
     }
 }
@@ -69,10 +68,10 @@ record! {
     pub struct Hyperboloid {
         /// Radius of curvature at the vertex, mm, above 0.
         required radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// Conic constant, minus the square of the eccentricity e, from −1 000 to below −1. The outer focus lies radius_mm/(e − 1) before the
+        /// Conic constant, minus the square of the eccentricity e, from −1 000 to below −1. The outer focus lies radius_mm/(e − 1) in front of the
         /// vertex.
         required conic: Placed<f64> = number("").at_least(-1000.0).at_most(-1.000_001);
-        /// Where it ends.
+        /// Edges.
         inside edges: Edges;
     }
 }
@@ -82,36 +81,36 @@ record! {
     pub struct Cone {
         /// Angle between its axis and its surface, degrees, above 0 and at most 89.
         required half_angle_deg: Placed<f64> = number("°").above(0.0).at_most(89.0);
-        /// Where it ends.
+        /// Edges.
         inside edges: Edges;
     }
 }
 
 record! {
-    /// Where a mirror ends; rays beyond look past it.
+    /// Edges of a mirror; rays beyond them pass it.
     pub struct Edges {
-        /// Distance of its rim from its axis, mm, above 0.
+        /// Outer radius of the mirror, from its axis, mm, above 0.
         required rim_radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// Radius of a hole in its middle, mm, 0 or more. Default: none.
+        /// Radius of a central hole, mm, 0 or more. Default: none.
         optional hole_radius_mm: Placed<f64> = number("mm").at_least(0.0);
     }
 }
 
 keyed! {
-    /// How much light a mirror reflects.
+    /// Reflectance of a mirror.
     pub enum Finish {
-        /// Share of light reflected at any angle: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`,
-        /// `{ spectrum = file }` or `{ named = "…" }`; 0 … 1.
+        /// Reflectance, equal at all angles: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`, `{ spectrum = file }` or `{ named = "…" }`;
+        /// 0 … 1.
         reflectance => Share(Colour) = any_colour();
         /// A clean metal, by Fresnel's equations: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
         metal => Named(Placed<String>) = known("a metal", metal::names());
-        /// The same by a table of three columns: wavelength in nm, n, k.
+        /// A clean metal given by a table of three columns: wavelength in nm, n, k.
         index_file => File(Placed<PathBuf>) = path(&["csv"]);
     }
 }
 
 impl Finish {
-    /// The metal, where it is one.
+    /// The metal, if any.
     #[must_use]
     pub fn metal(&self) -> Option<Metal> {
         match self {

@@ -1,4 +1,4 @@
-//! `[external_optics]`: what stands in front of the lens, attached to the camera.
+//! `[external_optics]`: elements in front of the lens, attached to the camera.
 
 pub mod dirt;
 pub mod drops;
@@ -13,13 +13,13 @@ pub use mirror::Mirror;
 pub use windscreen::Windscreen;
 
 record! {
-    /// What stands in front of the lens and moves with the camera.
+    /// Elements in front of the lens that move with the camera.
     pub struct Front check(check) {
         /// Dirt and scratches on the front glass. Default: none.
         optional dirt: Dirt = record();
-        /// Glass that the camera looks through. Default: none.
+        /// Windscreen in front of the camera. Default: none.
         optional windscreen: Windscreen = record();
-        /// A mirror that the camera looks at. Default: none.
+        /// Mirror in front of the camera. Default: none.
         optional mirror: Mirror = record();
     }
 }

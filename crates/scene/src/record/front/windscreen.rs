@@ -1,4 +1,4 @@
-//! Glass that the camera looks through.
+//! A windscreen in front of the camera.
 
 use super::drops::Drops;
 use crate::fault::{ErrorCode, Faults};
@@ -9,38 +9,35 @@ use crate::record::lens::prescription::{Coating, coating};
 use crate::record::reflectance::{Colour, any_colour};
 
 record! {
-    /// A wind-screen: laminated glass, tilted and curved, without edges. Light is refracted through it, and some comes by
-    /// two reflections within it: a double image.
+    /// A windscreen: laminated glass, tilted and curved, without edges. It refracts light, and two internal reflections give a double image.
     pub struct Windscreen check(check) {
-        /// Distance of its inner face from the centre of the entrance pupil, along the camera's axis, mm, above 0.
+        /// Distance from the centre of the entrance pupil to its inner face, along the camera's axis, mm, above 0.
         required distance_mm: Placed<f64> = number("mm").above(0.0);
-        /// Angle between its normal and the camera's axis, degrees; positive leans the upper edge towards the camera, as in
-        /// cars. −89 … 89. Default: 0.
+        /// Angle between its normal and the camera's axis, degrees; positive tilts the upper edge towards the camera, as in cars. −89 … 89. Default:
+        /// 0.
         optional tilt_deg: Placed<f64> = number("°").at_least(-89.0).at_most(89.0);
-        /// How its normal is turned to the right, degrees, −89 … 89. Default: 0.
+        /// Rotation of its normal to the right, degrees, −89 … 89. Default: 0.
         optional yaw_deg: Placed<f64> = number("°").at_least(-89.0).at_most(89.0);
-        /// Radius of curvature of its inner face to left and right, mm, above 0, its centre on the camera's side.
-        /// Default: not curved.
+        /// Horizontal radius of curvature of its inner face, mm, above 0, with the centre on the camera's side. Default: flat.
         optional radius_across_mm: Placed<f64> = number("mm").above(0.0);
-        /// The same upwards and downwards. Default: not curved.
+        /// Vertical radius of curvature of its inner face, mm, above 0, with the centre on the camera's side. Default: flat.
         optional radius_upright_mm: Placed<f64> = number("mm").above(0.0);
-        /// Layers, from the camera outwards. Default: 2.1 mm of glass (n 1.52), 0.76 mm of polyvinyl butyral (n 1.48), 2.1 mm of
-        /// glass.
+        /// Layers, from the camera outwards. Default: 2.1 mm of glass (n 1.52), 0.76 mm of polyvinyl butyral (n 1.48), 2.1 mm of glass.
         optional layers: Vec<Layer> = list(record::<Layer>(), 1);
-        /// Angle by which the glass grows thicker upwards, mrad, −100 … 100; it lies in the middle layer. Default: 0.
+        /// Wedge angle by which the thickness grows upwards, mrad, −100 … 100; it lies in the middle layer. Default: 0.
         optional wedge_mrad: Placed<f64> = number("mrad").at_least(-100.0).at_most(100.0);
-        /// Share of light that the bulk lets through at normal incidence, without reflections: a number, `[r, g, b]`
-        /// (linear sRGB), `{ srgb = [r, g, b] }`, `{ spectrum = file }` or `{ named = "…" }`; 0 … 1. Default: 1.
+        /// Transmittance of the bulk at normal incidence, without reflections: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`, `{
+        /// spectrum = file }` or `{ named = "…" }`; 0 … 1. Default: 1.
         optional internal_transmittance: Colour = any_colour();
-        /// With "internal_transmittance": the thickness for which it is stated, mm, above 0. Default: that of all layers.
+        /// With "internal_transmittance": thickness to which it refers, mm, above 0. Default: that of all layers.
         optional reference_thickness_mm: Placed<f64> = number("mm").above(0.0);
-        /// What each of the two outer faces lets through: "uncoated" (Fresnel), a share above 0 and at most 1, or
-        /// `{ quarter_wave_nm = … }`. Default: "uncoated".
+        /// Transmittance of each of the two outer faces: "uncoated" (Fresnel), a fraction above 0 and at most 1, or `{ quarter_wave_nm = … }`.
+        /// Default: "uncoated".
         optional coating: Coating = coating();
-        /// Whether light that is reflected twice within the glass is added. Default: true.
+        /// Adds light that is reflected twice within the glass. Default: true.
         optional double_image: Placed<bool> = flag();
-        /// Share of samples that look for the double image, above 0 and at most 0.9: more make it less noisy and the rest
-        /// more. It does not change the mean. Default: the share of light in it.
+        /// Fraction of samples for the double image, above 0 and at most 0.9. More samples lower its noise and raise that of the rest; the mean does
+        /// not change. Default: its fraction of the light.
         optional double_image_sample_fraction: Placed<f64> = number("").above(0.0).at_most(0.9);
         /// Drops of water on the outer face. Default: none.
         optional drops: Drops = record();
@@ -52,7 +49,7 @@ record! {
     pub struct Layer {
         /// Thickness, mm, above 0.
         required thickness_mm: Placed<f64> = number("mm").above(0.0);
-        /// Refractive index against air, 1.01 … 4: a number, or `{ spectrum = file }`.
+        /// Refractive index relative to air, 1.01 … 4: a number, or `{ spectrum = file }`.
         required index: Curve = curve(number("").at_least(1.01).at_most(4.0));
     }
 }

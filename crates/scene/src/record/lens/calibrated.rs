@@ -1,4 +1,4 @@
-//! A camera known by where its pixels look.
+//! A camera given by the viewing directions of its pixels.
 
 use std::path::PathBuf;
 
@@ -11,41 +11,40 @@ use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, words};
 
 record! {
-    /// A calibrated or ideal projection with a lens's light.
+    /// A calibrated or ideal projection with the photometry of a lens.
     pub struct Calibrated check(check) {
-        /// Where its pixels look.
+        /// Viewing directions of the pixels.
         inside view: View;
-        /// How much light comes through, 0.5 or more: on the axis E = π τ L/(4 N²). With "focus_distance_m" also the pupil's size.
+        /// f-number, 0.5 or more: irradiance on the axis is E = π τ L/(4 N²). With "focus_distance_m" it also sets the pupil's size.
         required f_number: Placed<f64> = f_number();
-        /// Distance of what is sharp from the entrance pupil, m, above 0, or "infinity": along the axis for a flat pupil, along
-        /// the ray for a turning one. Default: everything is sharp.
+        /// Distance from the entrance pupil to the surface in focus, m, above 0, or "infinity": along the axis for a flat pupil, along the ray for a
+        /// turning one. Default: everything is sharp.
         optional focus_distance_m: FocusDistance = focus_distance();
-        /// How the entrance pupil stands. Default: "flat" for projections that see less than 180°, "turning" for others.
+        /// Orientation of the entrance pupil. Default: "flat" for projections that see less than 180°, "turning" for others.
         optional pupil: Placed<Pupil> = choice();
-        /// Measured relative illumination, in place of the pupil's and the projection's own. Default: theirs.
+        /// Measured relative illumination, instead of that of the pupil and the projection. Default: theirs.
         optional relative_illumination: RelativeIllumination = record();
-        /// The field angle (from the axis) from which on the camera sees nothing, degrees, above 0 and at most 180. Default:
-        /// where the projection ends.
+        /// Field angle (from the axis) beyond which the camera sees nothing, degrees, above 0 and at most 180. Default: the end of the projection.
         optional greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
-        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
         optional transmittance: Placed<f64> = share();
-        /// Image size by wavelength. Default: all colours alike.
+        /// Lateral colour: image size by wavelength. Default: equal for all wavelengths.
         optional lateral_colour: LateralColour = record();
     }
 }
 
 keyed! {
-    /// Where pixels look.
+    /// Viewing directions of the pixels.
     pub enum View {
-        /// A projection with its numbers.
+        /// A projection with its parameters.
         projection => Projection(Box<Projection>) = record();
-        /// A calibration of another program; its picture must have the sensor's size.
+        /// A calibration file of another program; its image size must be that of the sensor.
         calibration => Calibration(Box<CalibrationFile>) = record();
     }
 }
 
 impl View {
-    /// The file that a projection has its table from.
+    /// File of a projection's table.
     #[must_use]
     pub fn projection_file(&self) -> Option<&Placed<PathBuf>> {
         match self {
@@ -62,12 +61,11 @@ impl View {
 }
 
 words! {
-    /// How an entrance pupil stands to the rays.
+    /// Orientation of an entrance pupil to the rays.
     pub enum Pupil {
-        /// A disc across the axis: a direction sees it foreshortened by cos θ, so light falls off as cos θ dΩ/dA; sees less than
-        /// 180°.
+        /// A disc across the axis: foreshortened by cos θ, so light falls off as cos θ dΩ/dA; sees less than 180°.
         "flat" => Flat,
-        /// Turned towards each direction, as wide lenses' pupils do: light falls off as dΩ/dA.
+        /// Turned towards each direction, as in wide lenses: light falls off as dΩ/dA.
         "turning" => Turning,
     }
 }
@@ -75,7 +73,7 @@ words! {
 record! {
     /// Irradiance over that on the axis, linear between the points.
     pub struct RelativeIllumination check(check_illumination) {
-        /// Where its points are.
+        /// Source of the points.
         inside source: IlluminationSource;
         /// With "radius_mm": irradiance over that on the axis, 0 or more; the first is 1.
         optional ratio: Vec<Placed<f64>> = list(number("").at_least(0.0), 1);
@@ -83,11 +81,11 @@ record! {
 }
 
 keyed! {
-    /// Where a relative illumination is.
+    /// Source of a relative illumination.
     pub enum IlluminationSource {
-        /// Zemax's "Relative Illumination" exported as text, its fields in degrees or in mm of the picture, to the picture's farthest corner or beyond.
+        /// Zemax's "Relative Illumination" exported as text, its fields in degrees or in mm on the image, to the image's farthest corner or beyond.
         file => File(Placed<PathBuf>) = path(&["txt"]);
-        /// Distances from the principal point, mm, rising from 0 to the picture's farthest corner or beyond.
+        /// Distances from the principal point, mm, rising from 0 to the image's farthest corner or beyond.
         radius_mm => Radii(Vec<Placed<f64>>) = list(number("mm").at_least(0.0), 1);
     }
 }

@@ -10,7 +10,7 @@ record! {
         required k1: Placed<f64> = number("");
         /// Coefficient of r⁴. Default: 0.
         optional k2: Placed<f64> = number("");
-        /// Whether r is the radius of the ideal picture and r′ the observed one, or the other way round.
+        /// Direction of the mapping from r to r′: ideal to observed radius, or the reverse.
         required direction: Placed<Direction> = choice();
         /// The unit of r and r′.
         required radius_unit: Placed<RadiusUnit> = choice();
@@ -18,11 +18,11 @@ record! {
 }
 
 words! {
-    /// Which way a distortion polynomial maps.
+    /// Direction of a distortion polynomial.
     pub enum Direction {
-        /// From the undistorted picture to the distorted one (OpenCV).
+        /// From the undistorted image to the distorted one (OpenCV).
         "ideal_to_observed" => IdealToObserved,
-        /// From the distorted picture to the undistorted one.
+        /// From the distorted image to the undistorted one.
         "observed_to_ideal" => ObservedToIdeal,
     }
 }
@@ -34,7 +34,7 @@ words! {
         "mm" => Millimetres,
         /// Focal lengths (OpenCV).
         "focal_lengths" => FocalLengths,
-        /// Half the diagonal of the picture.
+        /// Half the diagonal of the image.
         "half_diagonals" => HalfDiagonals,
         /// Pixels.
         "pixels" => Pixels,

@@ -1,19 +1,19 @@
-//! Where a lens is focused.
+//! Focus distance of a lens.
 
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, number, variant, words};
 
-/// Where a lens is focused.
+/// Focus distance of a lens.
 #[derive(Clone, Debug)]
 pub enum FocusDistance {
-    /// At a distance, m.
+    /// A finite distance, m.
     Metres(Placed<f64>),
     /// At infinity.
     Infinity,
 }
 
 words! {
-    /// The word for a distance without end.
+    /// The word for an infinite distance.
     pub enum Endless {
         /// Infinitely far.
         "infinity" => Infinity,

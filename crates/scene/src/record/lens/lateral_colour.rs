@@ -1,16 +1,15 @@
-//! The image's size by wavelength.
+//! Image size by wavelength.
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{list, number, record};
 
 record! {
-    /// Lateral colour: the image's size about the principal point, by wavelength. Linear between the points, the end values
-    /// hold beyond them.
+    /// Lateral colour: image size about the principal point, by wavelength. Linear between the points, constant beyond them.
     pub struct LateralColour check(check_colour) {
         /// Wavelengths, nm, rising; two or more.
         required wavelength_nm: Vec<Placed<f64>> = list(number("nm").above(0.0), 1);
-        /// Image size over that at 587.56 nm (only ratios count), above 0; a good lens keeps within 0.999 and 1.001.
+        /// Image size over that at 587.56 nm (only ratios count), above 0; between 0.999 and 1.001 for a good lens.
         required magnification: Vec<Placed<f64>> = list(number("").above(0.0), 1);
     }
 }

@@ -29,17 +29,17 @@ pub use thin::Thin;
 variants! {
     /// A lens.
     pub enum Lens by "type" {
-        /// A pupil so small that everything is sharp; "f_number" sets how much light comes through.
+        /// A pupil so small that everything is sharp; "f_number" sets the irradiance.
         "pinhole" => Pinhole(Pinhole),
-        /// An ideal lens of no thickness.
+        /// An ideal lens without thickness.
         "thin" => Thin(Thin),
-        /// A paraxial lens with two principal planes, two pupils and two rims that vignette.
+        /// A paraxial lens with two principal planes, two pupils and two clear apertures that vignette.
         "thick" => Thick(Box<Thick>),
-        /// A lens of surfaces and glasses, traced: aberrations, colours, vignetting as they are.
+        /// A lens of surfaces and glasses, ray traced, with its aberrations, chromatic errors and vignetting.
         "prescription" => Prescription(Box<Prescription>),
-        /// A lens known by its ray-transfer functions alone, as a maker gives it away: from rays behind it to rays in front of it.
+        /// A lens given only by its ray-transfer functions, as makers publish them: from rays behind it to rays in front of it.
         "ray_transfer" => RayTransfer(RayTransfer),
-        /// A calibrated or ideal projection: each pixel looks where the calibration says.
+        /// A calibrated or ideal projection, which gives the viewing direction of each pixel.
         "calibrated" => Calibrated(Box<Calibrated>),
         /// Telecentric rays along the axis, as from an object-side telecentric lens; everything is sharp.
         "telecentric" => Telecentric(Telecentric),

@@ -1,4 +1,4 @@
-//! Numbers that several lenses have.
+//! Numbers shared by several lenses.
 
 use crate::reader::{Number, number};
 
@@ -6,7 +6,7 @@ pub(super) fn focal_length() -> Number {
     number("mm").above(0.0)
 }
 
-/// No lens in air is faster than f/0.5: its cone fills the half space.
+/// The f-number, at least 0.5: the cone of f/0.5 in air fills the half space.
 pub(super) fn f_number() -> Number {
     number("").at_least(0.5)
 }

@@ -11,13 +11,13 @@ record! {
     pub struct Pinhole {
         /// Distance of the pinhole from the sensor, mm, above 0.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the pinhole's diameter, 0.5 or more: how much light comes through.
+        /// Focal length divided by the pinhole's diameter, 0.5 or more; it sets the irradiance.
         required f_number: Placed<f64> = f_number();
-        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
         optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
-        /// Image size by wavelength. Default: all colours alike.
+        /// Lateral colour: image size by wavelength. Default: equal for all wavelengths.
         optional lateral_colour: LateralColour = record();
     }
 }

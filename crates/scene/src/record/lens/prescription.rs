@@ -1,4 +1,4 @@
-//! A lens by its surfaces: in the camera file, in the file of a lens program, or a published one.
+//! A lens given by its surfaces: in the camera file, in the file of a lens program, or published.
 
 use std::path::PathBuf;
 
@@ -11,87 +11,84 @@ use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, recor
 use crate::record::curve::spectrum_file;
 
 record! {
-    /// A traced lens.
+    /// A ray-traced lens.
     pub struct Prescription check(check) {
-        /// Where its surfaces are.
+        /// Source of its surfaces.
         inside source: Source;
-        /// With "file": clear semi-apertures, mm, one a surface of the file that refracts, is the stop or has an aperture of its own, in
-        /// place of the file's. Default: the file's; where it has none, what the light of its fields needs.
+        /// With "file": clear semi-apertures, mm, instead of those of the file; one for each of its surfaces that refracts, is the stop or has its
+        /// own aperture. Default: the file's; where it has none, as the light of its fields needs.
         optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
-        /// Focal length divided by the entrance pupil's diameter, with the focus at infinity, 0.5 or more: how far the stop opens,
-        /// no further than its own semi-aperture. Default: what the file says (its entrance pupil, f-number or cone of light, for
-        /// which the stop opens or closes), or the stop's own semi-aperture.
+        /// Focal length divided by the diameter of the entrance pupil, with the focus at infinity, 0.5 or more. It opens the stop, at most to its
+        /// semi-aperture. Default: as stated in the file (entrance pupil, f-number or cone of light, for which the stop opens or closes), or the
+        /// stop's semi-aperture.
         optional f_number: Placed<f64> = f_number();
-        /// Distance of the plane in focus from the entrance pupil, m, above 0, or "infinity". Required, but with "file": there it is
-        /// the object of the file unless given.
+        /// Distance from the entrance pupil to the plane in focus, m, above 0, or "infinity". Required, except with "file": there the default is the
+        /// object of the file.
         optional focus_distance_m: FocusDistance = focus_distance();
-        /// What moves to focus: "sensor" (or the lens as a whole), or the first and last surface of a group, counted from 1 at
-        /// the scene; the sensor then stays where the lens images infinity. Default: "sensor".
+        /// Part that moves to focus: "sensor" (or the lens as a whole), or the first and last surface of a group, counted from 1 at the scene; the
+        /// sensor then stays where the lens images infinity. Default: "sensor".
         optional focus_by: FocusBy = focus_by();
-        /// How far behind the paraxial image (at 587.56 nm, or the primary wavelength of the file) the sensor stands, mm: best focus of an aberrated lens. Default: as far
-        /// as the file's image stands behind its paraxial image, otherwise 0.
+        /// Distance of the sensor behind the paraxial image (at 587.56 nm, or the primary wavelength of the file), mm: best focus of an aberrated
+        /// lens. Default: that of the file's image, otherwise 0.
         optional defocus_mm: Placed<f64> = number("mm");
-        /// What those surfaces let through that lie against air and say nothing of their own: as a surface's "coating".
-        /// Default: "uncoated".
+        /// Coating of the surfaces that border on air and state none of their own: as a surface's "coating". Default: "uncoated".
         optional coating: Coating = coating();
-        /// An interference filter in front of the sensor that cuts the infrared off. Default: none.
+        /// An interference filter in front of the sensor that blocks infrared light. Default: none.
         optional ir_cut: IrCut = record();
     }
 }
 
 keyed! {
-    /// Where surfaces are.
+    /// Source of the surfaces.
     pub enum Source {
-        /// A published lens, with its source in docs/lenses.md: "double-gauss", "wide-angle", "fisheye", "telephoto".
+        /// A published lens, with its reference in docs/lenses.md: "double-gauss", "wide-angle", "fisheye", "telephoto".
         published => Published(Placed<String>) = text("the name of a published lens");
         /// A sequential lens of Zemax (.zmx) or CODE V (.seq), as text.
         file => File(Placed<PathBuf>) = path(&["zmx", "seq"]);
-        /// The surfaces, from the scene to the sensor; one is the stop. What is behind the last is air.
+        /// The surfaces, from the scene to the sensor; one is the stop. Air follows the last surface.
         surfaces => Surfaces(Vec<Surface>) = list(record::<Surface>(), 1);
     }
 }
 
 record! {
-    /// A surface and the space behind it. With c = 1/radius_mm and r the distance from the axis its sag is
-    /// c r²/(1 + √(1 − (1 + conic) c² r²)) + a₁ r² + a₂ r⁴ + …, a the list `asphere`.
+    /// A surface and the space behind it. With c = 1/radius_mm and r the distance from the axis its sag is c r²/(1 + √(1 − (1 + conic) c² r²)) + a₁
+    /// r² + a₂ r⁴ + …, a the list `asphere`.
     pub struct Surface {
         /// Radius of curvature, mm, positive where the centre lies towards the sensor. Default: a plane.
         optional radius_mm: Placed<f64> = number("mm");
-        /// Conic constant: 0 a sphere, −1 a paraboloid. Default: 0.
+        /// Conic constant: 0 for a sphere, −1 for a paraboloid. Default: 0.
         optional conic: Placed<f64> = number("");
         /// Coefficients of r², r⁴, r⁶ …, mm to the power 1 − 2i; at most ten. Default: none.
         optional asphere: Vec<Placed<f64>> = list(number("mm^(1 - 2i)"), 1);
-        /// Distance to the next surface along the axis, mm, 0 or more. Of the last surface it has no effect and is left out.
+        /// Distance to the next surface along the axis, mm, 0 or more. Without effect on the last surface, where it is left out.
         optional thickness_mm: Placed<f64> = number("mm").at_least(0.0);
-        /// Radius of the opening that lets light through, mm, above 0.
+        /// Radius of the clear aperture, mm, above 0.
         required semi_aperture_mm: Placed<f64> = number("mm").above(0.0);
-        /// What fills the space behind it: a glass of the catalogues of Schott or Ohara by its name ("N-BK7"), or a table.
-        /// Default: air.
+        /// Medium behind the surface: a glass of the catalogues of Schott or Ohara by name ("N-BK7"), or a table. Default: air.
         optional glass: Glass = glass();
-        /// What it lets through: "uncoated" (Fresnel), a share above 0 and at most 1, or a layer. Default: the
-        /// lens's.
+        /// Transmittance: "uncoated" (Fresnel), a fraction above 0 and at most 1, or a layer. Default: the lens's coating.
         optional coating: Coating = coating();
-        /// Whether it is the aperture stop. Default: false.
+        /// Marks the aperture stop. Default: false.
         optional stop: Placed<bool> = flag();
     }
 }
 
-/// What fills a space.
+/// The medium of a space.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a description has few of them, and places of values take most of it")]
 pub enum Glass {
     /// By the maker's name.
     Named(Placed<String>),
-    /// By its numbers.
+    /// By its optical constants.
     Numbers(GlassNumbers),
 }
 
 record! {
-    /// A glass by its numbers, against air.
+    /// A glass by its optical constants, relative to air.
     pub struct GlassNumbers check(check_glass) {
-        /// What is known of it.
+        /// Given constants.
         inside known: GlassKnown;
-        /// With "index": Abbe number V_d, above 5. Without it the glass does not disperse.
+        /// With "index": Abbe number V_d, above 5. Default: no dispersion.
         optional abbe: Placed<f64> = number("").above(5.0);
         /// With "sellmeier_b": C₁, C₂, C₃, µm².
         optional sellmeier_c_um2: Placed<[f64; 3]> = vector::<3>(number("µm²"));
@@ -99,30 +96,30 @@ record! {
 }
 
 keyed! {
-    /// What is known of a glass.
+    /// Given constants of a glass.
     pub enum GlassKnown {
-        /// n_d, at 587.56 nm, above 1 and at most 5; with "abbe" a Conrady curve on the normal line.
+        /// Refractive index n_d, at 587.56 nm, above 1 and at most 5; with "abbe" a Conrady curve on the normal line.
         index => Index(Placed<f64>) = number("").above(1.0).at_most(5.0);
         /// B₁, B₂, B₃ of Sellmeier's equation n² = 1 + Σ B λ²/(λ² − C), λ in µm.
         sellmeier_b => Sellmeier(Placed<[f64; 3]>) = vector::<3>(number(""));
     }
 }
 
-/// What a surface lets through.
+/// Transmittance of a surface.
 #[derive(Clone, Debug)]
 pub enum Coating {
     /// Bare glass.
     Uncoated,
-    /// A share at every angle and wavelength.
+    /// A fraction, equal at all angles and wavelengths.
     Share(Placed<f64>),
     /// A quarter-wave layer of magnesium fluoride for this wavelength, nm.
     QuarterWave(Placed<f64>),
 }
 
 words! {
-    /// The word for a surface without coating.
+    /// The word for a surface without a coating.
     pub enum Bare {
-        /// Bare glass: Fresnel's reflection.
+        /// Bare glass: Fresnel reflection.
         "uncoated" => Uncoated,
     }
 }
@@ -135,7 +132,7 @@ keyed! {
     }
 }
 
-/// What moves to focus.
+/// The part that moves to focus.
 #[derive(Clone, Debug)]
 pub enum FocusBy {
     /// The sensor.
@@ -153,11 +150,11 @@ words! {
 }
 
 record! {
-    /// An interference filter. An edge at λ₀ stands at λ₀ √(1 − sin²θ/effective_index²) for light at the angle θ.
+    /// An interference filter. An edge at λ₀ shifts to λ₀ √(1 − sin²θ/effective_index²) for light at the angle θ.
     pub struct IrCut check(check_filter) {
-        /// What it lets through at normal incidence.
+        /// Transmittance at normal incidence.
         inside normal: IrCutCurve;
-        /// With "edge_nm": from full transmittance to none, nm, above 0.
+        /// With "edge_nm": width of the edge from full transmittance to none, nm, above 0.
         optional edge_width_nm: Placed<f64> = number("nm").above(0.0);
         /// Effective index of its layers, above 1; 1.5 to 2.2 is usual.
         required effective_index: Placed<f64> = number("").above(1.0);
@@ -165,11 +162,11 @@ record! {
 }
 
 keyed! {
-    /// A filter's transmittance at normal incidence.
+    /// Transmittance of a filter at normal incidence.
     pub enum IrCutCurve {
         /// A table of two columns, wavelength in nm and transmittance 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
-        /// Where half comes through, nm, 300 … 1 100: all below, none beyond, and a straight flank.
+        /// Wavelength of half transmittance, nm, 300 … 1 100: full below, none beyond, and a linear edge between.
         edge_nm => Edge(Placed<f64>) = number("nm").at_least(300.0).at_most(1100.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Where a calibrated camera's pixels look: a projection with its numbers, or a calibration file.
+//! Viewing directions of a calibrated camera's pixels: a projection with its parameters, or a calibration file.
 
 use std::path::PathBuf;
 
@@ -13,15 +13,15 @@ record! {
     pub struct CalibrationFile {
         /// The file.
         required file: Placed<PathBuf> = path(&["yaml", "yml", "json", "txt"]);
-        /// Whose file it is.
+        /// Program that the file belongs to.
         required format: Placed<CalibrationFormat> = choice();
-        /// Which camera of the file, by its name there. Default: its only one.
+        /// Name of the camera within the file. Default: the only one.
         optional camera: Placed<String> = text("the name of a camera");
     }
 }
 
 impl CalibrationFile {
-    /// Which camera of the file it is.
+    /// Returns the camera of the file that is used.
     #[must_use]
     pub fn camera_in_file(&self) -> CalibrationChoice {
         CalibrationChoice { format: self.format.value, camera: self.camera.as_ref().map(|c| c.value.clone()) }
@@ -29,8 +29,8 @@ impl CalibrationFile {
 }
 
 variants! {
-    /// Where a raster point looks. Points of the normalised image plane become pixels by
-    /// (fx x + skew y + cx, fy y + cy), in raster coordinates: pixel centres are at + 0.5.
+    /// Viewing direction of a raster point. Points of the normalised image plane become pixels by (fx x + skew y + cx, fy y + cy), in raster
+    /// coordinates: pixel centres are at + 0.5.
     pub enum Projection by "type" {
         /// Perspective with OpenCV's distortion.
         "opencv" => OpenCv(OpenCv),
@@ -54,19 +54,19 @@ variants! {
         "ocam" => Ocam(Ocam),
         /// A polynomial between field angle (rad) and radius, in pixels.
         "f_theta" => FTheta(FTheta),
-        /// A table of radii over field angles, by hand or from Zemax's "Field Curvature/Distortion".
+        /// A table of radii over field angles, given here or from Zemax's "Field Curvature/Distortion".
         "table" => Table(Table),
-        /// r = θ: to 360°.
+        /// r = θ: up to 360°.
         "equidistant" => Equidistant(Scaled),
-        /// r = 2 sin(θ/2): to 360°.
+        /// r = 2 sin(θ/2): up to 360°.
         "equisolid" => Equisolid(Scaled),
-        /// r = 2 tan(θ/2): to below 360°.
+        /// r = 2 tan(θ/2): below 360°.
         "stereographic" => Stereographic(Scaled),
-        /// r = sin θ: to 180°.
+        /// r = sin θ: up to 180°.
         "orthographic" => Orthographic(Scaled),
-        /// r = tan θ: to below 180°.
+        /// r = tan θ: below 180°.
         "rectilinear" => Rectilinear(Scaled),
-        /// x = azimuth, y = tan of the elevation: to 360° about the camera's y axis.
+        /// x = azimuth, y = tan of the elevation: up to 360° about the camera's y axis.
         "cylindrical" => Cylindrical(Scaled),
         /// x = azimuth, y = elevation: the whole sphere.
         "equirectangular" => Equirectangular(Scaled),
@@ -74,7 +74,7 @@ variants! {
 }
 
 record! {
-    /// A projection without numbers of its own.
+    /// A projection without parameters of its own.
     pub struct Scaled {
         /// Its scale.
         inside matrix: Matrix;
@@ -84,11 +84,11 @@ record! {
 record! {
     /// The camera matrix.
     pub struct Matrix {
-        /// How long the unit of the normalised plane is.
+        /// Length of the unit of the normalised plane.
         inside scale: Scale;
-        /// With "fx_px": the same in rows, px, above 0. Default: fx_px.
+        /// With "fx_px": the same for rows, px, above 0. Default: fx_px.
         optional fy_px: Placed<f64> = number("px").above(0.0);
-        /// Columns that a step down by one unit adds, px. Default: 0.
+        /// Shift to the right per unit step down, px. Default: 0.
         optional skew_px: Placed<f64> = number("px");
         /// The principal point.
         inside centre: Centre;
@@ -102,8 +102,7 @@ keyed! {
         fx_px => Columns(Placed<f64>) = number("px").above(0.0);
         /// The focal length (of a lens without distortion), mm, above 0.
         focal_length_mm => Millimetres(Placed<f64>) = number("mm").above(0.0);
-        /// The horizontal angle that a picture of this width sees whose principal point is in its middle, degrees, above 0
-        /// and at most 360.
+        /// Horizontal field of view of an image of this width with the principal point in its middle, degrees, above 0 and at most 360.
         field_of_view_deg => FieldOfView(Placed<f64>) = number("degrees").above(0.0).at_most(360.0);
     }
 }
@@ -124,8 +123,7 @@ record! {
     pub struct OpenCv {
         /// Camera matrix.
         inside matrix: Matrix;
-        /// Its distCoeffs: 4, 5, 8, 12 or 14 numbers in OpenCV's order (k1, k2, p1, p2, k3, k4, k5, k6, s1 … s4, τx, τy).
-        /// Default: none.
+        /// Coefficients distCoeffs: 4, 5, 8, 12 or 14 numbers in OpenCV's order (k1, k2, p1, p2, k3, k4, k5, k6, s1 … s4, τx, τy). Default: none.
         optional distortion: Vec<Placed<f64>> = list(number(""), 1);
     }
 }
@@ -139,7 +137,7 @@ record! {
         required k1: Placed<f64> = number("");
         /// Coefficient of r⁴. Default: 0.
         optional k2: Placed<f64> = number("");
-        /// Whether r is the radius of the ideal picture and r′ the observed one, or the other way round.
+        /// Direction of the mapping from r to r′: ideal to observed radius, or the reverse.
         required direction: Placed<Direction> = choice();
     }
 }
@@ -181,8 +179,7 @@ record! {
         inside matrix: Matrix;
         /// Coefficients of the angle's polynomial, k1 … k6 (COLMAP's RAD_TAN_THIN_PRISM_FISHEYE, Aria's Fisheye624). Default: 0.
         optional k: Placed<[Placed<f64>; 6]> = exactly(number(""));
-        /// Radial coefficients of the fisheye's plane, before p and s: x (1 + k1 r² + k2 r⁴ + k3 r⁶ + k4 r⁸) (COLMAP's
-        /// THIN_PRISM_FISHEYE). Default: 0.
+        /// Radial coefficients in the fisheye plane, before p and s: x (1 + k1 r² + k2 r⁴ + k3 r⁶ + k4 r⁸) (COLMAP's THIN_PRISM_FISHEYE). Default: 0.
         optional plane_k: Placed<[Placed<f64>; 4]> = exactly(number(""));
         /// p1, p2 in OpenCV's order. Default: 0.
         optional p: Placed<[Placed<f64>; 2]> = exactly(number(""));
@@ -232,9 +229,9 @@ record! {
     pub struct Stretch {
         /// Scale of the rows. Default: 1.
         optional c: Placed<f64> = number("");
-        /// What a step to the right adds downwards. Default: 0.
+        /// Shift down per step to the right. Default: 0.
         optional d: Placed<f64> = number("");
-        /// What a step downwards adds to the right. Default: 0.
+        /// Shift to the right per step down. Default: 0.
         optional e: Placed<f64> = number("");
     }
 }
@@ -258,9 +255,9 @@ record! {
         inside centre: Centre;
         /// c₁, c₂, … (there is no c₀).
         required polynomial: Vec<Placed<f64>> = list(number(""), 1);
-        /// Which way it runs.
+        /// Direction of the mapping.
         required maps: Placed<FThetaSense> = choice();
-        /// The field angle up to which it holds, degrees, above 0 and at most 180.
+        /// Largest field angle of the polynomial, degrees, above 0 and at most 180.
         required greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
         /// The affine map.
         inside stretch: Stretch;
@@ -268,7 +265,7 @@ record! {
 }
 
 words! {
-    /// Which way an f-theta polynomial runs.
+    /// Direction of an f-theta polynomial.
     pub enum FThetaSense {
         /// From the field angle, rad, to the radius, px.
         "angle_to_radius" => AngleToRadius,
@@ -278,21 +275,21 @@ words! {
 }
 
 record! {
-    /// A projection by a table, symmetrical about the axis: a smooth curve through its points; beyond them nothing is seen.
+    /// A projection by a table, symmetrical about the axis: a smooth curve through its points; nothing is seen beyond them.
     pub struct Table check(check_table) {
         /// Principal point.
         inside centre: Centre;
-        /// Where its points are.
+        /// Source of the points.
         inside source: TableSource;
         /// With "angle_deg": the radius on the sensor at each angle, mm, rising from above 0.
         optional radius_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 2);
-        /// With "file": the focal length that its distortion is stated for, mm, above 0. Default: what the file says.
+        /// With "file": focal length to which its distortion refers, mm, above 0. Default: that of the file.
         optional focal_length_mm: Placed<f64> = number("mm").above(0.0);
     }
 }
 
 keyed! {
-    /// Where a table of a projection is.
+    /// Source of a projection table.
     pub enum TableSource {
         /// Zemax's "Field Curvature/Distortion" exported as text, its fields in degrees.
         file => File(Placed<PathBuf>) = path(&["txt"]);

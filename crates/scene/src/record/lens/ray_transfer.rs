@@ -1,4 +1,4 @@
-//! A lens known by its ray-transfer functions alone.
+//! A lens given only by its ray-transfer functions.
 
 use std::path::PathBuf;
 
@@ -8,23 +8,23 @@ use crate::place::Placed;
 use crate::reader::{keyed, number, path, record};
 
 record! {
-    /// A lens by its ray-transfer functions.
+    /// A lens given by its ray-transfer functions.
     pub struct RayTransfer {
         /// ISET's ray-transfer file.
         required file: Placed<PathBuf> = path(&["json"]);
-        /// Where the sensor stands.
+        /// Position of the sensor.
         inside sensor: SensorPlace;
-        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
         optional transmittance: Placed<f64> = share();
     }
 }
 
 keyed! {
-    /// Where the sensor stands.
+    /// Position of the sensor.
     pub enum SensorPlace {
-        /// Distance of what is sharpest on the axis from the entrance pupil, m, above 0, or "infinity".
+        /// Distance from the entrance pupil of the point in best focus on the axis, m, above 0, or "infinity".
         focus_distance_m => Focus(FocusDistance) = focus_distance();
-        /// The sensor behind the last surface, mm, above 0 and beyond the input plane of the file (ISET's "filmdistance").
+        /// Distance from the last surface to the sensor, mm, above 0 and beyond the input plane of the file (ISET's "filmdistance").
         sensor_distance_mm => Distance(Placed<f64>) = number("mm").above(0.0);
     }
 }

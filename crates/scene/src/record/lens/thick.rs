@@ -1,4 +1,4 @@
-//! The thick lens: two principal planes, two pupils, two rims.
+//! The thick lens: two principal planes, two pupils, two clear apertures.
 
 use super::distortion::Distortion;
 use super::focus::{FocusDistance, focus_distance};
@@ -12,30 +12,30 @@ record! {
     pub struct Thick {
         /// Focal length, mm, above 0.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the entrance pupil's diameter, 0.5 or more.
+        /// Focal length divided by the diameter of the entrance pupil, 0.5 or more.
         required f_number: Placed<f64> = f_number();
-        /// Distance of the plane in focus from the entrance pupil, m, beyond the focal length, or "infinity".
+        /// Distance from the entrance pupil to the plane in focus, m, beyond the focal length, or "infinity".
         required focus_distance_m: FocusDistance = focus_distance();
-        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
         optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
-        /// Image size by wavelength. Default: all colours alike.
+        /// Lateral colour: image size by wavelength. Default: equal for all wavelengths.
         optional lateral_colour: LateralColour = record();
-        /// The rear principal plane, from the front principal plane, mm; may be negative. Default: 0.
+        /// Position of the rear principal plane, from the front principal plane, mm; may be negative. Default: 0.
         optional principal_separation_mm: Placed<f64> = number("mm");
-        /// The entrance pupil, from the front principal plane, mm; negative lies towards the scene. One statement about
-        /// the pupils fixes the others; more than one must agree. Default: the pupils lie in the principal planes.
+        /// Position of the entrance pupil, from the front principal plane, mm; negative is towards the scene. One statement about the pupils fixes
+        /// the others; several must agree. Default: the pupils lie in the principal planes.
         optional entrance_pupil_mm: Placed<f64> = number("mm");
-        /// The exit pupil, from the front principal plane, mm. See "entrance_pupil_mm".
+        /// Position of the exit pupil, from the front principal plane, mm. See "entrance_pupil_mm".
         optional exit_pupil_mm: Placed<f64> = number("mm");
-        /// Diameter of the exit pupil by that of the entrance pupil, above 0. See "entrance_pupil_mm".
+        /// Diameter of the exit pupil over that of the entrance pupil, above 0. See "entrance_pupil_mm".
         optional pupil_magnification: Placed<f64> = number("").above(0.0);
-        /// Which pupil keeps its area over the field.
+        /// Pupil whose area is constant over the field.
         required constant_pupil: Placed<Pupil> = choice();
-        /// The rim in front of the pupil. Default: none.
+        /// Clear aperture in front of the pupil. Default: none.
         optional front_aperture: Rim = record();
-        /// The rim behind the pupil. Default: none.
+        /// Clear aperture behind the pupil. Default: none.
         optional rear_aperture: Rim = record();
     }
 }
@@ -51,7 +51,7 @@ words! {
 }
 
 record! {
-    /// A round rim that stops light.
+    /// A round clear aperture.
     pub struct Rim {
         /// Position along the axis, from the front principal plane, mm.
         required position_mm: Placed<f64> = number("mm");

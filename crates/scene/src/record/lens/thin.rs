@@ -12,15 +12,15 @@ record! {
     pub struct Thin {
         /// Focal length, mm, above 0.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the pupil's diameter, 0.5 or more.
+        /// Focal length divided by the diameter of the pupil, 0.5 or more.
         required f_number: Placed<f64> = f_number();
-        /// Distance of the plane in focus from the entrance pupil, m, beyond the focal length, or "infinity".
+        /// Distance from the entrance pupil to the plane in focus, m, beyond the focal length, or "infinity".
         required focus_distance_m: FocusDistance = focus_distance();
-        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
         optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
-        /// Image size by wavelength. Default: all colours alike.
+        /// Lateral colour: image size by wavelength. Default: equal for all wavelengths.
         optional lateral_colour: LateralColour = record();
     }
 }

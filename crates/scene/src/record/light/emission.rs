@@ -1,4 +1,4 @@
-//! Light: its amount, its colour, and the emission of surfaces.
+//! Emission of surfaces and the sky: strength and colour.
 
 use std::path::PathBuf;
 
@@ -11,14 +11,14 @@ use crate::record::curve::{Curve, curve, spectrum_file};
 use etendue_spectra::illuminant;
 
 keyed! {
-    /// How much light a surface or the sky gives.
+    /// Strength of the emission of a surface or of the sky.
     pub enum Level {
-        /// Luminance, cd/m², 0 or more; the colour is told by one of "illuminant", "temperature_k", "rgb", "spectrum".
+        /// Luminance, cd/m², 0 or more; one of "illuminant", "temperature_k", "rgb", "spectrum" gives the colour.
         luminance_cd_m2 => Luminance(Placed<f64>) = number("cd/m²").at_least(0.0);
-        /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, 0 or more: a number (the same at all wavelengths) or `{ spectrum = file }`.
+        /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, 0 or more: a number (constant over wavelength) or `{ spectrum = file }`.
         radiance_w_m2_sr_nm => Radiance(Curve) = curve(number("W·m⁻²·sr⁻¹·nm⁻¹").at_least(0.0));
-        /// Luminous flux, lm, 0 or more, of each object by all its surfaces of this material together; for surfaces without
-        /// a texture on their light, not for an environment, which has no area. The colour is told as for a luminance.
+        /// Luminous flux, lm, 0 or more, of each object, from all its surfaces of this material together. Only for surfaces without a texture on
+        /// their light, not for an environment, which has no area. The colour is given as for a luminance.
         luminous_flux_lm => LuminousFlux(Placed<f64>) = number("lm").at_least(0.0);
         /// Radiant flux over all wavelengths (300 to 1 100 nm), W, 0 or more, of each object, like the luminous flux.
         radiant_flux_w => RadiantFlux(Placed<f64>) = number("W").at_least(0.0);
@@ -26,7 +26,7 @@ keyed! {
 }
 
 impl Level {
-    /// Where it is stated.
+    /// Place in the description.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {
@@ -42,9 +42,9 @@ keyed! {
     pub enum LightColour {
         /// A tabulated illuminant or lamp, or "solar", the direct sunlight of ASTM G-173.
         illuminant => Illuminant(Placed<String>) = illuminants();
-        /// The temperature of a black body, K, 500 to 20 000.
+        /// Black-body temperature, K, 500 to 20 000.
         temperature_k => Temperature(Placed<f64>) = number("K").at_least(500.0).at_most(20_000.0);
-        /// A chromaticity as linear sRGB, made a smooth spectrum; only the ratios count, not all may be 0.
+        /// Chromaticity as linear sRGB, converted to a smooth spectrum; only ratios count, not all may be 0.
         rgb => Rgb(Placed<[f64; 3]>) = vector::<3>(number("").at_least(0.0));
         /// A table of two columns, wavelength in nm and relative power.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
@@ -57,11 +57,11 @@ pub(crate) fn illuminants() -> Known {
 }
 
 record! {
-    /// Light that a surface or the sky gives, the same in all directions.
+    /// Emission of a surface or of the sky, equal in all directions.
     pub struct Emission check(check_emission) {
-        /// How much.
+        /// Strength.
         inside level: Level;
-        /// Of which colour.
+        /// Colour.
         group colour: LightColour;
     }
 }
@@ -85,7 +85,7 @@ impl NamesFiles for LightColour {
 }
 
 impl Level {
-    /// The key that needs a colour beside it, and where it stands.
+    /// Returns the key that needs a colour, and its place.
     fn of_a_colour(&self) -> Option<(&'static str, &Place)> {
         match self {
             Self::Luminance(v) => Some(("luminance_cd_m2", &v.place)),
@@ -95,7 +95,7 @@ impl Level {
         }
     }
 
-    /// The key that states a flux, of which a surface of known area is needed, and where it stands.
+    /// Returns the key that states a flux, which needs a surface of known area, and its place.
     #[must_use]
     pub fn flux(&self) -> Option<(&'static str, &Place)> {
         match self {
@@ -124,7 +124,7 @@ fn check_emission(emission: &Emission, faults: &mut Faults) {
     emission.colour.iter().for_each(|c| check_colour(c, faults));
 }
 
-/// A black light has no chromaticity.
+/// Refuses a black colour, which has no chromaticity.
 pub(super) fn check_colour(colour: &LightColour, faults: &mut Faults) {
     if let LightColour::Rgb(rgb) = colour
         && rgb.value == [0.0; 3]
@@ -139,7 +139,7 @@ pub(super) fn check_colour(colour: &LightColour, faults: &mut Faults) {
 }
 
 impl LightColour {
-    /// Where it stands.
+    /// Place in the description.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {

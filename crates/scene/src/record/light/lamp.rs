@@ -1,4 +1,4 @@
-//! Lamps: points, or openings that shine as points would from afar.
+//! Lamps: point lights, or openings with the far-field distribution of a point light.
 
 use std::path::PathBuf;
 
@@ -12,103 +12,101 @@ use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
 
 record! {
-    /// Shines alike in all directions.
+    /// A lamp with equal intensity in all directions.
     pub struct PointLamp check(check_point) {
-        /// Its name.
+        /// Name of the light.
         required name: Placed<String> = text("the name of the light");
-        /// Where it stands. It points somewhere only with "mask", or with an "opening" that is no sphere.
+        /// Position. Its direction matters only with "mask", or with an "opening" that is no sphere.
         inside placement: LampPlacement;
-        /// How much light, before the mask.
+        /// Strength, before the mask.
         inside strength: LampStrength;
-        /// Of which colour.
+        /// Colour.
         inside colour: LightColour;
-        /// A picture that shapes its light, along its +x axis. Default: none.
+        /// An image that shapes the light, projected along the lamp's +x axis. Default: none.
         optional mask: Mask = record();
-        /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
+        /// Luminous surface of the lamp. Default: none, a point, which casts sharp shadows and is not visible itself.
         optional opening: LampOpening = record();
-        /// How its strength changes over time. Default: not at all.
+        /// Variation of its strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
 
 record! {
-    /// Shines in a cone about its +x axis.
+    /// A lamp with a cone of light about its +x axis.
     pub struct SpotLamp check(check_spot) {
-        /// Its name.
+        /// Name of the light.
         required name: Placed<String> = text("the name of the light");
-        /// Where it stands.
+        /// Position and direction.
         inside placement: LampPlacement;
-        /// How much light.
+        /// Strength.
         inside strength: LampStrength;
-        /// Of which colour.
+        /// Colour.
         inside colour: LightColour;
-        /// Full angle of the cone outside of which there is no light, degrees, above 0 and at most 360.
+        /// Full angle of the cone outside which there is no light, degrees, above 0 and at most 360.
         required field_angle_deg: Placed<f64> = number("°").above(0.0).at_most(360.0);
-        /// Full angle of the cone within which the intensity is constant, degrees, 0 up to the field angle; between the two
-        /// it falls smoothly. Default: the field angle, a sharp edge.
+        /// Full angle of the cone of constant intensity, degrees, 0 up to the field angle; the intensity falls smoothly between the two. Default: the
+        /// field angle, a sharp edge.
         optional inner_angle_deg: Placed<f64> = number("°").at_least(0.0).at_most(360.0);
-        /// A picture that shapes its light, along its +x axis. Default: none.
+        /// An image that shapes the light, projected along the lamp's +x axis. Default: none.
         optional mask: Mask = record();
-        /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
+        /// Luminous surface of the lamp. Default: none, a point, which casts sharp shadows and is not visible itself.
         optional opening: LampOpening = record();
-        /// How its strength changes over time. Default: not at all.
+        /// Variation of its strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
 
 record! {
-    /// Shines as it was measured. A lamp of type C (road lamps) hangs with γ = 0 along −z, C0 towards +x and C90 towards +y;
-    /// one of type A or B (head lamps) shines along +x, with positive horizontal angles to its right (−y).
+    /// A lamp with measured intensities. Photometry of type C (road lamps): γ = 0 along −z, C0 towards +x, C90 towards +y. Types A and B (headlamps):
+    /// along +x, positive horizontal angles to its right (−y).
     pub struct MeasuredLamp check(check_measured) {
-        /// Its name.
+        /// Name of the light.
         required name: Placed<String> = text("the name of the light");
-        /// The file of the intensities.
+        /// File of the measured intensities.
         required file: Placed<PathBuf> = path(&["ies", "ldt"]);
-        /// Where it stands.
+        /// Position and direction.
         inside placement: LampPlacement;
-        /// Whether it is stronger or weaker than measured. Default: as measured.
+        /// Scale of the measured strength. Default: as measured.
         group strength: MeasuredStrength;
-        /// Of which colour; the file does not say it.
+        /// Colour; the file does not contain it.
         inside colour: LightColour;
-        /// A picture that shapes its light, along its +x axis. Not for photometry of type C, which shines down. Default:
-        /// none.
+        /// An image that shapes the light, projected along the lamp's +x axis. Not for photometry of type C, which shines down. Default: none.
         optional mask: Mask = record();
-        /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
+        /// Luminous surface of the lamp. Default: none, a point, which casts sharp shadows and is not visible itself.
         optional opening: LampOpening = record();
-        /// How its strength changes over time. Default: not at all.
+        /// Variation of its strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
 
 record! {
-    /// One beam of a head lamp.
+    /// One beam of a headlamp.
     pub struct HeadLamp check(check_head_lamp) {
-        /// Its name.
+        /// Name of the light.
         required name: Placed<String> = text("the name of the light");
-        /// Which beam.
+        /// Beam.
         required beam: Placed<Beam> = choice();
-        /// With beam = "low_beam": the side of the road on which traffic keeps; the cut-off rises towards it.
+        /// With beam = "low_beam": side of the road on which traffic drives; the cut-off rises towards it.
         optional traffic: Placed<Traffic> = choice();
-        /// How far the lamp is turned down from its frame, degrees, −10 … 10, besides the dip that the beam has of its own.
-        /// Default: 0.
+        /// Downward tilt of the lamp in its frame, degrees, −10 … 10, in addition to the dip of the beam itself. Default: 0.
         optional aim_down_deg: Placed<f64> = number("°").at_least(-10.0).at_most(10.0);
-        /// Where it stands.
+        /// Position and direction.
         inside placement: LampPlacement;
-        /// Whether it is stronger or weaker than the ready beam. Default: as it is.
+        /// Scale of the built-in beam's strength. Default: unscaled.
         group strength: MeasuredStrength;
-        /// Of which colour.
+        /// Colour.
         inside colour: LightColour;
-        /// A picture that shapes its light, along its +x axis. Default: none.
+        /// An image that shapes the light, projected along the lamp's +x axis. Default: none.
         optional mask: Mask = record();
-        /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
+        /// Luminous surface of the lamp. Default: none, a point, which casts sharp shadows and is not visible itself.
         optional opening: LampOpening = record();
-        /// How its strength changes over time. Default: not at all.
+        /// Variation of its strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
 
 words! {
-    /// A beam of a head lamp.
+    /// A beam of a headlamp.
     pub enum Beam {
         /// The passing beam, with an asymmetric cut-off.
         "low_beam" => Low,
@@ -118,7 +116,7 @@ words! {
 }
 
 words! {
-    /// The side of the road on which traffic keeps.
+    /// Side of the road on which traffic drives.
     pub enum Traffic {
         /// As in France or the United States.
         "right" => Right,
@@ -128,19 +126,17 @@ words! {
 }
 
 record! {
-    /// A picture before a lamp, that shapes its light in space. Its middle lies along the lamp's +x axis, its left column to
-    /// the lamp's left (+y), its top row up.
+    /// An image in front of a lamp that shapes its light. Its middle is projected along the lamp's +x axis, its left column to the lamp's left (+y),
+    /// its top row up.
     pub struct Mask {
-        /// The picture, whose luminance is the share of the light that is let through; 0 … 1, or more in an HDR picture. PNG
-        /// and JPEG are taken as sRGB-encoded.
+        /// The image, whose luminance is the transmittance; 0 … 1, or more in an HDR image. PNG and JPEG are read as sRGB-encoded.
         required file: Placed<PathBuf> = path(&["png", "jpg", "jpeg", "hdr", "exr"]);
-        /// Full angles that the picture's width and height cover, degrees, above 0 and at most 179 (a plane picture,
-        /// projected). Beyond it is dark.
+        /// Full angles covered by the image's width and height, degrees, above 0 and at most 179 (a plane image, projected). No light falls outside.
         required field_deg: Placed<[f64; 2]> = vector::<2>(number("°").above(0.0).at_most(179.0));
     }
 }
 
-/// A lamp that shines alike in all directions points nowhere.
+/// Checks a lamp of equal intensity in all directions, which has no direction.
 fn check_point(lamp: &PointLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
     opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);

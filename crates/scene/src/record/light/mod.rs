@@ -1,4 +1,4 @@
-//! Light: emission of surfaces, and `[[lights]]`, which are no surfaces.
+//! Lights: emission of surfaces, and `[[lights]]`, which are no surfaces.
 
 pub mod emission;
 pub mod lamp;
@@ -25,19 +25,19 @@ variants! {
     pub enum Light by "type" {
         /// The sun's disc, at infinity.
         "sun" => Sun(Sun),
-        /// A lamp that shines alike in all directions.
+        /// A lamp with equal intensity in all directions.
         "point" => Point(PointLamp),
-        /// A lamp that shines in a cone about its +x axis.
+        /// A lamp with a cone of light about its +x axis.
         "spot" => Spot(SpotLamp),
-        /// A lamp whose intensities were measured: an IES LM-63 or EULUMDAT file.
+        /// A lamp with measured intensities: an IES LM-63 or EULUMDAT file.
         "measured" => Measured(MeasuredLamp),
-        /// A head lamp's low or high beam, made after the test points of UN R149; the lamp's +x axis points forward.
+        /// Low or high beam of a headlamp, modelled on the test points of UN R149; the lamp's +x axis points forward.
         "head_lamp" => HeadLamp(HeadLamp),
     }
 }
 
 impl Light {
-    /// The name.
+    /// Name of the light.
     #[must_use]
     pub fn name(&self) -> &Placed<String> {
         match self {
@@ -49,7 +49,7 @@ impl Light {
         }
     }
 
-    /// Where a lamp stands; `None` for a sun.
+    /// Position of a lamp; `None` for a sun.
     #[must_use]
     pub fn placement(&self) -> Option<&LampPlacement> {
         match self {
@@ -61,7 +61,7 @@ impl Light {
         }
     }
 
-    /// How its strength changes over time.
+    /// Variation of its strength over time.
     #[must_use]
     pub fn modulation(&self) -> Option<&Modulation> {
         match self {
@@ -73,7 +73,7 @@ impl Light {
         }
     }
 
-    /// The colour, where the light says it by itself.
+    /// Colour, if the light states it.
     #[must_use]
     pub fn colour(&self) -> Option<&LightColour> {
         match self {

@@ -1,4 +1,4 @@
-//! How the strength of a light changes over time.
+//! Modulation: variation of a light's strength over time.
 
 use std::path::PathBuf;
 
@@ -13,18 +13,18 @@ use crate::place::{Place, Placed};
 use crate::reader::{Number, choice, flag, keyed, list, number, path, record, time, variants, vector, whole, words};
 
 variants! {
-    /// How the strength of a light changes over time. With "pwm" and "mains" the stated strength is the mean over time, what a
-    /// photometer reads; with the others it is that of the level 1.
+    /// Modulation: variation of a light's strength over time. With "pwm" and "mains" the stated strength is the mean over time, as a photometer reads
+    /// it; with the others it is that of level 1.
     pub enum Modulation by "type" {
-        /// Pulses of pulse-width modulation: the strength is their mean, so that a pulse is stronger by 1 / "duty_cycle".
+        /// Pulse-width modulation. The strength is the mean of the pulses, so that a pulse is stronger by 1 / "duty_cycle".
         "pwm" => Pwm(PwmModulation),
-        /// A lamp on alternating current: 1 + m cos(2π · 2f t), brightest at the time 0, about the stated strength.
+        /// A lamp on alternating current: 1 + m cos(2π · 2f t) about the stated strength, brightest at time 0.
         "mains" => Mains(MainsModulation),
-        /// On at the stated strength and off, such as the indicator of a car.
+        /// On at the stated strength and off, such as a car's indicator.
         "blink" => Blink(BlinkModulation),
-        /// Levels at stated times, from a file or written out.
+        /// Levels at stated times, from a file or inline.
         "table" => Table(TableModulation),
-        /// Steps with durations, one after the other from the time 0 on, such as those of a traffic light.
+        /// Steps with durations, in sequence from time 0, such as those of a traffic light.
         "programme" => Programme(ProgrammeModulation),
     }
 }
@@ -32,18 +32,18 @@ variants! {
 record! {
     /// Pulse-width modulation.
     pub struct PwmModulation check(check_pwm) {
-        /// How often pulses come, Hz, above 0.
+        /// Pulse frequency, Hz, above 0.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e9);
-        /// Share of the period that a pulse lasts, between its half heights, 0.000001 … 0.999999.
+        /// Duty cycle: fraction of the period that a pulse lasts, between its half heights, 0.000001 … 0.999999.
         required duty_cycle: Placed<f64> = number("").at_least(1e-6).at_most(0.999_999);
-        /// How long a pulse takes to rise, s, 0 or more: a straight line, half of which lies within the pulse. Default: 0.
+        /// Rise time of a pulse, s, 0 or more: linear, half of it within the pulse. Default: 0.
         optional rise_s: Placed<f64> = number("s").at_least(0.0);
-        /// How long it takes to fall, s, 0 or more. Default: 0.
+        /// Fall time, s, 0 or more. Default: 0.
         optional fall_s: Placed<f64> = number("s").at_least(0.0);
-        /// Of a surface: rows of a panel whose pulses come one row after the other, from the top of the texture coordinates (v = 1) down,
-        /// each an even part of the period after the one above, 2 … 4096. Default: the whole surface at once.
+        /// For a surface: number of panel rows with pulses in sequence, from the top of the texture coordinates (v = 1) down, each delayed by an
+        /// equal part of the period, 2 … 4096. Default: the whole surface at once.
         optional multiplexed_rows: Placed<u64> = whole(2, 4096);
-        /// How much later all of it is.
+        /// Delay and phases.
         inside timing: Recurring;
     }
 }
@@ -51,12 +51,12 @@ record! {
 record! {
     /// A lamp on alternating current.
     pub struct MainsModulation {
-        /// Frequency of the mains, Hz, above 0; the light has twice that.
+        /// Mains frequency, Hz, above 0; the light has twice that frequency.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e6);
-        /// Modulation depth m, (greatest − least) / (greatest + least), above 0 and at most 1: some 0.1 for filament lamps, 0.3 to 1 for
-        /// discharge lamps and plain LED lamps.
+        /// Modulation depth m, (greatest − least) / (greatest + least), above 0 and at most 1: about 0.1 for filament lamps, 0.3 to 1 for discharge
+        /// lamps and simple LED lamps.
         required modulation_depth: Placed<f64> = number("").above(0.0).at_most(1.0);
-        /// How much later all of it is.
+        /// Delay and phases.
         inside timing: Recurring;
     }
 }
@@ -64,15 +64,15 @@ record! {
 record! {
     /// On and off.
     pub struct BlinkModulation check(check_blink) {
-        /// How often it comes on, Hz, above 0.
+        /// Blink frequency, Hz, above 0.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e9);
-        /// Share of the period that it is on, between half heights, 0.000001 … 0.999999. Default: 0.5.
+        /// Fraction of the period that the light is on, between half heights, 0.000001 … 0.999999. Default: 0.5.
         optional on_fraction: Placed<f64> = number("").at_least(1e-6).at_most(0.999_999);
-        /// How long it takes to come on, s, 0 or more: a straight line, half of which lies within the time that it is on. Default: 0.
+        /// Rise time, s, 0 or more: linear, half of it within the on-time. Default: 0.
         optional rise_s: Placed<f64> = number("s").at_least(0.0);
-        /// How long it takes to go off, s, 0 or more. Default: 0.
+        /// Fall time, s, 0 or more. Default: 0.
         optional fall_s: Placed<f64> = number("s").at_least(0.0);
-        /// How much later all of it is.
+        /// Delay and phases.
         inside timing: Recurring;
     }
 }
@@ -82,18 +82,18 @@ record! {
     pub struct TableModulation check(check_table) {
         /// The levels.
         inside rows: TableRows;
-        /// What holds between the rows. Default: "linear".
+        /// Interpolation between the rows. Default: "linear".
         optional interpolation: Placed<Interpolation> = choice();
-        /// After what time it begins anew, s, above 0: at least from the first row to the last, more with steps. Default: it is gone
-        /// through once; before the first row that row's level holds, after the last the last one's.
+        /// Period of repetition, s, above 0: at least the time from the first row to the last, more with steps. Default: no repetition; the first
+        /// level holds before the first row, the last after the last row.
         optional period_s: Placed<f64> = number("s").above(0.0);
-        /// How much later all of it is.
+        /// Delay and phases.
         inside timing: Recurring;
     }
 }
 
 keyed! {
-    /// Where the levels stand.
+    /// Source of the levels.
     pub enum TableRows {
         /// Rows [time in s, level], the times rising, levels 0 … 1 000 000.
         points => Points(Vec<Placed<[f64; 2]>>) = list(vector::<2>(number("")), 2);
@@ -103,11 +103,11 @@ keyed! {
 }
 
 words! {
-    /// What holds between the rows of a table.
+    /// Interpolation between the rows of a table.
     pub enum Interpolation {
-        /// Straight lines.
+        /// Linear.
         "linear" => Linear,
-        /// The level of the row before.
+        /// The level of the preceding row.
         "steps" => Steps,
     }
 }
@@ -117,10 +117,9 @@ record! {
     pub struct ProgrammeModulation check(check_programme) {
         /// The steps.
         many steps: Step = list(record(), 1);
-        /// Whether it begins anew after the last step; else the last level holds from then on, and the first before the beginning.
-        /// Default: true.
+        /// Repeats after the last step. Otherwise the last level holds afterwards, and the first before the start. Default: true.
         optional repeats: Placed<bool> = flag();
-        /// How much later all of it is.
+        /// Delay and phases.
         inside timing: Recurring;
     }
 }
@@ -130,27 +129,27 @@ record! {
     pub struct Step {
         /// Factor on the stated strength, 0 … 1 000 000.
         required level: Placed<f64> = level();
-        /// How long it holds, s, above 0.
+        /// Duration, s, above 0.
         required duration_s: Placed<f64> = number("s").above(0.0);
     }
 }
 
 record! {
-    /// How much later all of it is.
+    /// Delay and phases of a modulation.
     pub struct Recurring {
-        /// By how much all of it is later, s. Default: 0.
+        /// Delay of the modulation, s. Default: 0.
         optional delay_s: Placed<ExactTime> = time();
-        /// Whether all places of the light (its instances, the objects of the material) go up and down together. Default: "common".
+        /// Phases of the light's instances (or of the objects of its material): "common" to all, or "random". Default: "common".
         optional phases: Placed<Phases> = choice();
     }
 }
 
 words! {
-    /// Whether all places of a light go up and down together.
+    /// Phases of a light's instances.
     pub enum Phases {
-        /// Together.
+        /// Equal.
         "common" => Common,
-        /// Each place is later by a random part of the period, which its name and number tell; no seed does.
+        /// Each instance is delayed by a random part of the period, derived from its name and number, independent of any seed.
         "random" => Random,
     }
 }
@@ -160,7 +159,7 @@ const fn level() -> Number {
 }
 
 impl Modulation {
-    /// Where it stands.
+    /// Place in the description.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {
@@ -172,7 +171,7 @@ impl Modulation {
         }
     }
 
-    /// How much later all of it is.
+    /// Delay and phases.
     #[must_use]
     pub fn timing(&self) -> &Recurring {
         match self {
@@ -184,7 +183,7 @@ impl Modulation {
         }
     }
 
-    /// The rows of a panel that are lit one after the other.
+    /// Rows of a panel that are lit in sequence.
     #[must_use]
     pub fn multiplexed_rows(&self) -> Option<&Placed<u64>> {
         match self {
@@ -193,7 +192,7 @@ impl Modulation {
         }
     }
 
-    /// The file of its levels.
+    /// File of the levels.
     #[must_use]
     pub fn file(&self) -> Option<&Placed<PathBuf>> {
         match self {
@@ -205,7 +204,7 @@ impl Modulation {
     /// The waveform, without any delay; `rows` are those of its file, where it has one.
     ///
     /// # Errors
-    /// Where a number is out of its range.
+    /// A number is out of its range.
     pub fn waveform(&self, rows: &[(f64, f64)]) -> Result<Waveform, WaveformError> {
         match self {
             Self::Pwm(record) => record.waveform(),
@@ -302,7 +301,7 @@ fn accept(made: Result<Waveform, WaveformError>, place: &Place, faults: &mut Fau
     }
 }
 
-/// Only what recurs has phases.
+/// Refuses phases of a modulation that does not recur.
 fn check_phases(timing: &Recurring, recurs: bool, otherwise: &str, faults: &mut Faults) {
     if let (Some(phases), false) = (&timing.phases, recurs) {
         let problem = "\"phases\" has no effect on what is gone through once";
@@ -310,7 +309,7 @@ fn check_phases(timing: &Recurring, recurs: bool, otherwise: &str, faults: &mut 
     }
 }
 
-/// What contradicts a lamp's modulation.
+/// Reports contradictions of a lamp's modulation.
 pub(super) fn check(modulation: Option<&Modulation>, placement: &LampPlacement, faults: &mut Faults) {
     if let Some(rows) = modulation.and_then(Modulation::multiplexed_rows) {
         faults.add(

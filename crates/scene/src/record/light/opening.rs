@@ -1,4 +1,4 @@
-//! The luminous opening of a lamp: the surface that its light leaves from.
+//! The luminous opening of a lamp: the surface that emits its light.
 
 use super::placement::LampPlacement;
 use crate::fault::{ErrorCode, Faults};
@@ -6,19 +6,19 @@ use crate::place::{Place, Placed};
 use crate::reader::{Number, number, record, variants};
 
 variants! {
-    /// A surface about the lamp's place that its light leaves from, seen and mirrored as it is; it turns with the lamp. Flat ones
-    /// lie across the lamp's main direction (+x, but the downward axis of a lamp that was measured in C planes) and shine to
-    /// either side as the lamp has light there.
+    /// Surface about the lamp's position that emits its light. It is visible directly and in mirrors, and turns with the lamp. Flat openings are
+    /// perpendicular to the lamp's main direction (+x, or the downward axis for photometry in C planes) and emit to either side as the lamp's
+    /// distribution does.
     pub enum LampOpening by "shape" {
         /// A sphere.
         "sphere" => Sphere(SphereOpening),
-        /// A disc: a regular polygon of 48 sides and the same area.
+        /// A disc: a regular polygon of 48 sides with the area of the disc.
         "disc" => Disc(DiscOpening),
         /// A rectangle.
         "rectangle" => Rectangle(RectangleOpening),
-        /// A cylinder that shines by its side and its ends, along the lamp's y axis (to the left): a prism of 48 sides.
+        /// A cylinder that emits from its side and ends, along the lamp's y axis (to the left): a prism of 48 sides.
         "tube" => Tube(TubeOpening),
-        /// With type = "measured": what the file of the intensities states.
+        /// With type = "measured": the opening stated in the file of the intensities.
         "file" => File(FileOpening),
     }
 }
@@ -44,7 +44,7 @@ record! {
     pub struct RectangleOpening {
         /// Extent along the lamp's y axis, m, 0.0001 … 100.
         required width_m: Placed<f64> = side();
-        /// Extent along the lamp's z axis, m, 0.0001 … 100; along x of a lamp that was measured in C planes.
+        /// Extent along the lamp's z axis, m, 0.0001 … 100; along x for photometry in C planes.
         required height_m: Placed<f64> = side();
     }
 }
@@ -60,7 +60,7 @@ record! {
 }
 
 record! {
-    /// What the file states.
+    /// The opening stated in the file.
     pub struct FileOpening {}
 }
 
@@ -73,7 +73,7 @@ const fn side() -> Number {
 }
 
 impl LampOpening {
-    /// Where it stands.
+    /// Place in the description.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {
@@ -85,13 +85,13 @@ impl LampOpening {
         }
     }
 
-    /// Whether turning it shows; a file may say anything.
+    /// True if its orientation matters; always true for a file, whose shape is unknown here.
     pub(super) fn turns(&self) -> bool {
         !matches!(self, Self::Sphere(_))
     }
 }
 
-/// What contradicts an opening.
+/// Reports contradictions of an opening.
 pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is_measured: bool, faults: &mut Faults) {
     let Some(opening) = opening else { return };
     if let (LampOpening::File(file), false) = (opening, is_measured) {

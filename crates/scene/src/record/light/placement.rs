@@ -1,4 +1,4 @@
-//! Where a lamp stands and where it points.
+//! Position and direction of a lamp.
 
 use etendue_core::ExactTime;
 
@@ -11,77 +11,76 @@ use crate::record::motion::{Course, check_course, check_ways, trajectory_way};
 use crate::record::transform::yaw_pitch_roll;
 
 record! {
-    /// Where a lamp stands, once or many times.
+    /// Position and direction of a lamp, with one or more instances.
     pub struct LampPlacement check(check) {
-        /// Where it stands in the world, m, where it stands once.
+        /// Position in the world, m, of a lamp with one instance.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Where it points, where it stands once. Default: not turned.
+        /// Direction, of a lamp with one instance. Default: no rotation.
         group aim: LampAim;
-        /// Where it stands, where the same lamp stands many times.
+        /// Instances of the lamp.
         many instances: LampInstance = list(record(), 1);
-        /// Where it stands over time; one key stands still.
+        /// Positions over time; one key is stationary.
         many keys: LampKey = list(record(), 1);
-        /// How it moves.
+        /// Motion.
         group course: Course;
-        /// The frame that it is placed in, and moves with; positions and targets are in it. Default: the world.
+        /// Frame in which it is placed, and with which it moves; positions and targets are relative to it. Default: the world.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// The paper's attenuation coefficient a, 1/m, 0 or more: a factor 1 / (1 + a·distance) besides the law of 1/d²,
-        /// which always holds. Default: 0, as in clear air.
+        /// Attenuation coefficient a of Gruyer, Grapinet, De Souza (2012), 1/m, 0 or more: a factor 1 / (1 + a·distance) in addition to the law of
+        /// 1/d². Default: 0, as in clear air.
         optional attenuation_per_m: Placed<f64> = number("1/m").at_least(0.0);
     }
 }
 
 record! {
-    /// One of the places where a lamp stands.
+    /// An instance of a lamp.
     pub struct LampInstance check(check_instance) {
-        /// Its name. Default: the lamp's name and its number.
+        /// Name of the instance. Default: the lamp's name and a number.
         optional name: Placed<String> = text("the name of the instance");
-        /// The frame that it is placed in, and moves with. Default: the lamp's.
+        /// Frame in which it is placed, and with which it moves. Default: the lamp's.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// Where it stands in the world, m.
+        /// Position in the world, m.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Where it points. Default: not turned.
+        /// Direction. Default: no rotation.
         group aim: LampAim;
-        /// By how much the lamp's "modulation" is later here, s, besides its own delay. Default: 0.
+        /// Delay of the lamp's "modulation" at this instance, s, added to its own delay. Default: 0.
         optional modulation_delay_s: Placed<f64> = number("s");
     }
 }
 
 record! {
-    /// Where a lamp stands at a time.
+    /// Position of a lamp at a time.
     pub struct LampKey check(check_key) {
         /// Simulated time, s.
         required time_s: Placed<ExactTime> = time();
-        /// Where it stands in the world, m.
+        /// Position in the world, m.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Where it points. Default: not turned.
+        /// Direction. Default: no rotation.
         group aim: LampAim;
     }
 }
 
 keyed! {
-    /// Where a lamp points.
+    /// Direction of a lamp.
     pub enum LampAim {
         /// Yaw, pitch and roll, degrees, as for objects. At 0, 0, 0 the lamp's axes are the world's.
         rotation_deg => Rotation(Placed<[f64; 3]>) = vector::<3>(number("°"));
-        /// The point in the world, m, that the lamp's main direction meets: its +x axis, but the downward axis (γ = 0) of a
-        /// lamp that was measured in C planes. Its y axis stays level.
+        /// Point in the world, m, at which the lamp's main direction aims: its +x axis, or the downward axis (γ = 0) for photometry in C planes. Its
+        /// y axis stays level.
         target_m => Target(Placed<[f64; 3]>) = vector::<3>(number("m"));
     }
 }
 
-/// A lamp's main direction, which "target_m" turns.
+/// Main direction of a lamp, which "target_m" turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MainAxis {
-    /// +x: spots, head lamps, photometry of types A and B.
+    /// +x: spots, headlamps, photometry of types A and B.
     Forward,
     /// −z: photometry of type C.
     Downward,
 }
 
 impl LampAim {
-    /// The lamp's x, y and z axes in the world as columns, for a lamp at `position_m`; `None` for one that points at its
-    /// own position.
+    /// Returns the lamp's x, y and z axes in the world as columns, for a lamp at `position_m`; `None` if it aims at its own position.
     #[must_use]
     pub fn axes(&self, position_m: [f64; 3], main: MainAxis) -> Option<DMat3> {
         match self {
@@ -93,7 +92,7 @@ impl LampAim {
         }
     }
 
-    /// Where it stands in the file.
+    /// Place in the file.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {
@@ -102,7 +101,7 @@ impl LampAim {
     }
 }
 
-/// Axes whose main one is `direction` and whose y axis is level; towards the zenith or nadir the y axis is the world's.
+/// Returns axes with the main axis along `direction` and a level y axis; towards the zenith or nadir the y axis is the world's.
 fn towards(direction: DVec3, main: MainAxis) -> Option<DMat3> {
     let left = DVec3::Z.cross(direction).try_normalize().unwrap_or(DVec3::Y);
     Some(match main {
@@ -112,7 +111,7 @@ fn towards(direction: DVec3, main: MainAxis) -> Option<DMat3> {
 }
 
 impl LampPlacement {
-    /// Every aim that is stated.
+    /// All stated directions.
     pub(super) fn aims(&self) -> impl Iterator<Item = &LampAim> {
         let instances = self.instances.iter().filter_map(|instance| instance.aim.as_ref());
         self.aim.iter().chain(instances).chain(self.keys.iter().filter_map(|key| key.aim.as_ref()))
@@ -165,7 +164,7 @@ mod tests {
         for way in [DVec3::X, DVec3::NEG_Z, DVec3::Z, DVec3::new(1.0, -2.0, -0.5).normalize()] {
             let forward = towards(way, MainAxis::Forward).expect("axes");
             let downward = towards(way, MainAxis::Downward).expect("axes");
-            // Products of unit vectors, each rounded a few times.
+            // Products of unit vectors, with a few roundings each.
             assert!((forward * DVec3::X - way).length() < 1e-15 && (downward * DVec3::NEG_Z - way).length() < 1e-15);
             for axes in [forward, downward] {
                 assert!((axes.determinant() - 1.0).abs() < 1e-15 && (axes * DVec3::Y).z.abs() < 1e-15);

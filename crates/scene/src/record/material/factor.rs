@@ -1,4 +1,4 @@
-//! Numbers over a surface, and normal maps.
+//! Factors over a surface, and normal maps.
 
 use crate::fault::Named;
 use crate::place::Placed;
@@ -8,26 +8,26 @@ use crate::reader::{Rule, choice, either, name_of, number, record, variant, word
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a description has few of them, and places of values take most of it")]
 pub enum Factor {
-    /// The same everywhere.
+    /// Constant over the surface.
     Number(Placed<f64>),
     /// A channel of a texture.
     Texture(FactorTexture),
 }
 
 record! {
-    /// A number that a picture says.
+    /// A number from an image.
     pub struct FactorTexture {
         /// The name of a texture.
         required texture: Placed<String> = name_of(Named::Texture);
-        /// Which of its numbers. Default: "luminance", which of a grey picture is its grey.
+        /// Channel of the image. Default: "luminance", which of a grey image is its grey value.
         optional channel: Placed<Channel> = choice();
-        /// A factor on the numbers, above 0 and at most 1. Default: 1.
+        /// Factor on the values, above 0 and at most 1. Default: 1.
         optional scale: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
 
 words! {
-    /// One of a picture's numbers.
+    /// A channel of an image.
     pub enum Channel {
         /// Red.
         "r" => Red,
@@ -43,19 +43,19 @@ words! {
 }
 
 record! {
-    /// Normals that a picture says: (r, g, b) = 0 … 1 is the vector (2r − 1, 2g − 1, 2b − 1) along u, v and the normal.
+    /// Normals from an image: (r, g, b) = 0 … 1 is the vector (2r − 1, 2g − 1, 2b − 1) along u, v and the normal.
     pub struct NormalMap {
         /// The name of a texture with encoding = "data".
         required texture: Placed<String> = name_of(Named::Texture);
-        /// A factor on the slopes, 0 … 10. Default: 1.
+        /// Factor on the slopes, 0 … 10. Default: 1.
         optional strength: Placed<f64> = number("").at_least(0.0).at_most(10.0);
-        /// Whether green points up in the picture (OpenGL) or down (DirectX). Default: "up".
+        /// Direction of green in the image: up (OpenGL) or down (DirectX). Default: "up".
         optional y: Placed<Green> = choice();
     }
 }
 
 words! {
-    /// Which way green points.
+    /// Direction of green.
     pub enum Green {
         /// To greater v (OpenGL).
         "up" => Up,

@@ -1,4 +1,4 @@
-//! What lets light through: solids, panes, leaves.
+//! Transmitting surfaces: solids, panes, leaves.
 
 use super::factor::{Factor, any_factor};
 use crate::asset::file_list::{FileList, NamesFiles};
@@ -12,13 +12,13 @@ use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectanc
 record! {
     /// A solid of glass, water or plastic.
     pub struct Dielectric check(check_dielectric) {
-        /// Refractive index against air, 1 … 4; the same at all wavelengths.
+        /// Refractive index relative to air, 1 … 4; equal at all wavelengths.
         required index: Placed<f64> = any_index();
-        /// Roughness α of the surface's GGX distribution (not its square root), 0 … 1; below 0.0001 it is clear. Default: 0.
+        /// Roughness α of the surface's GGX distribution (not its square root), 0 … 1; clear below 0.0001. Default: 0.
         optional alpha: Factor = any_factor();
-        /// What it absorbs inside. Default: nothing.
+        /// Absorption in the volume. Default: none.
         group absorption: Absorption;
-        /// With "internal_transmittance": the way through the substance for which it is stated, mm, above 0.
+        /// With "internal_transmittance": path length in the substance to which it refers, mm, above 0.
         optional thickness_mm: Placed<f64> = number("mm").above(0.0);
     }
 }
@@ -33,11 +33,11 @@ impl NamesFiles for Dielectric {
 record! {
     /// A pane.
     pub struct ThinSheet check(check_sheet) {
-        /// Refractive index against air, 1 … 4; the same at all wavelengths. Default: 1.5.
+        /// Refractive index relative to air, 1 … 4; equal at all wavelengths. Default: 1.5.
         optional index: Placed<f64> = any_index();
-        /// What it absorbs inside. Default: nothing.
+        /// Absorption in the volume. Default: none.
         group absorption: Absorption;
-        /// With "absorption_per_m": how thick the pane is, mm, above 0.
+        /// With "absorption_per_m": thickness of the pane, mm, above 0.
         optional thickness_mm: Placed<f64> = number("mm").above(0.0);
     }
 }
@@ -50,13 +50,12 @@ impl NamesFiles for ThinSheet {
 }
 
 keyed! {
-    /// What a clear substance absorbs.
+    /// Absorption of a clear substance.
     pub enum Absorption {
-        /// Coefficient of absorption (natural logarithm), 1/m, 0 or more: a number, or `{ spectrum = file }`.
+        /// Absorption coefficient (natural logarithm), 1/m, 0 or more: a number, or `{ spectrum = file }`.
         absorption_per_m => Coefficient(Curve) = curve(number("1/m").at_least(0.0));
-        /// Share of light that comes through the substance itself, without what its surfaces reflect, above 0 and at most 1:
-        /// a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`. Of a solid it is stated for
-        /// "thickness_mm", of a thin sheet it is that of the sheet.
+        /// Transmittance of the substance itself, without reflection at its surfaces, above 0 and at most 1: a number, `[r, g, b]` (linear sRGB), `{
+        /// srgb = … }` or `{ spectrum = file }`. For a solid it refers to "thickness_mm", for a thin sheet to the sheet.
         internal_transmittance => Transmittance(Colour) = any_colour();
     }
 }
@@ -73,9 +72,9 @@ impl NamesFiles for Absorption {
 record! {
     /// A leaf.
     pub struct Leaf {
-        /// Share of light reflected, as for "diffuse". Together with "transmittance" at most 1 at every wavelength.
+        /// Reflectance, as for "diffuse". Together with "transmittance" at most 1 at every wavelength.
         required reflectance: Reflectance = any_reflectance();
-        /// Share of light let through, as for "diffuse".
+        /// Transmittance, as for "diffuse".
         required transmittance: Reflectance = any_reflectance();
     }
 }
@@ -88,7 +87,7 @@ impl NamesFiles for Leaf {
     }
 }
 
-/// From a substance that nobody sees to germanium; the tracer's `DIELECTRIC_INDICES`.
+/// Indices from a nearly invisible substance to germanium; the tracer's `DIELECTRIC_INDICES`.
 fn any_index() -> Number {
     number("").at_least(1.0).at_most(4.0)
 }

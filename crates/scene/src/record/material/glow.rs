@@ -1,4 +1,4 @@
-//! Light that a surface gives.
+//! Emission of a surface.
 
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::fault::{ErrorCode, Faults, Named};
@@ -7,17 +7,17 @@ use crate::reader::{choice, name_of, record, words};
 use crate::record::light::{Emission, Modulation};
 
 record! {
-    /// Light that a surface gives.
+    /// Emission of a surface.
     pub struct SurfaceEmission check(check_glow) {
-        /// How much, of which colour.
+        /// Strength and colour.
         inside light: Emission;
-        /// Which sides give it. The front is where the normal points: by the winding of triangles, outwards for a box or a
-        /// sphere, +z for a quad. Default: "front".
+        /// Sides that emit. The front is the side of the normal: by the winding of triangles, outwards for a box or a sphere, +z for a quad. Default:
+        /// "front".
         optional sides: Placed<Sides> = choice();
-        /// The name of a texture whose colours are factors on the light: the stated level holds where the picture is 1, 1, 1,
-        /// so that a picture in units (HDR, EXR) with level 1 gives its own numbers. Default: none.
+        /// Name of a texture whose colours are factors on the emission. The stated level holds where the texture is 1, 1, 1, so that an image in
+        /// physical units (HDR, EXR) with level 1 gives its own values. Default: none.
         optional texture: Placed<String> = name_of(Named::Texture);
-        /// How its strength changes over time. Default: not at all.
+        /// Variation of its strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
@@ -33,9 +33,9 @@ impl NamesFiles for SurfaceEmission {
 words! {
     /// Sides of a surface.
     pub enum Sides {
-        /// The side that the normal points to.
+        /// The side of the normal.
         "front" => Front,
-        /// Both, each with the stated radiance; a flux is that of both together.
+        /// Both, each with the stated radiance; a flux is the sum of both.
         "both" => Both,
     }
 }

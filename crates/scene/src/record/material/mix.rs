@@ -7,13 +7,13 @@ use crate::place::Placed;
 use crate::reader::{name_of, record};
 
 record! {
-    /// Two materials side by side. The parts give no light and have no opacity of their own; they may be mixes themselves.
+    /// Two materials side by side. Neither may have emission or opacity; each may be a mix itself.
     pub struct Mix {
-        /// The name of the one material.
+        /// Name of the first material.
         required a: Placed<String> = name_of(Named::Material);
-        /// The name of the other.
+        /// Name of the second material.
         required b: Placed<String> = name_of(Named::Material);
-        /// Share of the other, 0 … 1: a number, or `{ texture = name, channel = "r" }`.
+        /// Fraction of the second material, 0 … 1: a number, or `{ texture = name, channel = "r" }`.
         required weight: Factor = any_factor();
     }
 }

@@ -1,4 +1,4 @@
-//! `[[materials]]`: what surfaces do with light.
+//! `[[materials]]`: optical properties of surfaces.
 
 pub mod factor;
 pub mod glass;
@@ -28,18 +28,18 @@ use factor::any_factor;
 use serde_json::json;
 
 record! {
-    /// What a surface does with light.
+    /// Optical properties of a surface.
     pub struct Material check(check) {
-        /// The name by which objects call it.
+        /// Name by which objects refer to it.
         required name: Placed<String> = text("the name of the material");
-        /// How it reflects.
+        /// Scattering model.
         inside surface: SurfaceSource;
-        /// Light that the surface gives of its own, the same in all directions. Default: none.
+        /// Emission of the surface, equal in all directions. Default: none.
         optional emission: SurfaceEmission = record();
-        /// Share of the surface that is there, 0 … 1: through the rest light goes straight, as through a fence or between
-        /// leaves; a number, or `{ texture = name, channel = "a" }`. Default: 1.
+        /// Opacity: fraction of the surface that is present, 0 … 1. Light passes straight through the rest, as through a fence or between leaves; a
+        /// number, or `{ texture = name, channel = "a" }`. Default: 1.
         optional opacity: Factor = any_factor();
-        /// Finer normals than the mesh has. Default: none.
+        /// Normal map, finer than the mesh. Default: none.
         optional normal_map: NormalMap = record();
     }
 }
@@ -52,8 +52,7 @@ impl NamesFiles for Material {
     }
 }
 
-/// How a surface reflects, told by its type or by a preset. Presets are spelt out before records are read: what arrives here
-/// says its type.
+/// Scattering model, given by its type or by a preset. Presets are expanded before records are read, so that a type is always given here.
 #[derive(Clone, Debug)]
 pub struct SurfaceSource(pub Surface);
 

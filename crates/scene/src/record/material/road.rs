@@ -1,4 +1,4 @@
-//! What shines back at head lamps: retro-reflective sheeting and road markings.
+//! Retro-reflecting surfaces: sheeting and road markings.
 
 use std::path::PathBuf;
 
@@ -12,18 +12,17 @@ use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectanc
 record! {
     /// Retro-reflective sheeting: signs, number plates.
     pub struct Sheeting check(check_sheeting) {
-        /// How it sends light back.
+        /// Retro-reflection.
         inside table: SheetingTable;
-        /// With "class": the colour of the sheeting. Default: "white".
+        /// With "class": colour of the sheeting. Default: "white".
         optional colour: Placed<SheetingColour> = choice();
-        /// With "r_a_table": the matt reflectance by day: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or
-        /// `{ spectrum = file }`.
+        /// With "r_a_table": diffuse reflectance by day: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`.
         optional reflectance: Colour = any_colour();
-        /// With "r_a_table": the colour of the light sent back, of which only the course over the wavelength counts; the
-        /// table is that of this colour. Default: white.
+        /// With "r_a_table": colour of the retro-reflected light; only its relative spectrum counts, and the table refers to this colour. Default:
+        /// white.
         optional retro_colour: Colour = any_colour();
-        /// A print of transparent ink over white sheeting, as for the reflectance of "diffuse": the share of light that it
-        /// leaves, by day and by night. A texture makes a sign of it. Default: none.
+        /// Transparent ink printed on white sheeting, as for the reflectance of "diffuse": its transmittance by day and by night. A texture makes it
+        /// a sign. Default: none.
         optional print: Reflectance = any_reflectance();
     }
 }
@@ -41,10 +40,10 @@ impl NamesFiles for Sheeting {
 keyed! {
     /// Coefficients of retro-reflection R_A.
     pub enum SheetingTable {
-        /// The least that a standard asks for; new sheeting has about one and a half times as much.
+        /// Minimum values of a standard; new sheeting has about one and a half times as much.
         class => Class(Placed<SheetingClass>) = choice();
-        /// A measured table: coefficients in cd·lx⁻¹·m⁻² by observation and entrance angle, CSV: a row of entrance angles
-        /// (degrees) after a first field, then rows of an observation angle (degrees) and its coefficients.
+        /// A measured table: coefficients in cd·lx⁻¹·m⁻² by observation and entrance angle, CSV: a row of entrance angles (degrees) after a first
+        /// field, then rows of an observation angle (degrees) and its coefficients.
         r_a_table => File(Placed<PathBuf>) = path(&["csv"]);
     }
 }
@@ -89,15 +88,15 @@ words! {
 record! {
     /// A road marking with glass beads.
     pub struct RoadMarking {
-        /// How much it sends back at night.
+        /// Retro-reflection at night.
         inside night: MarkingNight;
-        /// How bright it is by day.
+        /// Brightness by day.
         inside day: MarkingDay;
-        /// Its colour, of which only the course over the wavelength counts: a number, `[r, g, b]` (linear sRGB),
-        /// `{ srgb = … }` or `{ spectrum = file }`. Default: white.
+        /// Colour, of which only the relative spectrum counts: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`. Default:
+        /// white.
         optional colour: Colour = any_colour();
-        /// Angle from the way back to the lamp at which the light sent back has fallen to a quarter, degrees, 0.5 … 30.
-        /// Default: 3, an assumption.
+        /// Angle from the direction back to the light at which the retro-reflected light falls to a quarter, degrees, 0.5 … 30. Default: 3, an
+        /// assumption.
         optional spread_deg: Placed<f64> = number("°").at_least(0.5).at_most(30.0);
     }
 }
@@ -114,13 +113,13 @@ keyed! {
     pub enum MarkingNight {
         /// R_L, mcd·m⁻²·lx⁻¹, 0 or more.
         r_l_mcd_m2_lx => Coefficient(Placed<f64>) = number("mcd·m⁻²·lx⁻¹").at_least(0.0);
-        /// The least of a class of EN 1436.
+        /// Minimum of a class of EN 1436.
         class => Class(Placed<MarkingClass>) = choice();
     }
 }
 
 keyed! {
-    /// How bright a marking is by day.
+    /// Brightness of a marking by day.
     pub enum MarkingDay {
         /// Luminance coefficient under diffuse light Q_d, mcd·m⁻²·lx⁻¹, 0 … 318.
         q_d_mcd_m2_lx => Qd(Placed<f64>) = number("mcd·m⁻²·lx⁻¹").at_least(0.0).at_most(318.0);
@@ -130,7 +129,7 @@ keyed! {
 }
 
 words! {
-    /// A class of road markings by their least R_L.
+    /// A class of road markings, with its minimum R_L.
     pub enum MarkingClass {
         /// White, dry: 100.
         "r2" => R2,
@@ -186,7 +185,7 @@ fn check_sheeting(sheeting: &Sheeting, faults: &mut Faults) {
     }
 }
 
-/// A print lies on white sheeting.
+/// Refuses a print on sheeting that is not white.
 fn check_print(sheeting: &Sheeting, faults: &mut Faults) {
     let coloured = sheeting.colour.iter().filter(|c| c.value != SheetingColour::White).map(|c| &c.place);
     let tinted = sheeting.retro_colour.iter().map(Colour::place);

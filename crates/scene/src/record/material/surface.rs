@@ -1,4 +1,4 @@
-//! How surfaces reflect: the list of types, and the records of opaque surfaces (glass, signs and mixes have files of their own).
+//! Scattering models of surfaces: the list of types, and the records of opaque surfaces (glass, signs and mixes have files of their own).
 
 use std::path::PathBuf;
 
@@ -17,11 +17,11 @@ use crate::record::curve::{Curve, curve};
 use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
 use etendue_spectra::metal;
 
-/// The list of surfaces: each row is the word of a type and its record, which says by [`NamesFiles`] which files it names.
+/// The list of surfaces. Each row is the word of a type and its record, which states by [`NamesFiles`] the files that it names.
 macro_rules! surfaces {
     ($( $(#[doc = $doc:literal])* $word:literal => $record:ident, )*) => {
         variants! {
-            /// How a surface reflects.
+            /// Scattering model of a surface.
             pub enum Surface by "type" {
                 $( $(#[doc = $doc])* $word => $record($record), )*
             }
@@ -38,15 +38,15 @@ macro_rules! surfaces {
 }
 
 surfaces! {
-    /// Lambert's law.
+    /// Lambertian reflection.
     "diffuse" => Diffuse,
     /// A bare metal, smooth or rough.
     "conductor" => Conductor,
     /// A diffuse base under a clear dielectric coat.
     "coated" => Coated,
-    /// Ground under a film of water, which stands in its low parts: darker, and a mirror at grazing view.
+    /// Ground under a film of water, with puddles in its low parts: darker, and mirror-like at grazing angles.
     "wet_ground" => WetGround,
-    /// Cook and Torrance's model: bare microfacets of any refractive index, and nothing below them.
+    /// Cook and Torrance's model: microfacets of any refractive index, with nothing below them.
     "cook_torrance" => CookTorrance,
     /// Lafortune's model: a diffuse base with generalised cosine lobes.
     "lafortune" => Lafortune,
@@ -56,27 +56,26 @@ surfaces! {
     "car_paint" => CarPaint,
     /// Cloth with a sheen.
     "cloth" => Cloth,
-    /// Retro-reflective sheeting over a matt base: signs, number plates.
+    /// Retro-reflective sheeting over a diffuse base: signs, number plates.
     "retro_sheeting" => Sheeting,
     /// A road marking with glass beads.
     "road_marking" => RoadMarking,
     /// Clear or tinted glass or water as a solid with two sides: refracts, and absorbs inside. The mesh must be closed.
     "dielectric" => Dielectric,
-    /// A pane without thickness of its own: reflects and lets light straight through, all inner reflections included.
+    /// A pane without thickness of its own: reflects and transmits light straight through, with all internal reflections.
     "thin_sheet" => ThinSheet,
-    /// A leaf: reflects from the side that is lit and glows through on the other, both by Lambert's law.
+    /// A leaf: reflects diffusely on the lit side and transmits diffusely to the other, both Lambertian.
     "leaf" => Leaf,
-    /// Two other materials side by side, finer than anything seen.
+    /// Two other materials side by side, finer than visible.
     "mix" => Mix,
-    /// Reflects nothing, gives light: needs "emission".
+    /// Emits and does not reflect; needs "emission".
     "emitter" => Emitter,
 }
 
 record! {
-    /// Lambert's law.
+    /// Lambertian reflection.
     pub struct Diffuse {
-        /// Share of light reflected: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`,
-        /// `{ spectrum = file }` or `{ texture = name, scale = … }`; 0 … 1.
+        /// Reflectance: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`, `{ spectrum = file }` or `{ texture = name, scale = … }`; 0 … 1.
         required reflectance: Reflectance = any_reflectance();
     }
 }
@@ -89,17 +88,17 @@ impl NamesFiles for Diffuse {
 }
 
 record! {
-    /// A metal with a rough surface of microfacets.
+    /// A metal with a rough microfacet surface.
     pub struct Conductor {
-        /// Which metal.
+        /// Metal.
         inside metal: Metal;
-        /// Roughness α of the facets' distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or
-        /// `{ texture = name, channel = "r" }`.
+        /// Roughness α of the microfacet distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or `{ texture = name,
+        /// channel = "r" }`.
         required alpha: Factor = any_factor();
-        /// How the slopes of the facets are distributed. Default: "ggx".
+        /// Distribution of microfacet slopes. Default: "ggx".
         optional distribution: Placed<Distribution> = choice();
-        /// Whether light that meets several facets before it leaves is added (Kulla and Conty 2017); without it rough metals
-        /// are too dark, by up to six tenths. Default: false.
+        /// Adds light scattered several times between facets (Kulla and Conty 2017). Without it rough metals are too dark, by up to six tenths.
+        /// Default: false.
         optional multiple_scattering: Placed<bool> = flag();
     }
 }
@@ -116,7 +115,7 @@ keyed! {
     pub enum Metal {
         /// A tabulated metal: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
         metal => Named(Placed<String>) = known("a metal", metal::names());
-        /// A table of three columns: wavelength in nm, n, k (above 0 where it absorbs); end values hold beyond the table.
+        /// A table of three columns: wavelength in nm, n, k (above 0 where it absorbs); constant beyond the table.
         index_file => File(Placed<PathBuf>) = path(&["csv"]);
     }
 }
@@ -131,17 +130,16 @@ impl NamesFiles for Metal {
 }
 
 record! {
-    /// A rough interface of microfacets with the exact Fresnel reflectance; what enters is absorbed.
+    /// A rough microfacet interface with exact Fresnel reflectance; transmitted light is absorbed.
     pub struct CookTorrance {
-        /// What it is made of.
+        /// Substance.
         inside interface: Interface;
-        /// Roughness α of the facets' distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or
-        /// `{ texture = name, channel = "r" }`.
+        /// Roughness α of the microfacet distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or `{ texture = name,
+        /// channel = "r" }`.
         required alpha: Factor = any_factor();
-        /// How the slopes of the facets are distributed. Default: "ggx".
+        /// Distribution of microfacet slopes. Default: "ggx".
         optional distribution: Placed<Distribution> = choice();
-        /// Whether light that meets several facets before it leaves is added (Kulla and Conty 2017); without it rough
-        /// surfaces are too dark. Default: false.
+        /// Adds light scattered several times between facets (Kulla and Conty 2017). Without it rough surfaces are too dark. Default: false.
         optional multiple_scattering: Placed<bool> = flag();
     }
 }
@@ -154,13 +152,13 @@ impl NamesFiles for CookTorrance {
 }
 
 keyed! {
-    /// What an interface is made of, by its refractive index.
+    /// Substance of an interface, by its refractive index.
     pub enum Interface {
         /// A tabulated metal: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
         metal => Named(Placed<String>) = known("a metal", metal::names());
-        /// A table of three columns: wavelength in nm, n, k; end values hold beyond the table.
+        /// A table of three columns: wavelength in nm, n, k; constant beyond the table.
         index_file => File(Placed<PathBuf>) = path(&["csv"]);
-        /// A real refractive index against air, 1 … 4: a number, or `{ spectrum = file }`.
+        /// A real refractive index relative to air, 1 … 4: a number, or `{ spectrum = file }`.
         index => Index(Curve) = curve(number("").at_least(1.0).at_most(4.0));
     }
 }
@@ -176,9 +174,9 @@ impl NamesFiles for Interface {
 }
 
 words! {
-    /// How the slopes of microfacets are distributed.
+    /// Distribution of microfacet slopes.
     pub enum Distribution {
-        /// Trowbridge and Reitz 1975; Walter et al. 2007: long tails, as most real surfaces have.
+        /// Trowbridge and Reitz 1975; Walter et al. 2007: long tails, as for most real surfaces.
         "ggx" => Ggx,
         /// Beckmann and Spizzichino 1963: Gaussian slopes.
         "beckmann" => Beckmann,
@@ -186,9 +184,9 @@ words! {
 }
 
 record! {
-    /// A diffuse base under a dielectric coat with a GGX distribution of microfacets.
+    /// A diffuse base under a dielectric coat with a GGX microfacet distribution.
     pub struct Coated {
-        /// Share of light that the base reflects, as for "diffuse".
+        /// Reflectance of the base, as for "diffuse".
         required reflectance: Reflectance = any_reflectance();
         /// Refractive index of the coat, 1.1 … 4. Default: 1.5.
         optional index: Placed<f64> = number("").at_least(*COAT_INDICES.start()).at_most(*COAT_INDICES.end());
@@ -208,7 +206,7 @@ impl NamesFiles for Coated {
 record! {
     /// A diffuse base and up to four cosine lobes, f = k_d/π + Σ w [C_t (wᵢₓ wₒₓ + wᵢ_y wₒ_y) + C_n wᵢ_z wₒ_z]ⁿ.
     pub struct Lafortune {
-        /// Share of light that the base reflects, as for "diffuse".
+        /// Reflectance of the base, as for "diffuse".
         required reflectance: Reflectance = any_reflectance();
         /// The lobes, one to four.
         many lobes: Lobe = list(record(), 1);
@@ -224,13 +222,13 @@ impl NamesFiles for Lafortune {
 }
 
 record! {
-    /// A lobe of a generalised cosine.
+    /// A generalised cosine lobe.
     pub struct Lobe check(check_lobe) {
-        /// Where it points.
+        /// Direction.
         inside direction: LobeDirection;
-        /// Exponent n, 0 … 10 000: the greater, the narrower.
+        /// Exponent n, 0 … 10 000: a larger exponent gives a narrower lobe.
         required exponent: Placed<f64> = number("").at_least(0.0).at_most(1e4);
-        /// How strong it is.
+        /// Strength.
         inside strength: LobeStrength;
     }
 }
@@ -243,23 +241,22 @@ impl NamesFiles for Lobe {
 }
 
 keyed! {
-    /// Where a lobe points.
+    /// Direction of a lobe.
     pub enum LobeDirection {
         /// "mirror" (C_t = −1, C_n = 1) or "retro" (C_t = C_n = 1).
         kind => Kind(Placed<LobeKind>) = choice();
-        /// C_t and C_n: factors along the surface and along the normal. C_t < 0 on the mirror's side (off-specular where
-        /// C_n < −C_t), > 0 back towards the light; C_n at least 0, not both 0.
+        /// C_t and C_n: factors along the surface and along the normal. C_t < 0 points to the mirror's side (off-specular where C_n < −C_t), C_t > 0
+        /// back towards the light; C_n at least 0, not both 0.
         factors => Factors(Placed<[f64; 2]>) = vector::<2>(number(""));
     }
 }
 
 keyed! {
-    /// How strong a lobe is.
+    /// Strength of a lobe.
     pub enum LobeStrength {
-        /// Share of light that the lobe sends back at normal incidence: a number, `[r, g, b]` (linear sRGB),
-        /// `{ srgb = … }` or `{ spectrum = file }`; needs C_n above 0.
+        /// Albedo of the lobe at normal incidence: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`; needs C_n above 0.
         albedo => Albedo(Colour) = any_colour();
-        /// Its weight w, 1/sr, 0 or more: a number, or `{ spectrum = file }`.
+        /// Weight w, 1/sr, 0 or more: a number, or `{ spectrum = file }`.
         weight_per_sr => Weight(Curve) = curve(number("1/sr").at_least(0.0));
     }
 }
@@ -274,11 +271,11 @@ impl NamesFiles for LobeStrength {
 }
 
 words! {
-    /// Where a lobe points.
+    /// Direction of a lobe.
     pub enum LobeKind {
-        /// To the mirror direction.
+        /// The mirror direction.
         "mirror" => Mirror,
-        /// Back to where light comes from.
+        /// Back towards the light.
         "retro" => Retro,
     }
 }
@@ -286,12 +283,11 @@ words! {
 record! {
     /// A diffuse base and a glossy lobe about the half vector, with its exact normalisation.
     pub struct BlinnPhong {
-        /// Share of light that the base reflects, as for "diffuse".
+        /// Reflectance of the base, as for "diffuse".
         required reflectance: Reflectance = any_reflectance();
-        /// Share of light that the lobe sends back at normal incidence: a number, `[r, g, b]` (linear sRGB),
-        /// `{ srgb = … }` or `{ spectrum = file }`.
+        /// Albedo of the lobe at normal incidence: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`.
         required specular: Colour = any_colour();
-        /// Exponent n, 0 … 100 000: the greater, the narrower. It is no roughness.
+        /// Exponent n, 0 … 100 000: a larger exponent gives a narrower lobe. It is not a roughness.
         required exponent: Placed<f64> = number("").at_least(0.0).at_most(1e5);
     }
 }
@@ -317,16 +313,16 @@ fn check_lobe(lobe: &Lobe, faults: &mut Faults) {
 record! {
     /// Metal flakes in pigment under a clear coat. Solid paint without flakes is "coated".
     pub struct CarPaint {
-        /// Share of light that the pigment between the flakes reflects, as for "diffuse".
+        /// Reflectance of the pigment between the flakes, as for "diffuse".
         required reflectance: Reflectance = any_reflectance();
         /// The metal of the flakes.
         inside metal: Metal;
-        /// A tint on the light that the flakes reflect, as of stained lacquer: a number, `[r, g, b]` (linear sRGB),
-        /// `{ srgb = … }` or `{ spectrum = file }`. Default: 1.
+        /// Tint of the light reflected by the flakes, as from stained lacquer: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum =
+        /// file }`. Default: 1.
         optional flake_tint: Colour = any_colour();
-        /// Share of the area that flakes cover, 0 … 1.
+        /// Fraction of the area covered by flakes, 0 … 1.
         required flake_coverage: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// How unevenly the flakes lie: GGX α (not its square root), 0.05 … 1. Default: 0.25.
+        /// Roughness of the flakes' orientation: GGX α (not its square root), 0.05 … 1. Default: 0.25.
         optional flake_alpha: Placed<f64> = number("").at_least(0.05).at_most(1.0);
         /// Refractive index of the coat, 1.1 … 4. Default: 1.5.
         optional index: Placed<f64> = number("").at_least(*COAT_INDICES.start()).at_most(*COAT_INDICES.end());
@@ -346,14 +342,14 @@ impl NamesFiles for CarPaint {
 }
 
 record! {
-    /// Cloth: a matt base under a sheen of fibres that stand up.
+    /// Cloth: a diffuse base under a sheen of upright fibres.
     pub struct Cloth {
-        /// Share of light that the base reflects, as for "diffuse".
+        /// Reflectance of the base, as for "diffuse".
         required reflectance: Reflectance = any_reflectance();
         /// Colour of the sheen, 0 … 1: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`.
         /// Default: 0.1.
         optional sheen: Colour = any_colour();
-        /// Roughness α of the sheen, 0.1 … 1: the less, the narrower the rim of light. Default: 0.5.
+        /// Roughness α of the sheen, 0.1 … 1: a smaller α gives a narrower sheen at the silhouette. Default: 0.5.
         optional alpha: Placed<f64> = number("").at_least(0.1).at_most(1.0);
     }
 }

@@ -1,4 +1,4 @@
-//! From the sensor's channels to colours.
+//! Conversion of the sensor's channels to colours.
 
 use super::super::light::illuminants;
 use crate::place::Placed;
@@ -6,32 +6,32 @@ use crate::reader::{Rule, either, exactly, keyed, known, list, number, record, v
 use etendue_spectra::illuminant;
 
 words! {
-    /// How the colours that a pixel did not measure are found.
+    /// Demosaicing method.
     pub enum Demosaic {
         /// Weighted means of the neighbours of each colour.
         "bilinear" => Bilinear,
         /// Malvar, He & Cutler 2004: bilinear with a correction by the measured colour's own gradient.
         "malvar" => Malvar,
-        /// Hamilton & Adams 1997: along the smaller gradient.
+        /// Hamilton & Adams 1997: interpolation along the smaller gradient.
         "hamilton_adams" => HamiltonAdams,
     }
 }
 
-/// What makes grey grey.
+/// White balance.
 #[derive(Clone, Debug)]
 pub enum WhiteBalance {
     /// Factors on the channels.
     Factors(Vec<Placed<f64>>),
-    /// The illuminant that comes out neutral, or "grey_world".
+    /// The illuminant that is rendered neutral, or "grey_world".
     Named(Placed<String>),
 }
 
 impl WhiteBalance {
-    /// The name of the rule that makes each picture's mean grey.
+    /// Name of the rule that makes each image's mean grey.
     pub const GREY_WORLD: &str = "grey_world";
 }
 
-/// From the sensor's colours to linear sRGB.
+/// Matrix from the sensor's colours to linear sRGB.
 #[derive(Clone, Debug)]
 pub enum ColourMatrix {
     /// By rows.
@@ -41,9 +41,9 @@ pub enum ColourMatrix {
 }
 
 keyed! {
-    /// How a colour matrix is found.
+    /// A fitted colour matrix.
     pub enum ColourMatrixTable {
-        /// The name of the illuminant under which the colour chart is fitted.
+        /// Name of the illuminant under which the colour chart is fitted.
         fit => Fit(Placed<String>) = illuminants();
     }
 }

@@ -1,23 +1,23 @@
-//! What is put right before colours are made.
+//! Corrections before colours are computed.
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, list, number, path, record, variant, vector, words};
 use std::path::PathBuf;
 
-/// What counts as no light.
+/// Black level.
 #[derive(Clone, Debug)]
 pub enum BlackLevel {
-    /// This digital number.
+    /// A digital number.
     Dn(Placed<f64>),
     /// A rule.
     Rule(Placed<BlackLevelRule>),
 }
 
 words! {
-    /// How the black level is found.
+    /// Source of the black level.
     pub enum BlackLevelRule {
-        /// The sensor states it.
+        /// The black level of the sensor.
         "sensor" => Sensor,
         /// From the sensor's shielded rows, frame by frame.
         "optical_black" => OpticalBlack,
@@ -31,10 +31,9 @@ pub(super) fn black_level() -> impl Rule<Out = BlackLevel> {
 keyed! {
     /// Gains of a shading correction.
     pub enum ShadingTable {
-        /// Gains at equal steps of the distance from the centre to the farthest corner of the picture, two or more, each 1
-        /// or more.
+        /// Gains at equal steps of the distance from the centre to the farthest corner of the image, two or more, each 1 or more.
         radial_gains => Radial(Vec<Placed<f64>>) = list(number("").at_least(1.0), 2);
-        /// A table of gains, 1 or more, laid over the picture, two by two or more, its outer entries on the corners.
+        /// A table of gains over the image, each 1 or more, two by two or more, with the outer entries on the corners.
         grid => Grid(Placed<PathBuf>) = path(&["csv"]);
     }
 }
@@ -61,7 +60,7 @@ fn check_shading(shading: &Shading, faults: &mut Faults) {
 }
 
 impl Shading {
-    /// The table that it names.
+    /// The table's file.
     pub(super) fn file(&self) -> Option<&Placed<PathBuf>> {
         match &self.table {
             ShadingTable::Grid(file) => Some(file),

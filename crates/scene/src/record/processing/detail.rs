@@ -5,9 +5,9 @@ use crate::place::Placed;
 use crate::reader::{keyed, number, record, whole};
 
 keyed! {
-    /// How noise is reduced.
+    /// Noise reduction method.
     pub enum NoiseReductionKind {
-        /// Bilateral filter (Tomasi & Manduchi 1998): σ over the picture, px, above 0 and at most 10; with "range".
+        /// Bilateral filter (Tomasi & Manduchi 1998): spatial σ, px, above 0 and at most 10; with "range".
         bilateral_px => Bilateral(Placed<f64>) = number("px").above(0.0).at_most(10.0);
         /// Median of each channel over a square of 2 r + 1 pixels: r, px, 1 … 3.
         median_px => Median(Placed<u64>) = whole(1, 3);
@@ -17,9 +17,9 @@ keyed! {
 record! {
     /// Noise reduction.
     pub struct NoiseReduction check(check) {
-        /// Which.
+        /// Method.
         inside kind: NoiseReductionKind;
-        /// With "bilateral_px": σ over the colours, share of white, above 0 and at most 1; two or three times the noise.
+        /// With "bilateral_px": σ over the colours, as a fraction of white, above 0 and at most 1; two or three times the noise.
         optional range: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
@@ -51,9 +51,9 @@ record! {
     pub struct Sharpening {
         /// Factor on the detail, above 0 and at most 10.
         required amount: Placed<f64> = number("").above(0.0).at_most(10.0);
-        /// σ of the blur that detail is told from, px, above 0 and at most 50.
+        /// σ of the blur that separates detail, px, above 0 and at most 50.
         required radius_px: Placed<f64> = number("px").above(0.0).at_most(50.0);
-        /// Detail of at most this is left alone, share of white, 0 … 1. Default: 0.
+        /// Detail of at most this amplitude is not changed, fraction of white, 0 … 1. Default: 0.
         optional threshold: Placed<f64> = number("").at_least(0.0).at_most(1.0);
     }
 }

@@ -1,4 +1,4 @@
-//! `[[isp.image_filters]]`: the filters of the paper.
+//! `[[isp.image_filters]]`: the filters of Gruyer, Grapinet, De Souza (2012), "the paper".
 
 use super::tone::{ToneCurve, tone_curve};
 use crate::fault::{ErrorCode, Faults};
@@ -10,19 +10,19 @@ use crate::reader::{
 variants! {
     /// A filter of the paper.
     pub enum PaperFilter by "type" {
-        /// Gain control by the histogram, and blooming, on linear light (our reading).
+        /// Gain control by the histogram, and blooming, on linear light (our interpretation of the paper).
         "glow" => Glow(Glow),
-        /// From the scene's range to the sensor's, on linear light (our reading).
+        /// Tone mapping from the scene's range to the sensor's, on linear light (our interpretation of the paper).
         "tone_map" => ToneMap(ToneMap),
-        /// Drops of rain: inverted pictures in discs, which flow and fade, on linear light (our reading).
+        /// Raindrops: inverted images in discs, which flow and fade, on linear light (our interpretation of the paper).
         "drops" => Drops(PaperDrops),
         /// A 4 × 4 affine matrix on colours.
         "colour" => Colour(ColourChange),
-        /// Some pixels brighter, some darker.
+        /// Pulse noise: some pixels brighter, some darker.
         "pulse_noise" => PulseNoise(PulseNoise),
-        /// A normal number added to each pixel's brightness.
+        /// A normally distributed number added to each pixel's brightness.
         "gaussian_noise" => GaussianNoise(GaussianNoise),
-        /// A uniform number as a factor on each pixel's brightness.
+        /// A uniformly distributed factor on each pixel's brightness.
         "uniform_noise" => UniformNoise(UniformNoise),
     }
 }
@@ -30,15 +30,15 @@ variants! {
 record! {
     /// Gain control and blooming.
     pub struct Glow {
-        /// Percentile of the picture's luminances that the gain looks at, above 1 and at most 100: 50 is the median.
+        /// Percentile of the image's luminance that controls the gain, above 1 and at most 100: 50 is the median.
         required percentile: Placed<f64> = percentile();
-        /// The luminance that this percentile gets, share of white, above 0.
+        /// Luminance to which this percentile is mapped, fraction of white, above 0.
         required target: Placed<f64> = number("").above(0.0);
-        /// What exceeds this after the gain glows, share of white, 0 or more.
+        /// Luminance after the gain above which the excess glows, fraction of white, 0 or more.
         required threshold: Placed<f64> = number("").at_least(0.0);
         /// σ of the glow, px, above 0 and at most 500.
         required radius_px: Placed<f64> = number("px").above(0.0).at_most(500.0);
-        /// Share of the excess that is added, 0 or more.
+        /// Fraction of the excess that is added, 0 or more.
         required strength: Placed<f64> = number("").at_least(0.0);
     }
 }
@@ -46,31 +46,31 @@ record! {
 record! {
     /// Tone mapping.
     pub struct ToneMap {
-        /// Share of the unmapped picture, 0 … 1; the paper shows 0.4 and 1.0.
+        /// Weight of the unmapped image, 0 … 1; the paper shows 0.4 and 1.0.
         required original_factor: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// Factor on the light before the curve, above 0. Default: 1.
         optional gain: Placed<f64> = number("").above(0.0);
-        /// The sensor's sensitivity curve, as a tone curve. Default: 1 − exp(−x).
+        /// Sensitivity curve of the sensor, as a tone curve. Default: 1 − exp(−x).
         optional curve: ToneCurve = tone_curve();
     }
 }
 
 record! {
-    /// Drops of rain on the picture: each disc shows what lies around it upside down. The drops of a wind-screen are traced, these are drawn.
+    /// Raindrops painted on the image: each disc shows its surroundings upside down. Drops on a windscreen are traced instead.
     pub struct PaperDrops check(check_drops) {
-        /// How many, 1 … 100 000.
+        /// Number of drops, 1 … 100 000.
         required count: Placed<u64> = whole(1, 100_000);
-        /// Least radius, px, above 0.
+        /// Smallest radius, px, above 0.
         required min_radius_px: Placed<f64> = number("px").above(0.0);
-        /// Greatest radius, px, above 0; radii are even between the two.
+        /// Largest radius, px, above 0; radii are uniformly distributed between the two.
         required max_radius_px: Placed<f64> = number("px").above(0.0);
-        /// How many times smaller the picture is in a drop, above 0.
+        /// Reduction of the image within a drop, above 0.
         required scale: Placed<f64> = number("").above(0.0);
-        /// σ of the blur in a drop, and width of its soft rim, px, above 0; times "scale" at most 500.
+        /// σ of the blur within a drop, and width of its soft edge, px, above 0; times "scale" at most 500.
         required blur_px: Placed<f64> = number("px").above(0.0);
-        /// With "fade_frames": how far a drop flows downwards from frame to frame, px, above 0. Default: not at all.
+        /// With "fade_frames": distance that a drop flows down per frame, px, above 0. Default: no flow.
         optional flow_px_per_frame: Placed<f64> = number("px").above(0.0);
-        /// How many frames a drop lives, fading evenly; another is born elsewhere. Default: drops stay.
+        /// Lifetime of a drop in frames; it fades linearly, and a new one appears elsewhere. Default: drops are permanent.
         optional fade_frames: Placed<u64> = whole(1, 1_000_000);
     }
 }
@@ -95,17 +95,17 @@ fn check_drops(drops: &PaperDrops, faults: &mut Faults) {
 record! {
     /// A change of colours.
     pub struct ColourChange {
-        /// "display" (the encoded picture) or "linear" (linear light). Default: "display".
+        /// Stage on which the filter works: "display" (the encoded image) or "linear" (linear light). Default: "display".
         optional on: Placed<Stage> = choice();
-        /// What is done, in this order, as one matrix; clipped once at the end.
+        /// Operations in this order, combined into one matrix; clipped once at the end.
         many operations: Operation = list(record(), 1);
     }
 }
 
 words! {
-    /// What a change of colours works on.
+    /// Stage on which a change of colours works.
     pub enum Stage {
-        /// The encoded picture.
+        /// The encoded image.
         "display" => Display,
         /// Linear light.
         "linear" => Linear,
@@ -117,35 +117,35 @@ keyed! {
     pub enum Operation {
         /// Factors on red, green and blue.
         scale => Scale(Placed<[f64; 3]>) = vector::<3>(number(""));
-        /// Shares of white added to red, green and blue.
+        /// Fractions of white added to red, green and blue.
         offset => Offset(Placed<[f64; 3]>) = vector::<3>(number(""));
-        /// A factor on all three, 0 or more.
+        /// Factor on all three, 0 or more.
         brightness => Brightness(Placed<f64>) = number("").at_least(0.0);
-        /// 0 is grey, 1 as it was, more is more colourful; 0 or more.
+        /// Saturation, 0 or more: 0 is grey, 1 no change.
         saturation => Saturation(Placed<f64>) = number("").at_least(0.0);
-        /// Turn of the hue about the greys, degrees, red towards green.
+        /// Rotation of the hue about the grey axis, degrees, red towards green.
         hue_rotation_deg => HueRotation(Placed<f64>) = number("°");
-        /// To this colour space: its components take the places of red, green and blue.
+        /// Conversion to this colour space: its components replace red, green and blue.
         to => To(Placed<ColourSpace>) = choice();
-        /// From this colour space.
+        /// Conversion from this colour space.
         from => From(Placed<ColourSpace>) = choice();
-        /// Any affine map: three rows of four numbers, the last of each is added.
+        /// Any affine map: three rows of four numbers; the last of each row is added.
         matrix => Matrix(Box<Placed<[Placed<[f64; 4]>; 3]>>) = exactly(vector::<4>(number(""))).map(Box::new, |rows| Some((**rows).clone()));
     }
 }
 
 words! {
-    /// A colour space. The two of primaries are for linear light, those of luma for the encoded picture, CMY for both.
+    /// A colour space. RGB spaces apply to linear light, luma spaces to the encoded image, CMY to both.
     pub enum ColourSpace {
         /// Primaries of NTSC (1953).
         "rgb_ntsc" => RgbNtsc,
         /// Primaries of PAL.
         "rgb_pal" => RgbPal,
-        /// Luma and two differences of PAL.
+        /// Luma and colour differences of PAL.
         "yuv" => Yuv,
-        /// Luma and two differences of NTSC.
+        /// Luma and colour differences of NTSC.
         "yiq" => Yiq,
-        /// Luma and two differences of files.
+        /// Luma and colour differences of image files.
         "ycbcr" => YCbCr,
         /// Complements.
         "cmy" => Cmy,
@@ -155,9 +155,9 @@ words! {
 record! {
     /// Pulse noise.
     pub struct PulseNoise {
-        /// p₁: how much brighter or darker, DN of an 8-bit picture, 0 … 255.
+        /// p₁: change of brightness, DN of an 8-bit image, 0 … 255.
         required amplitude_dn: Placed<f64> = number("DN").at_least(0.0).at_most(255.0);
-        /// p₂: share of the pixels that get brighter, and of those that get darker, 0 … 0.5.
+        /// p₂: fraction of the pixels that become brighter, and of those that become darker, 0 … 0.5.
         required probability: Placed<f64> = number("").at_least(0.0).at_most(0.5);
     }
 }
@@ -165,7 +165,7 @@ record! {
 record! {
     /// Additive Gaussian noise.
     pub struct GaussianNoise {
-        /// p₁: standard deviation, DN of an 8-bit picture, 0 … 255.
+        /// p₁: standard deviation, DN of an 8-bit image, 0 … 255.
         required sigma_dn: Placed<f64> = number("DN").at_least(0.0).at_most(255.0);
     }
 }
@@ -179,7 +179,7 @@ record! {
 }
 
 impl PaperFilter {
-    /// Where its table stands.
+    /// Place of its table.
     #[must_use]
     pub fn place(&self) -> &Place {
         match self {
@@ -193,7 +193,7 @@ impl PaperFilter {
         }
     }
 
-    /// The tone curve that it names.
+    /// Tone curve of the filter, if any.
     pub(super) fn curve(&self) -> Option<&ToneCurve> {
         match self {
             Self::ToneMap(map) => map.curve.as_ref(),

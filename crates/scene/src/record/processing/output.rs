@@ -1,20 +1,20 @@
-//! How pictures are written.
+//! File formats of images.
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::words;
 
 words! {
-    /// The kind of a picture's file.
+    /// File format of an image.
     pub enum PictureFormat {
-        /// Without loss.
+        /// Lossless.
         "png" => Png,
-        /// With loss, 8 bits.
+        /// Lossy, 8 bits.
         "jpeg" => Jpeg,
     }
 }
 
-/// Bits and quality must fit the format.
+/// Checks that bits and quality fit the format.
 pub(super) fn check(
     format: Option<&Placed<PictureFormat>>,
     bits: Option<&Placed<u64>>,

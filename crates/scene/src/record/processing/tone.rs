@@ -5,19 +5,19 @@ use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, number, path, record, variant, words};
 use std::path::PathBuf;
 
-/// From linear light to a picture's numbers.
+/// Tone curve from linear light to image values.
 #[derive(Clone, Debug)]
 pub enum ToneCurve {
-    /// One without numbers.
+    /// A curve without parameters.
     Named(Placed<NamedCurve>),
-    /// One with numbers.
+    /// A curve with parameters.
     Curve(Box<CurveTable>),
 }
 
 words! {
-    /// A tone curve without numbers.
+    /// A tone curve without parameters.
     pub enum NamedCurve {
-        /// That of IEC 61966-2-1.
+        /// The curve of IEC 61966-2-1.
         "srgb" => Srgb,
         /// Output proportional to light.
         "linear" => Linear,
@@ -25,28 +25,27 @@ words! {
 }
 
 keyed! {
-    /// A tone curve with numbers.
+    /// A tone curve with parameters.
     pub enum CurveKind {
         /// γ of output = light^(1/γ), above 0.
         gamma => Gamma(Placed<f64>) = number("").above(0.0);
-        /// An S-curve on top of sRGB: its contrast, above 0; 1 is none, more darkens shadows and brightens lights.
+        /// Contrast of an S-curve on top of sRGB, above 0; 1 is none, more darkens shadows and brightens highlights.
         contrast => Contrast(Placed<f64>) = number("").above(0.0);
-        /// A table of two columns, linear light from 0 to 1 and output 0 … 1, straight lines between.
+        /// A table of two columns, linear light from 0 to 1 and output 0 … 1, with linear interpolation.
         table => Table(Placed<PathBuf>) = path(&["csv"]);
-        /// A measured conversion function (ISO 14524): a table of two columns, exposure (any unit, the largest is white) and
-        /// output level.
+        /// A measured conversion function (OECF, ISO 14524): a table of two columns, exposure (any unit, the largest is white) and output level.
         oecf => Oecf(Placed<PathBuf>) = path(&["csv"]);
     }
 }
 
 record! {
-    /// A tone curve with numbers.
+    /// A tone curve with parameters.
     pub struct CurveTable check(check) {
-        /// Which.
+        /// Kind of curve.
         inside kind: CurveKind;
-        /// With "contrast": the encoded value that becomes a half, above 0 and below 1. Default: 0.5.
+        /// With "contrast": encoded value that is mapped to 0.5, above 0 and below 1. Default: 0.5.
         optional midpoint: Placed<f64> = number("").above(0.0).at_most(0.999);
-        /// With "oecf": the largest level that the output can have, above 0. Default: 255.
+        /// With "oecf": largest possible output level, above 0. Default: 255.
         optional largest_output: Placed<f64> = number("").above(0.0);
     }
 }
@@ -73,7 +72,7 @@ pub(super) fn tone_curve() -> impl Rule<Out = ToneCurve> {
 }
 
 impl ToneCurve {
-    /// The table that it names.
+    /// The table's file.
     pub(super) fn file(&self) -> Option<&Placed<PathBuf>> {
         match self {
             Self::Curve(curve) => match &curve.kind {

@@ -1,4 +1,4 @@
-//! `cfa`: which pixel measures what.
+//! `cfa`: the colour filter array.
 
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, list, record, text, variant, whole, words};
@@ -13,7 +13,7 @@ pub enum CfaSource {
 }
 
 words! {
-    /// A colour filter array by name.
+    /// A named colour filter array.
     pub enum Cfa {
         /// No filters.
         "mono" => Mono,
@@ -39,7 +39,7 @@ words! {
 }
 
 record! {
-    /// A tile of filters that repeats over the picture from its top-left pixel.
+    /// A tile of filters, repeated over the image from its top-left pixel.
     pub struct Tile {
         /// Columns of the tile.
         required columns: Placed<u64> = whole(1, 64);
@@ -49,7 +49,7 @@ record! {
 }
 
 impl Cfa {
-    /// Names of the channels of two rows of two pixels; one for all where there are no filters.
+    /// Names of the channels of two rows of two pixels; a single name where there are no filters.
     #[must_use]
     pub fn tile(self) -> &'static [&'static str] {
         match self {
@@ -80,7 +80,7 @@ impl CfaSource {
         }
     }
 
-    /// The names of the channels, each once: red, green and blue first where there are those.
+    /// Names of the channels, each once; red, green and blue first where present.
     #[must_use]
     pub fn channels(&self) -> Vec<&str> {
         let mut found = self.tile().1;

@@ -1,27 +1,27 @@
-//! What happens to charge in its pixel, and how pixels differ.
+//! Charge in the pixels, and non-uniformity.
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, number, record, variants, whole, words};
 
 record! {
-    /// How pixels differ, frame after frame the same. Spreads are standard deviations.
+    /// Non-uniformity: fixed differences between pixels, equal in all frames. Spreads are standard deviations.
     pub struct NonUniformity {
-        /// Which specimen this is: the same number, the same pattern. Default: one of its own for each camera of a job.
+        /// Seed of the unit (the individual sensor): the same number gives the same pattern. Default: a seed for each camera of a job.
         optional seed: Placed<u64> = whole(0, 9_007_199_254_740_991);
-        /// Spread of the response to light from pixel to pixel, as a share (PRNU). Default: 0.
+        /// Spread of the response to light between pixels, as a fraction (PRNU). Default: 0.
         optional prnu: Placed<f64> = spread();
-        /// The same from row to row. Default: 0.
+        /// The same between rows. Default: 0.
         optional prnu_row: Placed<f64> = spread();
-        /// The same from column to column. Default: 0.
+        /// The same between columns. Default: 0.
         optional prnu_column: Placed<f64> = spread();
-        /// Spread of the offset from pixel to pixel, e⁻ (DSNU after no time). Default: 0.
+        /// Spread of the offset between pixels, e⁻ (DSNU at zero exposure time). Default: 0.
         optional dsnu_e: Placed<f64> = number("e⁻").at_least(0.0);
-        /// The same from row to row. Default: 0.
+        /// The same between rows. Default: 0.
         optional dsnu_row_e: Placed<f64> = number("e⁻").at_least(0.0);
-        /// The same from column to column. Default: 0.
+        /// The same between columns. Default: 0.
         optional dsnu_column_e: Placed<f64> = number("e⁻").at_least(0.0);
-        /// Share of pixels that hold no charge. Default: 0.
+        /// Fraction of pixels that hold no charge. Default: 0.
         optional dead_fraction: Placed<f64> = spread();
     }
 }
@@ -31,28 +31,28 @@ fn spread() -> crate::reader::Number {
 }
 
 record! {
-    /// Dark current over temperature and over pixels. All currents are those at "reference_c".
+    /// Dark current by temperature and by pixel. All currents refer to "reference_c".
     pub struct Dark check(check_dark) {
         /// Temperature of the sensor, °C, above absolute zero. Default: that of the stated current.
         optional temperature_c: Placed<f64> = number("°C").above(-273.15);
         /// Temperature of the stated current, °C; with "temperature_c".
         optional reference_c: Placed<f64> = number("°C").above(-273.15);
-        /// Kelvin for a factor of two; with "temperature_c". Default: the band gap of silicon decides.
+        /// Temperature difference that doubles the current, K; with "temperature_c". Default: from the band gap of silicon.
         optional doubling_k: Placed<f64> = number("K").above(0.0);
-        /// With "temperature_c" and without "doubling_k": share of diffusion in the stated current, 0 … 1; the rest is
-        /// generated. Default: 0.
+        /// With "temperature_c" and without "doubling_k": fraction of the stated current that is diffusion current, 0 … 1; the rest is generation
+        /// current. Default: 0.
         optional diffusion_fraction: Placed<f64> = spread();
-        /// Spread of the current from pixel to pixel, as a share of its mean, 0 … 10. Default: 0.
+        /// Spread of the current between pixels, as a fraction of its mean, 0 … 10. Default: 0.
         optional spread: Placed<f64> = number("").at_least(0.0).at_most(10.0);
-        /// The same from row to row. Default: 0.
+        /// The same between rows. Default: 0.
         optional spread_row: Placed<f64> = number("").at_least(0.0).at_most(10.0);
-        /// The same from column to column. Default: 0.
+        /// The same between columns. Default: 0.
         optional spread_column: Placed<f64> = number("").at_least(0.0).at_most(10.0);
-        /// Shape of the spread from pixel to pixel. Default: "normal".
+        /// Shape of the spread between pixels. Default: "normal".
         optional distribution: Placed<SpreadDistribution> = choice();
-        /// Pixels with far more current. Default: none.
+        /// Hot pixels, with much more current. Default: none.
         optional hot: Hot = record();
-        /// Pixels that have more current at one of two levels. Default: none.
+        /// Pixels whose current jumps between two levels. Default: none.
         optional dark_current_rts: DarkCurrentRts = record();
     }
 }
@@ -60,9 +60,9 @@ record! {
 words! {
     /// Shape of a distribution.
     pub enum SpreadDistribution {
-        /// Normal, cut at 0.
+        /// Normal, truncated at 0.
         "normal" => Normal,
-        /// Log-normal, of the same mean and spread.
+        /// Log-normal with the same mean and spread.
         "log_normal" => LogNormal,
     }
 }
@@ -70,7 +70,7 @@ words! {
 record! {
     /// Hot pixels.
     pub struct Hot {
-        /// Share of pixels, above 0.
+        /// Fraction of pixels, above 0.
         required share: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Mean of their additional current (exponential), e⁻/s, above 0.
         required mean_e_s: Placed<f64> = number("e⁻/s").above(0.0);
@@ -80,7 +80,7 @@ record! {
 record! {
     /// Blinking pixels.
     pub struct DarkCurrentRts {
-        /// Share of pixels, above 0.
+        /// Fraction of pixels, above 0.
         required share: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Mean of their additional current at the upper level (exponential), e⁻/s, above 0.
         required mean_e_s: Placed<f64> = number("e⁻/s").above(0.0);
@@ -133,25 +133,25 @@ fn check_dark(dark: &Dark, faults: &mut Faults) {
 variants! {
     /// Smear of a CCD.
     pub enum Smear by "type" {
-        /// Charge is moved down a covered register beside the pixels.
+        /// Charge moves down a covered register next to the pixels.
         "interline" => Interline(Interline),
-        /// Charge is moved through the pixels themselves, fast.
+        /// Charge moves fast through the pixels themselves.
         "frame_transfer" => FrameTransfer(FrameTransfer),
     }
 }
 
 record! {
-    /// Smear by a leak of the register's cover.
+    /// Smear by light that leaks through the register's cover.
     pub struct Interline {
-        /// The data sheet's figure for a spot of a tenth of the picture's height, dB, −200 … −20.
+        /// Smear of the data sheet for a spot of a tenth of the image's height, dB, −200 … −20.
         required smear_db: Placed<f64> = number("dB").at_least(-200.0).at_most(-20.0);
-        /// Accumulation time over frame time of the data sheet's measurement, above 0 and at most 1. Default: 1.
+        /// Accumulation time over frame time in the data sheet's measurement, above 0 and at most 1. Default: 1.
         optional measured_exposure_ratio: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
 
 record! {
-    /// Smear by the shift itself.
+    /// Smear during the shift.
     pub struct FrameTransfer {
         /// Time of a shift by one row, s, above 0.
         required line_shift_s: Placed<f64> = number("s").above(0.0);
@@ -159,11 +159,11 @@ record! {
 }
 
 record! {
-    /// A kind of trap.
+    /// A kind of charge trap.
     pub struct Trap {
-        /// Share of a frame's charge that it keeps, above 0.
+        /// Fraction of a frame's charge that is trapped, above 0.
         required share: Placed<f64> = number("").above(0.0).at_most(0.5);
-        /// Time after which 1/e of it is left, s, above 0.
+        /// Time after which 1/e of the trapped charge is left, s, above 0.
         required time_constant_s: Placed<f64> = number("s").above(0.0);
     }
 }
@@ -171,15 +171,15 @@ record! {
 record! {
     /// Overflow into other pixels.
     pub struct Blooming {
-        /// Which way it goes.
+        /// Direction of the overflow.
         required direction: Placed<Direction> = choice();
-        /// Share of what a pixel cannot hold that goes on, above 0; the rest is drained.
+        /// Fraction of the excess charge that flows to other pixels, above 0; the rest is drained.
         required overflow_fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
 
 words! {
-    /// Which way charge overflows.
+    /// Direction of the overflow.
     pub enum Direction {
         /// Half up and half down the column: a CCD.
         "column" => Column,

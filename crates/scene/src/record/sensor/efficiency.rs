@@ -1,4 +1,4 @@
-//! `quantum_efficiency`: electrons a photon.
+//! `quantum_efficiency`: electrons per photon.
 
 use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
@@ -9,37 +9,37 @@ use etendue_spectra::camera;
 /// Electrons per photon on the sensitive area.
 #[derive(Clone, Debug)]
 pub enum QuantumEfficiency {
-    /// The same in all pixels.
+    /// Equal in all pixels.
     Same(Curve),
-    /// For red, green and blue.
+    /// One curve each for red, green and blue.
     PerChannel(Placed<[Curve; 3]>),
-    /// The measured relative sensitivities of a camera, scaled together so that the largest is `peak`.
+    /// Measured relative sensitivities of a camera, scaled together so that the largest is `peak`.
     Measured {
         /// The camera's name.
         camera: Placed<String>,
         /// The largest quantum efficiency.
         peak: Placed<f64>,
     },
-    /// For each channel by its name.
+    /// One curve for each named channel.
     Named(Vec<(Placed<String>, Curve)>),
 }
 
 keyed! {
-    /// Where quantum efficiencies are tabulated.
+    /// Source of tabulated quantum efficiencies.
     pub enum QuantumEfficiencyTable {
         /// A table of two columns, wavelength in nm and quantum efficiency 0 … 1.
         spectrum => Spectrum(Placed<std::path::PathBuf>) = spectrum_file();
-        /// A camera whose relative sensitivities were measured, with "peak".
+        /// A camera with measured relative sensitivities; needs "peak".
         camera => Camera(Placed<String>) = known("a measured camera", camera::names());
-        /// One for each channel of the filter array, by its name: a number 0 … 1, or `{ spectrum = file }`.
+        /// One for each channel of the filter array, by name: a number 0 … 1, or `{ spectrum = file }`.
         channels => Channels(Vec<(Placed<String>, Curve)>) = keyed_by_name(curve(share()));
     }
 }
 
 record! {
-    /// A quantum efficiency that needs a word.
+    /// A tabulated quantum efficiency.
     pub struct QuantumEfficiencySource check(check_source) {
-        /// Where it is tabulated.
+        /// Source of the table.
         inside table: QuantumEfficiencyTable;
         /// With "camera": the largest quantum efficiency of the three channels, above 0 and at most 1.
         optional peak: Placed<f64> = number("").above(0.0).at_most(1.0);
@@ -57,7 +57,7 @@ pub(super) fn quantum_efficiency() -> impl Rule<Out = QuantumEfficiency> {
 }
 
 impl QuantumEfficiencySource {
-    /// What the table says that becomes an efficiency; `None` where no table does.
+    /// Returns the table form of an efficiency, or `None` for forms that are no table.
     fn of(efficiency: &QuantumEfficiency) -> Option<Self> {
         let (table, peak) = match efficiency {
             QuantumEfficiency::Same(Curve::File(file)) => (QuantumEfficiencyTable::Spectrum(file.clone()), None),
@@ -102,7 +102,7 @@ fn check_source(source: &QuantumEfficiencySource, faults: &mut Faults) {
     }
 }
 
-/// Whether quantum efficiencies are those of the filter array's channels; `table` is where a list that is empty is at fault.
+/// Checks that the quantum efficiencies are those of the filter array's channels. Errors of an empty list are reported at `table`.
 pub(super) fn check_channels(efficiency: &QuantumEfficiency, channels: &[&str], table: &Place, faults: &mut Faults) {
     match efficiency {
         QuantumEfficiency::Same(_) => {}

@@ -1,4 +1,4 @@
-//! What turns light to digital numbers.
+//! Conversion of light to digital numbers.
 
 use super::cfa::{CfaSource, cfa};
 use super::charge::{Blooming, Dark, NonUniformity, Smear, Trap};
@@ -11,58 +11,57 @@ use crate::place::Placed;
 use crate::reader::{flag, list, number, record, vector, whole};
 
 record! {
-    /// What turns light to digital numbers.
+    /// Conversion of light to digital numbers.
     pub struct Electronics {
-        /// Exposure time, s, 0 or more; at 0 only what needs no time is left.
+        /// Exposure time, s, 0 or more. At 0 only signals that need no time remain.
         required exposure_s: Placed<f64> = number("s").at_least(0.0);
-        /// Colour filter array: a name, of the first two rows from the top-left pixel, or `{ columns = …, channels = […] }`.
+        /// Colour filter array: a name that lists the first two rows from the top-left pixel, or `{ columns = …, channels = […] }`.
         required cfa: CfaSource = cfa();
-        /// Electrons per photon on the sensitive area, filter included, 0 … 1: a number, `{ spectrum = file }`, a list of
-        /// three of these for red, green and blue, `{ camera = name, peak = … }` for measured relative sensitivities, or
-        /// `{ channels = { name = …, … } }` with one for each channel of the filter array.
+        /// Electrons per photon on the sensitive area, filter included, 0 … 1: a number, `{ spectrum = file }`, a list of three of these for red,
+        /// green and blue, `{ camera = name, peak = … }` for measured relative sensitivities, or `{ channels = { name = …, … } }` with one for each
+        /// channel of the filter array.
         required quantum_efficiency: QuantumEfficiency = quantum_efficiency();
-        /// Electrons that a pixel can hold, e⁻, above 0.
+        /// Full well: charge that a pixel can hold, e⁻, above 0.
         required full_well_e: Placed<f64> = number("e⁻").above(0.0);
         /// Standard deviation of the read noise, e⁻, 0 or more.
         required read_noise_e: Placed<f64> = number("e⁻").at_least(0.0);
         /// Mean dark current, e⁻/s, 0 or more. Default: 0.
         optional dark_current_e_s: Placed<f64> = number("e⁻/s").at_least(0.0);
-        /// Digital numbers per electron at an analogue gain of 1, DN/e⁻, above 0.
+        /// Conversion gain at an analogue gain of 1, DN/e⁻, above 0.
         required gain_dn_per_e: Placed<f64> = number("DN/e⁻").above(0.0);
-        /// Digital number of no signal, DN, 0 or more and below the largest number of the converter.
+        /// Digital number without signal, DN, 0 or more and below the ADC's maximum.
         required black_level_dn: Placed<f64> = number("DN").at_least(0.0);
-        /// Bits of the converter, 1 … 24.
+        /// Bits of the ADC, 1 … 24.
         required bits: Placed<u64> = whole(1, 24);
-        /// Whether noise from frame to frame is drawn. Default: true.
+        /// Adds temporal noise. Default: true.
         optional noise: Placed<bool> = flag();
-        /// Time from frame to frame, s, at least the exposure; needed by "smear" (interline) and "lag".
+        /// Time between frames, s, at least the exposure; needed by "smear" (interline) and "lag".
         optional frame_period_s: Placed<f64> = number("s").above(0.0);
-        /// Factor on the voltage before the converter, above 0. Default: 1.
+        /// Factor on the voltage before the ADC, above 0. Default: 1.
         optional analogue_gain: Placed<f64> = number("").above(0.0);
         /// Factor on digital numbers above black, above 0. Default: 1.
         optional digital_gain: Placed<f64> = number("").above(0.0);
-        /// Exposure and gain from frame to frame. Default: they stay.
+        /// Automatic exposure and gain over the frames. Default: both are constant.
         optional auto_exposure: AutoExposure = record();
-        /// Response of the micro-lenses over the angle. Default: 1.
+        /// Angular response of the micro-lenses. Default: 1.
         optional angle_response: AngleResponse = record();
-        /// Shares of a pixel's light that its neighbours catch. Default: none.
+        /// Fractions of a pixel's light that its neighbours receive. Default: none.
         optional crosstalk: Exchange = record();
-        /// How pixels differ. Default: not at all.
+        /// Fixed differences between pixels. Default: none.
         optional non_uniformity: NonUniformity = record();
-        /// Temperature of the dark current, and how pixels differ in it. Default: all alike, at the stated current.
+        /// Temperature of the dark current and its variation between pixels. Default: the stated current in all pixels.
         optional dark: Dark = record();
-        /// Light that a CCD's charge meets on its way down the column. Default: none.
+        /// Light that a CCD's charge collects while it moves down the column. Default: none.
         optional smear: Smear = record();
-        /// Traps that keep charge from frame to frame. Default: none.
+        /// Traps that carry charge over to later frames. Default: none.
         many lag: Trap = list(record(), 1);
-        /// Brighter-fatter: the shift of the border between two pixels, in pixels, for each electron that one has more,
-        /// 1/e⁻, above 0. Default: 0.
+        /// Brighter-fatter effect: shift of the border between two pixels, in pixels, per electron of difference, 1/e⁻, above 0. Default: 0.
         optional brighter_fatter_per_e: Placed<f64> = number("1/e⁻").above(0.0);
-        /// Where charge above the full well goes. Default: it is lost.
+        /// Overflow of charge above the full well. Default: it is lost.
         optional blooming: Blooming = record();
-        /// Voltage over charge. Default: proportional.
+        /// Voltage as a function of charge. Default: proportional.
         optional response: Response = record();
-        /// Shares of a pixel's voltage that couple to its neighbours. Default: none.
+        /// Fractions of a pixel's voltage that couple to its neighbours. Default: none.
         optional inter_pixel_capacitance: Exchange = record();
         /// Noise common to all pixels of a row, e⁻, above 0. Default: none.
         optional row_noise_e: Placed<f64> = number("e⁻").above(0.0);
@@ -70,17 +69,17 @@ record! {
         optional column_noise_e: Placed<f64> = number("e⁻").above(0.0);
         /// Pixels whose voltage jumps between two levels. Default: none.
         optional rts_noise: RtsNoise = record();
-        /// Pixels beside the picture that no light reaches; they are in the raw. Default: none.
+        /// Pixels next to the image that receive no light; they are part of the raw. Default: none.
         optional optical_black: OpticalBlack = record();
-        /// The part of the picture that is read: first column, first row, columns, rows. Default: all of it.
+        /// Region of interest that is read out: first column, first row, columns, rows, px. Default: the whole image.
         optional roi_px: Placed<[f64; 4]> = vector::<4>(number("px").at_least(0.0));
-        /// Pixels that are read together. Default: each on its own.
+        /// Pixels that are read out together. Default: none.
         optional binning: Binning = record();
-        /// Pixels that are not read, so that the picture has fewer. Default: none.
+        /// Pixels that are not read out, which gives a smaller image. Default: none.
         optional skipping: Skipping = record();
-        /// Several captures of a frame. Default: one.
+        /// Several captures per frame. Default: one.
         optional hdr: Hdr = record();
-        /// Fewer bits by straight lines. Default: none.
+        /// Piecewise linear compression to fewer bits. Default: none.
         optional companding: Companding = record();
     }
 }

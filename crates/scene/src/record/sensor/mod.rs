@@ -20,24 +20,23 @@ pub use scale::Scale;
 pub use shutter::Shutter;
 
 record! {
-    /// A sensor: its geometry, and its electronics where electrons are wanted.
+    /// A sensor: its geometry, and optionally its electronics.
     pub struct Sensor check(check) {
-        /// Width of the picture, px, 1 … 65 536.
+        /// Width of the image, px, 1 … 65 536.
         required width_px: Placed<u64> = whole(1, 65_536);
-        /// Height of the picture, px, 1 … 65 536.
+        /// Height of the image, px, 1 … 65 536.
         required height_px: Placed<u64> = whole(1, 65_536);
-        /// Distance of the pixels' centres, µm, above 0; pixels are square.
+        /// Distance between pixel centres, µm, above 0; pixels are square.
         required pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
-        /// Size of the picture over that of the sensor as described here, "1/k" or the same as a decimal fraction: the same field of view with
-        /// larger pixels, each in the place of k × k. All other keys describe the full sensor, and docs/sensor.md says how each of them scales.
-        /// `--scale` sets it for all cameras. Default: 1.
+        /// Size of the image over that of the described sensor, "1/k" or the same as a decimal fraction: the same field of view with larger pixels,
+        /// each in place of k × k. All other keys describe the full sensor; docs/sensor.md states how each of them scales. `--scale` sets it for all
+        /// cameras. Default: 1.
         optional scale: Placed<Scale> = scale::ScaleRule;
-        /// Share of a pixel's area that is sensitive (a centred square), above 0 and at most 1. Default: 1.
+        /// Fraction of a pixel's area that is sensitive (a centred square), above 0 and at most 1. Default: 1.
         optional fill_factor: Placed<f64> = number("").above(0.0).at_most(1.0);
-        /// Where the optical axis meets the picture, raster coordinates (the top-left corner is 0, 0), px.
-        /// Default: the middle.
+        /// Intersection of the optical axis with the image, raster coordinates (the top-left corner is 0, 0), px. Default: the middle.
         optional principal_point_px: Placed<[f64; 2]> = vector::<2>(number("px"));
-        /// When its rows are exposed. Default: all together.
+        /// Timing of the rows' exposure. Default: all rows together.
         optional shutter: Shutter = record();
         /// The electronics.
         group electronics: Electronics;

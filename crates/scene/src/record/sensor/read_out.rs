@@ -4,9 +4,9 @@ use crate::place::Placed;
 use crate::reader::{choice, list, number, record, variants, vector, whole, words};
 
 variants! {
-    /// Voltage over charge.
+    /// Voltage as a function of charge.
     pub enum Response by "type" {
-        /// Straight lines of falling slopes.
+        /// Piecewise linear with falling slopes.
         "knees" => Knees(Knees),
         /// Logarithmic above a charge.
         "logarithmic" => Logarithmic(Logarithmic),
@@ -14,27 +14,27 @@ variants! {
 }
 
 record! {
-    /// Straight lines.
+    /// Piecewise linear response.
     pub struct Knees {
-        /// Pairs of a charge, e⁻, and the slope above it, which falls from below 1; below the first it is 1.
+        /// Pairs of a charge, e⁻, and the slope above it. Slopes fall from below 1; below the first charge the slope is 1.
         required knees: Vec<Placed<[f64; 2]>> = list(vector::<2>(number("").above(0.0)), 1);
     }
 }
 
 record! {
-    /// A logarithm.
+    /// Logarithmic response.
     pub struct Logarithmic {
-        /// Charge above which it begins, e⁻, above 0.
+        /// Charge above which the response is logarithmic, e⁻, above 0.
         required from_e: Placed<f64> = number("e⁻").above(0.0);
     }
 }
 
 record! {
-    /// Random RTS noise.
+    /// Random telegraph signal (RTS) noise.
     pub struct RtsNoise {
-        /// Share of pixels, above 0.
+        /// Fraction of pixels, above 0.
         required share: Placed<f64> = number("").above(0.0).at_most(1.0);
-        /// Mean of their jumps (exponential), e⁻, above 0.
+        /// Mean size of their jumps (exponential), e⁻, above 0.
         required mean_e: Placed<f64> = number("e⁻").above(0.0);
         /// Mean number of frames at a level, 1 or more.
         required dwell_frames: Placed<f64> = number("").at_least(1.0);
@@ -42,42 +42,42 @@ record! {
 }
 
 record! {
-    /// Pixels that no light reaches.
+    /// Optical black: pixels that receive no light.
     pub struct OpticalBlack {
-        /// Rows above the picture. Default: 0.
+        /// Rows above the image. Default: 0.
         optional rows_px: Placed<u64> = whole(0, 4096);
-        /// Columns left of the picture. Default: 0.
+        /// Columns left of the image. Default: 0.
         optional columns_px: Placed<u64> = whole(0, 4096);
     }
 }
 
 record! {
-    /// Pixels of the same colour that are read together.
+    /// Pixels of the same colour that are read out together.
     pub struct Binning {
-        /// Pixels of a row.
+        /// Pixels in a row.
         required columns: Placed<u64> = whole(1, 64);
-        /// Pixels of a column.
+        /// Pixels in a column.
         required rows: Placed<u64> = whole(1, 64);
-        /// What is put together: "charge" is added before it is read, digital "numbers" are averaged.
+        /// Binned quantity: "charge" is added before it is read, digital "numbers" are averaged.
         required of: Placed<BinningOf> = choice();
     }
 }
 
 record! {
-    /// Pixels that are not read: of every `columns` × `rows` tiles of the filter array only the first is, in region and optical black alike.
+    /// Pixels that are not read out: of every `columns` × `rows` tiles of the filter array only the first is read, in the region and in optical
+    /// black.
     pub struct Skipping {
-        /// Tiles beside each other of which one is read. Default: 1, no column is skipped.
+        /// One of this many adjacent tiles in a row is read. Default: 1, no column is skipped.
         optional columns: Placed<u64> = whole(1, 64);
-        /// Tiles below each other of which one is read; rows that are skipped take no time of a shutter that reads row after row.
-        /// Default: 1, no row is skipped.
+        /// One of this many adjacent tiles in a column is read. Skipped rows take no time of a rolling shutter. Default: 1, no row is skipped.
         optional rows: Placed<u64> = whole(1, 64);
     }
 }
 
 words! {
-    /// What is put together.
+    /// The binned quantity.
     pub enum BinningOf {
-        /// Charge is added before it is read: the read noise comes once.
+        /// Charge is added before it is read: read noise is added once.
         "charge" => Charge,
         /// Digital numbers are averaged.
         "numbers" => Numbers,

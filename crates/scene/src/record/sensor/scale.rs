@@ -8,21 +8,21 @@ use crate::place::Placed;
 use crate::reader::{Kind, Rule};
 use crate::written::{Item, Value as Said};
 
-/// The largest divisor: no picture is wider.
+/// Largest divisor: no image is wider.
 const MAX_DIVISOR: u64 = 65_536;
 
 /// Relative tolerance of the reciprocal of a decimal fraction: 0.3333333 is 1/3.
 const ROUNDING: f64 = 1e-6;
 
-/// The size of a picture over that of the sensor as described: 1/divisor.
+/// Size of an image over that of the described sensor: 1/divisor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
-    /// Pixels of the described sensor in a row and in a column of one pixel, 1 or more.
+    /// Pixels of the described sensor along a row and a column of one pixel, 1 or more.
     pub divisor: u64,
 }
 
 impl Scale {
-    /// From a text such as "1/4" or "0.25".
+    /// Parses a text such as "1/4" or "0.25".
     fn from_text(text: &str) -> Option<Self> {
         match text.split_once('/') {
             Some((one, divisor)) if one.trim() == "1" => Self::from_divisor(divisor.trim().parse().ok()?),
@@ -62,7 +62,7 @@ impl Rule for ScaleRule {
         )
     }
     fn schema(&self) -> Json {
-        // The form that is written; decimal fractions are read as well.
+        // The form that is written; decimal fractions are also read.
         json!({ "type": "string", "pattern": "^1/[1-9][0-9]*$", "examples": ["1/4"] })
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<Scale>> {

@@ -1,17 +1,17 @@
-//! When the rows of a sensor are exposed.
+//! Timing of the exposure of a sensor's rows.
 
 use crate::place::Placed;
 use crate::reader::{choice, number, record, variants, whole, words};
 
 variants! {
-    /// When the rows of a sensor are exposed. Where nothing of a scene depends on time, only "global_reset" changes the picture.
+    /// Timing of the exposure of a sensor's rows. In a static scene only "global_reset" changes the image.
     pub enum Shutter by "type" {
         /// All rows together.
         "global" => Global(Global),
-        /// Row after row, each for the whole exposure.
+        /// One row after the other, each for the whole exposure.
         "rolling" => Rolling(Rows),
-        /// All rows begin together and are read one after the other: each is exposed longer than the one read before it by the
-        /// row time, and gets more light.
+        /// All rows start together and are read one after the other. Each is exposed for one row time longer than the one read before it, and
+        /// receives more light.
         "global_reset" => GlobalReset(Rows),
     }
 }
@@ -19,33 +19,32 @@ variants! {
 record! {
     /// A shutter that exposes all rows together.
     pub struct Global {
-        /// Exposure time of a sensor without electronics, s, 0 or more. Default: 0, one moment.
+        /// Exposure time of a sensor without electronics, s, 0 or more. Default: 0, an instant.
         optional exposure_s: Placed<f64> = number("s").at_least(0.0);
     }
 }
 
 record! {
-    /// A shutter whose rows are read in turn. Only rows that are read take time: those of a region ("roi_px"), and none that
-    /// "skipping" leaves out.
+    /// A shutter whose rows are read in turn. Only rows that are read take time: those of a region ("roi_px"), without those that "skipping" leaves
+    /// out.
     pub struct Rows {
         /// Time from one row to the next, µs, 0 or more.
         required row_time_us: Placed<f64> = number("µs").at_least(0.0);
-        /// Which way rows are read, as the erect picture is seen. Default: "down".
+        /// Direction of the read-out in the erect image. Default: "down".
         optional direction: Placed<Direction> = choice();
-        /// Fields of which a frame is put together, 1 … 16: with 2, all even rows (from 0) are read before the odd ones
-        /// (interlaced). Default: 1.
+        /// Fields of a frame, 1 … 16: with 2, all even rows (from 0) are read before the odd ones (interlaced). Default: 1.
         optional fields: Placed<u64> = whole(1, 16);
-        /// Exposure time of a sensor without electronics, s, 0 or more. Default: 0, one moment.
+        /// Exposure time of a sensor without electronics, s, 0 or more. Default: 0, an instant.
         optional exposure_s: Placed<f64> = number("s").at_least(0.0);
     }
 }
 
 words! {
-    /// Which way rows are read.
+    /// Direction of the read-out.
     pub enum Direction {
-        /// The top row of the picture first.
+        /// The top row of the image first.
         "down" => Down,
-        /// The bottom row of the picture first.
+        /// The bottom row of the image first.
         "up" => Up,
     }
 }
@@ -60,7 +59,7 @@ impl Shutter {
         }
     }
 
-    /// Exposure time of a sensor without electronics, where it is given.
+    /// Exposure time of a sensor without electronics, if given.
     #[must_use]
     pub fn exposure_s(&self) -> Option<&Placed<f64>> {
         match self {

@@ -1,8 +1,8 @@
-//! The keys of a table, and whether they must be given.
+//! The keys of a table, and whether they are required.
 
 use serde_json::Value as Json;
 
-/// The forms of a table, those with the same mark together.
+/// The forms of a table, grouped by mark.
 pub(super) fn groups(schema: &Json) -> Vec<Vec<Json>> {
     let forms = schema["oneOf"].as_array().cloned().unwrap_or_else(|| vec![schema.clone()]);
     let mut groups: Vec<Vec<Json>> = Vec::new();
@@ -15,13 +15,13 @@ pub(super) fn groups(schema: &Json) -> Vec<Vec<Json>> {
     groups
 }
 
-/// The key and word that tell a form from others, and what it is.
+/// The key and word that distinguish a form, and its description.
 pub(super) fn mark(form: &Json) -> Option<(String, String, String)> {
     let (key, schema) = form["properties"].as_object()?.iter().find(|(_, s)| s.get("const").is_some())?;
     Some((key.clone(), schema["const"].as_str()?.to_owned(), schema["description"].as_str().unwrap_or("").to_owned()))
 }
 
-/// The keys of all forms, each once, but the mark: what is needed first.
+/// The keys of all forms, each once, except the mark; required keys first.
 pub(super) fn keys_of(forms: &[Json]) -> Vec<(String, Json)> {
     let mut keys: Vec<(String, Json)> = Vec::new();
     for (key, schema) in forms.iter().filter_map(|f| f["properties"].as_object()).flatten() {
@@ -34,19 +34,19 @@ pub(super) fn keys_of(forms: &[Json]) -> Vec<(String, Json)> {
     keys
 }
 
-/// Whether a list of keys in a schema has the key.
+/// True if a list of keys in a schema contains the key.
 fn lists(list: &Json, key: &str) -> bool {
     list.as_array().is_some_and(|list| list.iter().any(|k| k == key))
 }
 
-/// Whether exactly one of some keys, this one among them, must be given.
+/// True if exactly one of some keys, this one among them, is required.
 fn is_one_of(form: &Json, key: &str) -> bool {
     let choices = form["allOf"].as_array().into_iter().flatten();
     let must = choices.filter_map(|c| c["oneOf"].as_array()).filter(|o| o.iter().all(|o| o.get("not").is_none()));
     must.flatten().any(|option| lists(&option["required"], key))
 }
 
-/// Whether the key is needed: in all forms, in some of them or in place of others, with others, or never.
+/// Requirement of the key: in all forms, in some of them or instead of others, with others, or never.
 pub(super) fn must(key: &str, forms: &[Json]) -> &'static str {
     let with = forms.iter().filter(|f| lists(&f["required"], key)).count();
     let needed_by =

@@ -16,7 +16,7 @@ const HEAD: &str =
     "<!-- reference: made of the schema by the tests of crates/scene; ETENDUE_BLESS=1 writes it anew -->\n";
 const END: &str = "<!-- end of reference -->\n";
 
-/// The page of a kind of file; the overview for what stands in several.
+/// Page of a kind of file; the overview for records in several kinds.
 fn name(file: Option<File>) -> String {
     file.map_or_else(|| "scene-format.md".to_owned(), |file| format!("format/{}.md", file.word()))
 }
@@ -25,7 +25,7 @@ fn all() -> impl Iterator<Item = Option<File>> {
     File::ALL.into_iter().map(Some).chain([None])
 }
 
-/// The list of ready materials.
+/// The list of built-in materials.
 fn presets() -> String {
     let mut text =
         "## Presets of `[[materials]]`\n\n| preset | is | says | source |\n| --- | --- | --- | --- |\n".to_owned();
@@ -36,10 +36,10 @@ fn presets() -> String {
     text + "\n"
 }
 
-/// All sections: they are the same for every test.
+/// All sections, shared by all tests.
 static PAGES: LazyLock<Pages> = LazyLock::new(Pages::new);
 
-/// The reference of a page as the schema has it.
+/// The reference of a page, generated from the schema.
 fn made(file: Option<File>) -> String {
     let presets = if file == Some(File::Scene) { presets() } else { String::new() };
     format!("{HEAD}\n{}{presets}{END}", PAGES.write(file))

@@ -6,7 +6,7 @@ use super::keys::{groups, keys_of, mark, must};
 use super::section::{File, Place, Section, plain, sections};
 use super::value::value;
 
-/// The names of records that may stand in several places, by the first of them.
+/// Names of records that may occur in several places, by the first of them.
 const NAMES: [(&str, &str); 19] = [
     ("environment-radiance_w_m2_sr_nm", "Spectrum"),
     ("frames-rolls", "Wheel"),
@@ -29,7 +29,7 @@ const NAMES: [(&str, &str); 19] = [
     ("render-depth_of_field-fast", "Fast depth of field"),
 ];
 
-/// With more places than these, a heading has the name alone and the places follow.
+/// With more places than this, a heading has only the name, and the places follow.
 const IN_HEADING: usize = 3;
 
 /// All sections, on the pages of their files; those of several kinds of file on the overview.
@@ -47,7 +47,7 @@ impl Pages {
         self.sections.iter().filter(|section| section.file() == page).map(|section| self.section(section)).collect()
     }
 
-    /// A link from a page to a table's section.
+    /// Returns a link from a page to a table's section.
     pub(super) fn link(&self, schema: &Json, from: Option<File>) -> String {
         let schema = plain(schema);
         let section =
@@ -89,7 +89,7 @@ impl Pages {
         text
     }
 
-    /// The table of keys: those of all forms that bear the same mark.
+    /// The table of keys of all forms with the same mark.
     fn keys(&self, forms: &[Json], section: &Section, anchor: &str) -> String {
         let keys = keys_of(forms);
         if keys.is_empty() {
@@ -106,7 +106,7 @@ impl Pages {
     }
 }
 
-/// The name of a record that may stand in several places.
+/// Name of a record that may occur in several places.
 fn name(section: &Section) -> Option<&'static str> {
     let first = section.places[0].anchor();
     let name = NAMES.iter().find(|(place, _)| *place == first).map(|(_, name)| *name);
@@ -115,7 +115,7 @@ fn name(section: &Section) -> Option<&'static str> {
     name
 }
 
-/// What the section is called: its record's name, or the header of the only place.
+/// Title of the section: its record's name, or the header of the only place.
 fn label(section: &Section) -> String {
     name(section).map_or_else(|| section.places[0].header(), str::to_owned)
 }
@@ -139,7 +139,7 @@ fn level(section: &Section) -> usize {
     }
 }
 
-/// The heading with an anchor for every place; nothing for a whole file, whose page has one.
+/// The heading with an anchor for every place; empty for a whole file, whose page has one.
 fn heading(section: &Section) -> String {
     if section.places[0].depth() == 0 {
         return String::new();
@@ -161,7 +161,7 @@ fn heading(section: &Section) -> String {
     }
 }
 
-/// The headers of all places; those of several kinds of file with the file's word.
+/// The headers of all places; with the file's word if several kinds of file contain them.
 fn places(section: &Section) -> String {
     let files = File::ALL.into_iter().map(|file| {
         let headers: Vec<_> = section.places.iter().filter(|p| p.file == file).map(Place::header).collect();

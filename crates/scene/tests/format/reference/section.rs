@@ -1,4 +1,4 @@
-//! The tables of the files: each record once, with every place where it may stand.
+//! The tables of the files: each record once, with all its places.
 
 use etendue_scene::FileKind;
 use serde_json::Value as Json;
@@ -18,7 +18,7 @@ pub(super) enum File {
 }
 
 impl File {
-    /// In the order in which they are searched for tables: what belongs to files of its own comes before the job that may hold it.
+    /// Search order of tables: tables of files of their own come before the job that may contain them.
     pub(super) const ALL: [Self; 7] =
         [Self::Scene, Self::Camera, Self::Job, Self::DataSheet, Self::Weather, Self::Variations, Self::Laboratory];
 
@@ -34,7 +34,7 @@ impl File {
         }
     }
 
-    /// The schema of a whole file, not of one over a base.
+    /// The schema of a complete file, not of one over a base.
     fn schema(self) -> Json {
         let schema = etendue_scene::schema(match self {
             Self::Scene => FileKind::Scene,
@@ -49,18 +49,18 @@ impl File {
     }
 }
 
-/// How a table is written at its place.
+/// Notation of a table at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Brackets {
     /// `[x]`
     Table,
     /// `[[x]]`
     List,
-    /// An entry of a list that may hold other things too: `x = [{ … }]`.
+    /// An entry of a list that may also hold other values: `x = [{ … }]`.
     Entry,
 }
 
-/// Where a table stands: the file and the keys on the way to it, none for the file itself.
+/// Place of a table: the file and the keys that lead to it, none for the file itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Place {
     pub(super) file: File,
@@ -113,7 +113,7 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// The file on whose page the record is described; none where it stands in several kinds of file.
+    /// The file on whose page the record is described; none if it occurs in several kinds of file.
     pub(super) fn file(&self) -> Option<File> {
         let file = self.places[0].file;
         self.places.iter().all(|place| place.file == file).then_some(file)
@@ -133,7 +133,7 @@ pub(super) fn sections() -> Vec<Section> {
 fn meet_table(sections: &mut Vec<Section>, schema: &Json, place: &Place) {
     let schema = plain(schema);
     let known = sections.iter_mut().find(|section| section.schema == schema);
-    // A job may hold what stands at the head of other files: the rules say so of all of it.
+    // A job may contain tables from the top level of other files; their rules describe them completely.
     let held = |section: &Section| section.places.iter().any(|p| p.file != place.file && p.depth() <= 1);
     match known {
         Some(section) if section.places.contains(place) || held(section) => return,
@@ -146,7 +146,7 @@ fn meet_table(sections: &mut Vec<Section>, schema: &Json, place: &Place) {
     }
 }
 
-/// The tables that a value may be or hold.
+/// Collects the tables that a value may be or contain.
 fn meet_value(sections: &mut Vec<Section>, schema: &Json, place: &Place) {
     let items = &schema["items"];
     if is_table(schema) {
@@ -166,14 +166,14 @@ pub(super) fn is_table(schema: &Json) -> bool {
     schema.get("properties").is_some() || schema.get("oneOf").is_some()
 }
 
-/// The schema without what only the head of a file has.
+/// The schema without keys of the top level of a file.
 pub(super) fn plain(schema: &Json) -> Json {
     let mut schema = schema.clone();
     if let Some(table) = schema.as_object_mut() {
         ["$schema", "title", "description"].iter().for_each(|k| {
             table.remove(*k);
         });
-        // The format's number; a key of that name in a table is a key like others.
+        // The format's number; a key of that name in a table is an ordinary key.
         if table.get("properties").is_some_and(|p| p["format"].get("const").is_some()) {
             table.get_mut("properties").and_then(Json::as_object_mut).map(|p| p.remove("format"));
             table.get_mut("required").and_then(Json::as_array_mut).iter_mut().for_each(|r| r.retain(|k| k != "format"));

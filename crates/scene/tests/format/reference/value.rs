@@ -1,11 +1,11 @@
-//! What the value of a key may be, in words.
+//! Permitted values of a key, in words.
 
 use serde_json::Value as Json;
 
 use super::page::Pages;
 use super::section::{File, is_table};
 
-/// The value by its schema; tables are links from a page to their sections.
+/// Describes the value by its schema; tables are links from a page to their sections.
 pub(super) fn value(schema: &Json, pages: &Pages, from: Option<File>) -> String {
     let told = |schema: &Json| value(schema, pages, from);
     if let Some(options) = schema["anyOf"].as_array() {
@@ -31,7 +31,7 @@ pub(super) fn value(schema: &Json, pages: &Pages, from: Option<File>) -> String 
     }
 }
 
-/// `list of 3 × number`; an entry that may be one thing or another stands in brackets.
+/// `list of 3 × number`; alternatives of an entry are in brackets.
 fn list(schema: &Json, entry: &str) -> String {
     let count = schema["maxItems"].as_u64().map_or(String::new(), |n| format!("{n} × "));
     match schema["items"].get("anyOf") {
