@@ -53,7 +53,7 @@ impl Exposures {
     /// `count` shares from `lowest` to `highest`.
     ///
     /// # Errors
-    /// Where there are fewer than two, or the shares do not rise from above 0.
+    /// If there are fewer than two, or the shares do not rise from above 0.
     pub fn spaced(count: u32, spacing: Spacing, lowest: f64, highest: f64) -> Result<Self, ChartError> {
         if count < 2 {
             return Err(ChartError::option("exposures", count, "expected two or more exposures"));
@@ -76,7 +76,7 @@ impl Exposures {
     /// The shares as listed.
     ///
     /// # Errors
-    /// Where there is none, or one is not above 0.
+    /// If there is none, or one is not above 0.
     pub fn listed(shares: Vec<f64>) -> Result<Self, ChartError> {
         let legal = !shares.is_empty() && shares.iter().all(|s| s.is_finite() && *s > 0.0);
         let text = shares.iter().map(f64::to_string).collect::<Vec<_>>().join(",");

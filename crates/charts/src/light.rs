@@ -18,7 +18,7 @@ impl Light {
     /// A tabulated illuminant at a luminance.
     ///
     /// # Errors
-    /// Where the name is not known or the luminance not above 0.
+    /// If the name is not known or the luminance not above 0.
     pub fn named(name: &str, luminance_cd_m2: f64) -> Result<Self, ChartError> {
         let unknown =
             || ChartError::option("illuminant", name, format!("give one of {}", illuminant::names().join(", ")));

@@ -54,7 +54,7 @@ impl RayCamera<'_> {
     /// What is seen of the plane square to the axis at `distance_m`.
     ///
     /// # Errors
-    /// Where the camera does not look ahead in the middle of its picture.
+    /// If the camera does not look ahead in the middle of its picture.
     pub fn footprint(&self, distance_m: f64) -> Result<Footprint, ChartError> {
         let middle = self.size_px / 2.0;
         let meets = |at: DVec2| (self.ray)(at).and_then(|ray| on_plane(&ray, distance_m));

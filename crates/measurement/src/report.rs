@@ -190,7 +190,7 @@ impl Report {
     /// Its plots as one SVG.
     ///
     /// # Errors
-    /// Where the measurement has no curve to draw.
+    /// If the measurement has no curve to draw.
     pub fn svg(&self) -> Result<String, Error> {
         if self.plots.is_empty() {
             return Err(

@@ -76,7 +76,7 @@ pub enum ContrastError {
 /// The contrast of a darker and a brighter patch against the scene's.
 ///
 /// # Errors
-/// Where patches are too small or dark, or the scene's contrast or the share make no sense.
+/// If patches are too small or dark, or the scene's contrast or the share make no sense.
 pub fn measure_contrast(
     darker: &Image,
     brighter: &Image,

@@ -29,7 +29,7 @@ use crate::{Estimate, Image};
 /// Judges an estimate against the truth, both in m.
 ///
 /// # Errors
-/// Where sizes differ, settings are no numbers, limits do not rise, pictures are the same, or nothing can be compared.
+/// If sizes differ, settings are no numbers, limits do not rise, pictures are the same, or nothing can be compared.
 pub fn measure_depth(estimate: &Image, truth: &Image, settings: &DepthSettings) -> Result<DepthReport, DepthError> {
     let size = |image: &Image| (image.width(), image.height());
     if size(estimate) != size(truth) {

@@ -38,7 +38,7 @@ pub enum FlareError {
 /// Flare of a trap, a share of the white about it; errors are alike in blocks of `shared_px` × `shared_px` pixels (1: in none).
 ///
 /// # Errors
-/// Where regions are too small, the white is saturated, or no brighter than the trap.
+/// If regions are too small, the white is saturated, or no brighter than the trap.
 pub fn measure_flare(
     trap: &Image,
     whites: &[Image],

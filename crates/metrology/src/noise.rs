@@ -92,7 +92,7 @@ pub enum NoiseError {
 /// Whether a frame keeps its noise: its pixels are not saturated.
 ///
 /// # Errors
-/// Where they are.
+/// If they are.
 pub fn check_frame(frame: &Image, full_scale: Option<f64>) -> Result<(), NoiseError> {
     saturated_percent([frame], full_scale).map_or(Ok(()), |percent| Err(NoiseError::Saturated { percent }))
 }
@@ -109,7 +109,7 @@ fn one_light(means: &[f64], black: f64) -> Result<(), NoiseError> {
 /// The noise of a stack of frames of a patch.
 ///
 /// # Errors
-/// Where there are too few frames or pixels.
+/// If there are too few frames or pixels.
 pub fn measure_noise(stack: &Stack, black: f64) -> Result<Noise, NoiseError> {
     if stack.frames() < MIN_FRAMES {
         return Err(NoiseError::TooFew(stack.frames()));

@@ -88,7 +88,7 @@ pub enum PlaneTestError {
 /// Tests whether `a` and `b` are estimates of the same picture; wrong with probability `significance` where they are.
 ///
 /// # Errors
-/// Where the sizes differ, or a picture has variances without two replicates.
+/// If the sizes differ, or a picture has variances without two replicates.
 pub fn compare(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, significance: f64) -> Result<PlaneTest, PlaneTestError> {
     let lengths = [a.mean.len(), a.variance_of_mean.len(), b.mean.len(), b.variance_of_mean.len()];
     if lengths.iter().any(|l| *l != lengths[0]) {

@@ -42,7 +42,7 @@ const ORDER: [&str; 10] = [
 /// The files of `folder`, sorted by place, kind and frame; those of other frames than `frames` are left out.
 ///
 /// # Errors
-/// Where it is no folder, cannot be read, or has no file or too many.
+/// If it is no folder, cannot be read, or has no file or too many.
 pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<FoundFile>, Error> {
     let refuse = |why: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", folder.display()));
     if !folder.is_dir() {

@@ -19,7 +19,7 @@ use crate::request::ViewRequest;
 /// where an earlier page is replaced. Answers with the file to open. One file of a result, and the one beside it, are in memory at a time.
 ///
 /// # Errors
-/// Where a folder is no result, a file of it is damaged, or layers that stand beside each other differ in size; nothing is written then. Where the page
+/// If a folder is no result, a file of it is damaged, or layers that stand beside each other differ in size; nothing is written then. Where the page
 /// cannot be written, or the observer cancels.
 pub fn view(
     request: &ViewRequest,

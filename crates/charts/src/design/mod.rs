@@ -56,7 +56,7 @@ macro_rules! charts {
             /// Draws it for what a camera sees.
             ///
             /// # Errors
-            /// Where a size or number is one that the chart cannot have.
+            /// If a size or number is one that the chart cannot have.
             pub fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
                 match self {
                     $(Self::$Design(chart) => chart.draw(seen, seed),)*

@@ -14,7 +14,7 @@ const MM_PER_INCH: f64 = 25.4;
 /// The first sheet, sRGB-encoded, at `dpi` pixels an inch. Coverage is exact; colours are mixed in linear light.
 ///
 /// # Errors
-/// Where the chart is no flat sheet, or that makes no picture of reasonable size.
+/// If the chart is no flat sheet, or that makes no picture of reasonable size.
 pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError> {
     if !drawing.is_flat() {
         return Err(ChartError::option("png", dpi, "this chart stands in space and has no print; leave `png` out"));

@@ -35,7 +35,7 @@ pub struct FlickerRequest {
 }
 
 impl FlickerRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(frames: Vec<PathBuf>) -> Self {
         Self { frames, row_time_us: None, frame_rate_hz: None, exposure_us: None, input: PictureInput::default() }
     }
@@ -58,7 +58,7 @@ struct Sequence {
 /// The flicker of an evenly lit region, or of each lamp of a chart.
 ///
 /// # Errors
-/// Where times are missing, or a region is too small, saturated or dark.
+/// If times are missing, or a region is too small, saturated or dark.
 pub fn flicker(request: &FlickerRequest) -> Result<Report, Error> {
     let FlickerRequest { row_time_us, frame_rate_hz, exposure_us, .. } = *request;
     let (times, notes) = completed(&request.frames, FrameTimes { row_time_us, frame_rate_hz, exposure_us })?;

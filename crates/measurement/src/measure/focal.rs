@@ -22,7 +22,7 @@ pub struct FocalRequest {
 }
 
 impl FocalRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(views: ViewsRequest) -> Self {
         Self { views, camera_keys: false }
     }
@@ -31,7 +31,7 @@ impl FocalRequest {
 /// Focal length and principal point, from one picture of a chart at a known distance or from several. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the views do not determine them.
+/// If the views do not determine them.
 pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let mut options = views.options();
@@ -97,7 +97,7 @@ pub struct CalibrationRequest {
 }
 
 impl CalibrationRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(views: ViewsRequest) -> Self {
         Self { views, camera_keys: false, f_number: None }
     }
@@ -106,7 +106,7 @@ impl CalibrationRequest {
 /// A camera from several views of a plane chart: projection, distortion and, where the pixels' pitch is given, a camera file. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where views are too few, show no chart or do not determine the model.
+/// If views are too few, show no chart or do not determine the model.
 pub fn calibrate(request: &CalibrationRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let found = views.found(views.options(), observer)?;

@@ -25,7 +25,7 @@ pub struct NoiseRequest {
 }
 
 impl NoiseRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(frames: Vec<PathBuf>) -> Self {
         Self { frames, input: PictureInput::default() }
     }
@@ -77,7 +77,7 @@ impl Surface {
 /// Temporal and fixed-pattern noise of an even surface, or of each patch of a chart (ISO 15739).
 ///
 /// # Errors
-/// Where the frames are too few, saturated or no frames of one surface.
+/// If the frames are too few, saturated or no frames of one surface.
 pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
     let input = &request.input;
     let (mut surfaces, mut black, mut encodings) = (Vec::new(), 0.0, Vec::new());

@@ -40,7 +40,7 @@ pub struct OecfRequest {
 }
 
 impl OecfRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(pictures: Vec<PathBuf>) -> Self {
         Self {
             pictures,
@@ -59,7 +59,7 @@ const DEGREE: usize = 8;
 /// The tone curve from a series of exposures or from steps (ISO 14524); the camera's response from a scene at exposures known relatively.
 ///
 /// # Errors
-/// Where the pictures or their exposures cannot be used.
+/// If the pictures or their exposures cannot be used.
 pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
     if request.response {
         return response(request);

@@ -35,7 +35,7 @@ pub struct FlatFieldRequest {
 }
 
 impl FlatFieldRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self { picture: picture.into(), centre_px: None, rings: 20, input: PictureInput::default() }
     }
@@ -56,7 +56,7 @@ pub struct VignettingRequest {
 }
 
 impl VignettingRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(flat: FlatFieldRequest) -> Self {
         Self { flat, camera_keys: false, pixel_pitch_um: None }
     }
@@ -74,7 +74,7 @@ pub struct ShadingRequest {
 }
 
 impl ShadingRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(flat: FlatFieldRequest) -> Self {
         Self { flat, blocks: DEFAULT_BLOCKS }
     }
@@ -165,7 +165,7 @@ impl VignettingRequest {
 /// A flat field's fall-off over the radial field position.
 ///
 /// # Errors
-/// Where the picture is not of an even surface that fills it.
+/// If the picture is not of an even surface that fills it.
 pub fn vignetting(request: &VignettingRequest) -> Result<Report, Error> {
     Ok(falloff(request)?.0)
 }
@@ -204,7 +204,7 @@ pub(crate) fn falloff(request: &VignettingRequest) -> Result<(Report, Shading, (
 /// A flat field's fall-off as a map, and its colour shading (ISO 17957).
 ///
 /// # Errors
-/// Where the picture is not of an even surface that fills it.
+/// If the picture is not of an even surface that fills it.
 pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
     let method = "shading of a flat field after ISO 17957: blocks relative to the centre (± one standard uncertainty)";
     let mut report = Report::new("shading", method);

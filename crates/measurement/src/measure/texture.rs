@@ -41,7 +41,7 @@ pub struct StarRequest {
 }
 
 impl StarRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self {
             picture: picture.into(),
@@ -72,7 +72,7 @@ pub struct TextureRequest {
 }
 
 impl TextureRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>, reference: impl Into<PathBuf>) -> Self {
         Self { picture: picture.into(), reference: reference.into(), even: None, input: PictureInput::default() }
     }
@@ -120,7 +120,7 @@ fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> 
 /// A Siemens star: response over frequency (ISO 12233).
 ///
 /// # Errors
-/// Where the picture holds no such star.
+/// If the picture holds no such star.
 pub fn star(request: &StarRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     readings.independent(&request.picture, 1)?;
@@ -182,7 +182,7 @@ fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leave
 /// Texture such as dead leaves against its reference: response, invented structure, coherence.
 ///
 /// # Errors
-/// Where the pictures differ in size or cannot be used.
+/// If the pictures differ in size or cannot be used.
 pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     let input = &request.input;
     input.check_without_black()?;

@@ -82,7 +82,7 @@ const MAX_DELTA: f64 = 15.0;
 /// pixels in which errors are alike (1: in none).
 ///
 /// # Errors
-/// Where there are too few patches, or they are tiny, clipped or grey.
+/// If there are too few patches, or they are tiny, clipped or grey.
 pub fn measure_colour(
     patches: &[ColourPatch],
     black: f64,

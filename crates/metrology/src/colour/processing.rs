@@ -37,7 +37,7 @@ pub fn white_balance(white: &[Estimate; 3]) -> [Estimate; 3] {
 /// White balance and matrix from the patches of a chart in daylight D65 and from the readings of a white in the same light less black.
 ///
 /// # Errors
-/// Where there are too few patches, or they are tiny, clipped or grey.
+/// If there are too few patches, or they are tiny, clipped or grey.
 pub fn colour_processing(
     patches: &[ColourPatch],
     white: &[Estimate; 3],

@@ -123,7 +123,7 @@ struct Rung {
 /// The fit of `values` by the columns of `design`, the first `free` of which are free.
 ///
 /// # Errors
-/// Where there are too few observations, or the free columns depend on one another.
+/// If there are too few observations, or the free columns depend on one another.
 pub fn fit_mixed_model(design: &Matrix, values: &[f64], free: usize) -> Result<MixedModelFit, FitError> {
     let few = || FitError::Underdetermined { residuals: values.len(), parameters: free };
     // Student's variance, ν/(ν − 2), needs more than two.

@@ -105,7 +105,7 @@ const MIN_ROWS: usize = 16;
 /// Measures the flicker of an evenly lit region over frames.
 ///
 /// # Errors
-/// Where times are missing or wrong, or the region is too small, saturated or dark.
+/// If times are missing or wrong, or the region is too small, saturated or dark.
 pub fn measure_flicker(
     frames: &[Image],
     timing: &FlickerTiming,

@@ -141,7 +141,7 @@ impl Oecf {
     /// The curve through points in any order.
     ///
     /// # Errors
-    /// Where there are too few, exposures are unusable, or readings fall by more than four standard uncertainties.
+    /// If there are too few, exposures are unusable, or readings fall by more than four standard uncertainties.
     pub fn new(mut points: Vec<ExposurePoint>) -> Result<Self, OecfError> {
         if points.len() < 3 {
             return Err(OecfError::TooFew(points.len()));

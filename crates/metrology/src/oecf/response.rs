@@ -61,7 +61,7 @@ struct Pair {
 /// The response of the camera that took pictures of one scene at the given exposures.
 ///
 /// # Errors
-/// Where there are too few pictures, pixels or exposures.
+/// If there are too few pictures, pixels or exposures.
 pub fn camera_response(pictures: &[(f64, &Image)], settings: &ResponseSettings) -> Result<Response, OecfError> {
     let mut sorted: Vec<(f64, &Image)> = pictures.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -42,7 +42,7 @@ impl TransferData {
     /// is below half of the largest are saturated through and through, and no dip among them ends the search.
     ///
     /// # Errors
-    /// Where an exposure time has no dark level, light is no positive number, or fewer than three levels lie below 70 % of
+    /// If an exposure time has no dark level, light is no positive number, or fewer than three levels lie below 70 % of
     /// saturation.
     pub fn new(levels: &[Level]) -> Result<Self, TransferError> {
         if let Some(level) = levels.iter().find(|l| !(l.photons >= 0.0 && l.photons.is_finite())) {
@@ -193,7 +193,7 @@ pub struct Nonuniformity {
 /// DSNU and PRNU from stacks without light and at about half of saturation.
 ///
 /// # Errors
-/// Where the bright stack is saturated or no brighter than the dark one.
+/// If the bright stack is saturated or no brighter than the dark one.
 pub fn nonuniformity(
     dark: &Pattern,
     bright: &Pattern,

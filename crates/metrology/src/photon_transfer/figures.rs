@@ -81,7 +81,7 @@ impl TransferData {
     /// The figures of the standard.
     ///
     /// # Errors
-    /// Where readings do not grow with light, or their variance not with the signal.
+    /// If readings do not grow with light, or their variance not with the signal.
     pub fn figures(&self) -> Result<Figures, TransferError> {
         let inputs = self.inputs();
         let values = |x: &[f64]| Values::new(self, x).figures();

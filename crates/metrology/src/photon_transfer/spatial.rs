@@ -76,7 +76,7 @@ impl Pattern {
     /// Of a stack of frames.
     ///
     /// # Errors
-    /// Where there are fewer than two frames, or fewer than three rows or columns.
+    /// If there are fewer than two frames, or fewer than three rows or columns.
     pub fn of(stack: &Stack) -> Result<Self, TransferError> {
         let (width, height) = (stack.width(), stack.height());
         let temporal = stack.temporal()?;

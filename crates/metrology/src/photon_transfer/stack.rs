@@ -100,7 +100,7 @@ impl Stack {
     /// Takes a frame in.
     ///
     /// # Errors
-    /// Where it has another size, holds a reading that is no number, or equals an earlier frame pixel by pixel (frames
+    /// If it has another size, holds a reading that is no number, or equals an earlier frame pixel by pixel (frames
     /// of one value throughout, black or saturated, may be equal).
     pub fn push(&mut self, frame: &Image) -> Result<(), TransferError> {
         let (size, expected) = ((frame.width(), frame.height()), (self.width, self.height));
@@ -188,7 +188,7 @@ impl Stack {
     /// Mean and temporal variance.
     ///
     /// # Errors
-    /// Where there are fewer than two frames, or fewer than two pixels.
+    /// If there are fewer than two frames, or fewer than two pixels.
     pub fn statistics(&self) -> Result<LevelStatistics, TransferError> {
         let frames = self.at_least_two()?;
         let pixels = self.sums.first.len() as f64;

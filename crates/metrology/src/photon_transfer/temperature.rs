@@ -68,7 +68,7 @@ pub struct Growth {
 /// Fits a law to (temperature in °C, dark current in e⁻/s).
 ///
 /// # Errors
-/// Where there are fewer than three different temperatures, one is no temperature, a current has no uncertainty, or none is above zero.
+/// If there are fewer than three different temperatures, one is no temperature, a current has no uncertainty, or none is above zero.
 pub fn fit(law: Law, currents: &[(f64, Estimate)], reference_c: f64) -> Result<Growth, TransferError> {
     check(currents)?;
     let points: Vec<Point> = currents.iter().map(|(t, e)| Point::new(law, *t, *e, reference_c)).collect();

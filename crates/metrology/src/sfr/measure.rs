@@ -81,7 +81,7 @@ fn powers(image: &Image, [x, y]: [f64; 2], degree: usize) -> Vec<f64> {
 /// The response of the slanted edge that fills a picture.
 ///
 /// # Errors
-/// Where there is no such edge, its angle cannot be measured, or it is clipped.
+/// If there is no such edge, its angle cannot be measured, or it is clipped.
 pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrError> {
     check(image, settings)?;
     let start = Edge::from_gradients(image)?;

@@ -40,7 +40,7 @@ pub use report::{Ring, Shading, ShadingError, ShadingSettings};
 /// The shading of a flat field.
 ///
 /// # Errors
-/// Where it is saturated, dark, not flat, or too small.
+/// If it is saturated, dark, not flat, or too small.
 pub fn measure_shading(image: &Image, settings: &ShadingSettings) -> Result<Shading, ShadingError> {
     check(image, settings)?;
     let none = |rings: &[Sums]| Matrix::zeros(rings.len(), rings.len());

@@ -56,7 +56,7 @@ const MIN_STEP_PX: f64 = 10.0;
 /// The chart's points.
 ///
 /// # Errors
-/// Where there is no such chart.
+/// If there is no such chart.
 pub fn find(image: &Image, sought: Sought) -> Result<Grid, TargetError> {
     let ((grid, beside), name) = match sought.target {
         Some(Target::Checkerboard) => (checkerboard::find(image), "checkerboard"),

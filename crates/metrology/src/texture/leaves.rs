@@ -60,7 +60,7 @@ pub struct TextureResponse {
 /// noise counts as structure in `direct`.
 ///
 /// # Errors
-/// Where sizes differ or are too small, or picture and reference have nothing in common.
+/// If sizes differ or are too small, or picture and reference have nothing in common.
 pub fn measure_texture(
     picture: &Image,
     reference: &Image,

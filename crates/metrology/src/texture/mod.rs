@@ -110,7 +110,7 @@ pub struct StarPoint {
 /// The response of a star, lowest frequency first, and its refined centre.
 ///
 /// # Errors
-/// Where the star does not lie in the picture or has no modulation.
+/// If the star does not lie in the picture or has no modulation.
 pub fn measure_star(image: &Image, star: &Star) -> Result<(Vec<StarPoint>, (f64, f64)), TextureError> {
     check(image, star)?;
     let star = Star { centre_px: refined(image, star), ..*star };

@@ -19,7 +19,7 @@ impl SideCar {
     /// The side-car of a folder, or of the folder about it, as that of an undistorted twin is.
     ///
     /// # Errors
-    /// Where there is one and it is no JSON.
+    /// If there is one and it is no JSON.
     pub(crate) fn of(folder: &Path) -> Result<Self, Error> {
         let about = folder.parent().filter(|_| folder.ends_with("undistorted"));
         let files = [Some(folder), about].into_iter().flatten().map(|folder| folder.join("camera.json"));

@@ -30,7 +30,7 @@ pub struct LensMeasurement {
 /// Finds what a lens does, without rendering.
 ///
 /// # Errors
-/// Where the camera or lens file cannot be used.
+/// If the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
     check_whole("fields", request.fields, request::FIELDS)?;
     let wavelength_nm = request.wavelength_nm;

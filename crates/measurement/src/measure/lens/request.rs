@@ -35,7 +35,7 @@ pub struct LensRequest {
 }
 
 impl LensRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(lens: impl Into<String>) -> Self {
         Self {
             lens: lens.into(),

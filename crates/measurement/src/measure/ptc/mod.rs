@@ -25,7 +25,7 @@ pub(crate) use request::Found;
 /// Photon transfer after EMVA 1288 release 4.0 linear. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the descriptor or a picture cannot be used, or the series does not determine the figures.
+/// If the descriptor or a picture cannot be used, or the series does not determine the figures.
 pub fn ptc(request: &PtcRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let descriptor = read_emva_descriptor(&request.descriptor).map_err(Error::input)?;
     let found = measure(request, &descriptor, observer)?;

@@ -200,7 +200,7 @@ pub(crate) struct Group {
 /// The frames of groups, read and added up.
 ///
 /// # Errors
-/// Where a picture cannot be used, or a group has one frame only.
+/// If a picture cannot be used, or a group has one frame only.
 pub(crate) fn groups(
     selection: &Selection,
     levels: &[DescribedLevel],
@@ -221,7 +221,7 @@ pub(crate) fn groups(
 /// What groups with light and without tell.
 ///
 /// # Errors
-/// Where they do not determine the curve.
+/// If they do not determine the curve.
 pub(crate) fn of_groups(groups: &[Group]) -> Result<Found, TransferError> {
     let lit = |group: &&Group| group.level.photons > 0.0;
     let times: Vec<f64> = groups.iter().filter(lit).map(|group| group.level.exposure_s).collect();

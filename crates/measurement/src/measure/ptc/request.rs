@@ -25,7 +25,7 @@ pub struct PtcRequest {
 }
 
 impl PtcRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(descriptor: impl Into<PathBuf>) -> Self {
         Self { descriptor: descriptor.into(), relative_light: false, selection: Selection::default() }
     }

@@ -22,7 +22,7 @@ const CHARTS: [&str; 2] = [SlantedEdges::NAME, SlantedStar::NAME];
 /// The spatial frequency response of slanted edges (ISO 12233:2023). Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the picture holds no edge that can be measured.
+/// If the picture holds no edge that can be measured.
 pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
     Ok(responses(request)?.0)
 }

@@ -50,7 +50,7 @@ pub struct SfrRequest {
 }
 
 impl SfrRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self {
             picture: picture.into(),

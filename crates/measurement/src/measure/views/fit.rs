@@ -202,7 +202,7 @@ impl Found {
     /// A camera file by a verb; the f-number cannot be told from these pictures.
     ///
     /// # Errors
-    /// Where the camera folds over inside its picture.
+    /// If the camera folds over inside its picture.
     pub(crate) fn camera_file(&self, verb: &str, pixel_pitch_um: f64, f_number: Option<f64>) -> Result<String, Error> {
         let refused =
             |folds| Error::coded(ErrorCode::UnusableLens, format!("no camera file of this, figures only: {folds}"));

@@ -63,7 +63,7 @@ pub struct ViewsRequest {
 }
 
 impl ViewsRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(files: Vec<PathBuf>) -> Self {
         Self {
             files,
