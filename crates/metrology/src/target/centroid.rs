@@ -52,7 +52,7 @@ pub(super) struct Blob {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Centroid {
     pub(super) at: DVec2,
-    /// Area with the contrast of the dot's centre that removes the same light, px².
+    /// Equivalent area at the contrast of the dot's centre, px².
     pub(super) area: f64,
     pub(super) uncertainty_px: f64,
     pub(super) rim: Rim,
