@@ -1,7 +1,7 @@
 //! Comparison of two results: errors A − B with their uncertainty, and images of both.
 //!
-//! Channels that carry a variance (`variance.NAME` beside `NAME`) are compared by a Z test with a family-wise significance over
-//! all channels; identifiers and all channels without variance must be equal.
+//! Channels that carry a variance (`variance.NAME` for `NAME`) are compared by a Z test with a family-wise significance over all
+//! channels; identifiers and all channels without variance must be equal.
 
 use std::path::Path;
 

@@ -270,7 +270,7 @@ mod tests {
 
     #[test]
     fn a_shift_too_small_for_any_run_is_found_in_the_whole() {
-        // Half a standard error a pixel: 0.5 √1000 = 16 standard errors of the sum.
+        // Half a standard error per pixel: 0.5 √1000 = 16 standard errors of the sum.
         let (truth, shifted) = (vec![10.0; 1000], vec![10.0 + 0.5 / 8.0_f64.sqrt(); 1000]);
         let (a, b) = (estimate(1, &truth, 1.0, 8), estimate(2, &shifted, 1.0, 8));
         let test = compare(&plane(&a, 8), &plane(&b, 8), 1e-3).expect("sizes");

@@ -97,7 +97,7 @@ pub fn lens_area(r: f64, s: f64, d: f64) -> f64 {
 /// Simpson's rule with `intervals` (even) equal parts: exact for cubics.
 ///
 /// # Panics
-/// Where the number of intervals is odd or zero.
+/// If the number of intervals is odd or zero.
 #[must_use]
 pub fn simpson(low: f64, high: f64, intervals: usize, f: impl Fn(f64) -> f64) -> f64 {
     assert!(intervals > 0 && intervals.is_multiple_of(2), "Simpson's rule needs pairs of intervals");

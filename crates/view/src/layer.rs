@@ -41,13 +41,11 @@ impl Samples {
 /// Relation of a plane to the others of its layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Values.
     Value,
     /// The standard error of the value plane with the same index.
     Error,
 }
 
-/// A plane.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct NamedPlane {
     pub(crate) name: String,
@@ -96,7 +94,6 @@ pub(crate) enum Kind {
     Boxes { objects: Vec<Value> },
 }
 
-/// A layer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Layer {
     /// Name within the file.

@@ -71,7 +71,7 @@ struct Pair {
 /// Contrast detection probability of pairs of patches (IEEE P2020).
 ///
 /// # Errors
-/// If the picture or its patches cannot be used.
+/// If the image or its patches cannot be used.
 pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     let pairs = pairs(request, &readings)?;

@@ -89,7 +89,7 @@ impl DepthRequest {
 pub enum DepthAlignment {
     /// Nothing
     None,
-    /// Multiply by the median of truth over estimate
+    /// Multiply by the median of ground truth over estimate
     Median,
 }
 

@@ -91,8 +91,8 @@ impl FittedPulses {
     }
 }
 
-/// Extremes of exposures of k T + r to pulses of mean 1: their light lies between k d T + max(0, r − (1 − d) T) and k d T +
-/// min(r, d T).
+/// Extremes of exposures of k T + r to pulses of mean 1: their light is between k d T + max(0, r − (1 − d) T) and k d T + min(r,
+/// d T).
 fn extremes(frequency_hz: f64, duty: f64, exposure_s: f64) -> [f64; 2] {
     let periods = exposure_s * frequency_hz;
     let (whole, rest) = (periods.floor(), periods - periods.floor());

@@ -6,7 +6,7 @@ use super::response::{ResponseSettings, camera_response};
 use super::*;
 use crate::Image;
 
-// Known curves, known cameras.
+// Tests with known curves and known cameras.
 
 fn point(exposure: f64, reading: f64) -> ExposurePoint {
     ExposurePoint { exposure, reading: Estimate::new(reading, 0.01), noise: Some(2.0), clipped: false }

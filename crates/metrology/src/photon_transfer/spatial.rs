@@ -25,7 +25,7 @@
 //! over √N; the squared magnitudes are averaged over the rows:
 //!
 //! ```text
-//! p[k] = ⟨|Σ_n (y[n] − ȳ) exp(−2πi k n/N)|²/N⟩      k = 0 … N/2, frequency k/N cycles a pixel
+//! p[k] = ⟨|Σ_n (y[n] − ȳ) exp(−2πi k n/N)|²/N⟩      k = 0 … N/2, frequency k/N cycles per pixel
 //! ```
 //!
 //! White noise of variance s² has p = s² at every frequency. The remaining temporal noise σ² of L frames is the white level σ²/L,

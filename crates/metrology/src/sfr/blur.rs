@@ -19,7 +19,7 @@ use etendue_stats::{Moments, normal, student};
 use super::{Sfr, SfrPoint};
 use crate::Estimate;
 
-/// Maximum fitted frequency, cycles a pixel: above it the aperture leaves little signal.
+/// Maximum fitted frequency, cycles per pixel: above it the aperture leaves little signal.
 const MOST: f64 = 0.8;
 /// Minimum uncertainty of a response.
 const LEAST_U: f64 = 1e-4;

@@ -78,7 +78,7 @@ pub struct SfrSettings {
     pub shading_degree: usize,
     /// The reading of a saturated pixel.
     pub full_scale: Option<f64>,
-    /// Last frequency of the curve, cycles a pixel.
+    /// Last frequency of the curve, cycles per pixel.
     pub last_frequency: f64,
 }
 

@@ -8,7 +8,7 @@ use crate::{Image, linear::Normal};
 /// Finest step of the splines, px.
 pub(super) const FINEST_STEP_PX: f64 = 0.25;
 /// Maximum gap between distances. Steps are wider than gaps, as least squares on uniformly clustered distances requires: 0.58
-/// pixels at this gap, where a fit of degree 5 at 0.5 cycles a pixel still keeps aliases below (0.29/0.71)⁶ = 0.5 % of the
+/// pixels at this gap, where a fit of degree 5 at 0.5 cycles per pixel still keeps aliases below (0.29/0.71)⁶ = 0.5 % of the
 /// response.
 const WIDEST_GAP_PX: f64 = 0.46;
 pub(super) const STEP_OVER_GAP: f64 = 1.25;

@@ -15,7 +15,7 @@
 //! SFR(f) = |Σ_j s_j exp(−2πi f t_j)| sinc(f h)⁵ / |Σ_j s_j|
 //! ```
 //!
-//! d is the distance from the edge along its normal, pixels; f in cycles a pixel along the normal. The step h is 1/4 pixel, or
+//! d is the distance from the edge along its normal, pixels; f in cycles per pixel along the normal. The step h is 1/4 pixel, or
 //! 5/4 of the widest gap between the distances at this slope (0.45 pixels at tan θ = 1/2), as least squares requires. Beyond 10
 //! pixels, where only glare and the tails of diffraction change the profile, the step is 2 pixels, for less noise. Beyond 0.65 of
 //! the image's nearer side the profile is constant; light that the lens spreads farther is missing from the response at 0, as in

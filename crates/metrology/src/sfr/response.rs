@@ -6,13 +6,13 @@
 //! the eye follows Johnson & Fairchild (2003):
 //!
 //! ```text
-//! A = ∫ SFR(ν) CSF(ν) dν / ∫ CSF(ν) dν       numerator to half a cycle a pixel, denominator to ∞
-//! CSF(ν) = a νᶜ exp(−b ν)/K                   a = 75, b = 0.2, c = 0.8, K = 34.05; ν in cycles a degree
-//! ν = f p                                    f: cycles a pixel, p: pixels of the image a degree at the eye
+//! A = ∫ SFR(ν) CSF(ν) dν / ∫ CSF(ν) dν       numerator to half a cycle per pixel, denominator to ∞
+//! CSF(ν) = a νᶜ exp(−b ν)/K                   a = 75, b = 0.2, c = 0.8, K = 34.05; ν in cycles per degree
+//! ν = f p                                    f: cycles per pixel, p: pixels of the image per degree at the eye
 //! ```
 //!
-//! a and K cancel; ∫ νᶜ e^(−bν) dν = Γ(1.8)/0.2^1.8. A camera whose response is 1 up to half a cycle a pixel has the fraction of
-//! the CSF that such pixels can show, 0.987 at 60 pixels a degree. The response is interpolated linearly between its points.
+//! a and K cancel; ∫ νᶜ e^(−bν) dν = Γ(1.8)/0.2^1.8. A camera whose response is 1 up to half a cycle per pixel has the fraction of
+//! the CSF that such pixels can show, 0.987 at 60 pixels per degree. The response is interpolated linearly between its points.
 //! Uncertainty: as if the errors of all points were fully correlated, an upper bound. Limitations: no response of the display, no
 //! loss of quality in JND.
 
@@ -191,8 +191,8 @@ mod tests {
 
     #[test]
     fn acutance_is_the_share_of_what_the_eye_sees() {
-        // exp(−k f) only steepens the CSF's own fall: (b/(b + k/p))^1.8 of the whole, except for the part above 0.5 cycles a pixel,
-        // which is at 60 cycles a degree for 120 pixels a degree, exp(−12) of the whole.
+        // exp(−k f) only steepens the CSF's own fall: (b/(b + k/p))^1.8 of the whole, except for the part above 0.5 cycles per pixel,
+        // which is at 60 cycles per degree for 120 pixels per degree, exp(−12) of the whole.
         let found = acutance(&curve(|f| exp(-12.0 * f)), 120.0).expect("it reaches 0.5");
         let expected = pow(0.2 / (0.2 + 0.1), 1.8);
         // Its chords over 0.01 are too high by (12 · 0.01)²/12 of it: 5.8e-4.

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 enum Lens {
     /// Standard deviation, px.
     Gaussian(f64),
-    /// Cut-off frequency, cycles a pixel.
+    /// Cut-off frequency, cycles per pixel.
     Diffraction(f64),
     /// Radius of the circle of confusion, px.
     Defocus(f64),
@@ -71,7 +71,7 @@ const NODES: [(f64, f64); 4] = [
 fn picture(lens: Lens, angle_deg: f64, size: usize) -> Image {
     let (sine, cosine) = sin_cos(angle_deg.to_radians());
     let centre = 0.5 * size as f64 + 0.137;
-    // The edge spread is tabulated: 64 steps a pixel, by parabolas.
+    // The edge spread is tabulated: 64 steps per pixel, by parabolas.
     let steps = 64.0;
     let reach = 1.5 * size as f64;
     let table: Vec<f64> =

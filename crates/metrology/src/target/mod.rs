@@ -9,7 +9,7 @@
 //! come only from the image: neither the chart's size nor the lens is needed. The image should be linear in light (a display
 //! encoding shifts the edges of dots, not the corners of squares).
 //!
-//! A staggered grid of discs is a square one that stands on its corner: its steps are the distances of nearest neighbours.
+//! A staggered grid of discs is a square grid rotated by 45°: its steps are the distances of nearest neighbours.
 //!
 //! Three missing dots determine the orientation of a chart of dots (`grid.rs`).
 //!

@@ -31,7 +31,7 @@ const MAX_SHIFT_PX: f64 = 2.0;
 const SHIFT_BANDS: [usize; 2] = [6, 20];
 /// Side of a block, px.
 const BLOCK: usize = 64;
-/// Bands of frequency from 0 to 0.5 cycles a pixel.
+/// Bands of frequency from 0 to 0.5 cycles per pixel.
 const BANDS: usize = 32;
 /// Overlapping blocks and neighbouring bins under a Hann window are correlated: this fraction is independent.
 const INDEPENDENT: f64 = 0.25;

@@ -2,16 +2,16 @@
 //!
 //! | measurement | declared |
 //! | --- | --- |
-//! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal (where it was measured about the principal point) |
-//! | focal, calibrate | principal distance in pixels and mm, principal point, k1 and k2 where the model measured means the same |
+//! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal (if it was measured about the principal point) |
+//! | focal, calibrate | principal distance in pixels and mm, principal point, k1 and k2 if the measured model defines them equally |
 //! | vignetting | étendue of a pixel relative to the centre, the mean of the four half diagonals, with the pixels' response over angle |
-//! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength (of the channel measured, with what neighbours of other colours exchange) |
-//! | dark-current | the dark current at each temperature by the file's law, and its doubling temperature where the law is that |
-//! | chromatic | no displacement, of a lens that images all colours alike |
-//! | oecf | the tone curve of raw readings or of the picture, the light's strength free |
-//! | sfr | [`response`]: pixel's aperture, what neighbours exchange, diffraction or a picture of a point |
+//! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength (of the measured channel, with crosstalk from neighbours of other colours) |
+//! | dark-current | the dark current at each temperature by the file's law, and its doubling temperature if that is the law |
+//! | chromatic | no displacement, for a lens without chromatic aberration |
+//! | oecf | the tone curve of raw readings or of the image, at a free scale of the light |
+//! | sfr | [`response`]: pixel aperture, crosstalk between neighbours, diffraction or a point-spread image |
 //!
-//! Left out: what the file does not state but causes (shifts by aberrations, charge that blooms).
+//! Limitations: effects that the file causes but does not state (shifts by aberrations, blooming).
 
 use std::collections::BTreeMap;
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! MTF(ν) = sinc(a ν cos θ) sinc(a ν sin θ) · neighbours(ν) · lens(ν)
-//!                                     ν in cycles a pixel along the edge's normal, θ from the normal to the nearest of rows and columns
+//!                                     ν in cycles per pixel along the edge's normal, θ from the normal to the nearest of rows and columns
 //! neighbours: Σ w_n r_n cos(2π ν n·d_n)/Σ w_n r_n       w_n light received from neighbour n at d_n (n the normal), r_n its
 //! response to the light
 //! lens: circular pupil: 2/π (arccos s − s √(1 − s²)), s = λ N ν w/pitch, averaged over the light that the pixel sees; w relative

@@ -23,7 +23,7 @@ use crate::measure::readings::Selection;
 /// Levels measured in parallel, and frames read ahead: twice as many images are in memory at a time.
 const AT_A_TIME: usize = 4;
 
-/// Reading of a descriptor's pictures.
+/// Reader of a descriptor's images.
 pub(super) struct Reading<'a> {
     pub(super) selection: &'a Selection,
     pub(super) descriptor: &'a EmvaDescriptor,

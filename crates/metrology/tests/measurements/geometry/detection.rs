@@ -121,8 +121,8 @@ fn shading_does_not_move_dots() {
     });
     let shaded = Image::from_samples(640, 480, shaded.collect()).expect("as large");
     let grid = find(&shaded, DOTS).expect("dots");
-    // Seen frontally without distortion, a disc's centroid is its centre's image. The light decreases by a third across the
-    // neighbourhood of a dot's width/40, with a curvature below a thousandth within it.
+    // Seen frontally without distortion, a disc's centroid is its centre's image. The light decreases across the image, with a
+    // curvature below a thousandth within the neighbourhood of a dot.
     let found = errors(&view, &grid, [11, 8]);
     assert!(found[found.len() - 1] < 0.01, "{found:?}");
 }
