@@ -23,7 +23,7 @@ const WHAT: &str = "gain, noise, dark current, capacity, DSNU, PRNU, defective p
 #[derive(Clone, Debug)]
 pub(super) struct Electronics {
     pub(super) figures: Figures,
-    /// Includes the part that is specific to this unit.
+    /// Its uncertainty includes the variation between units.
     pub(super) black_level_dn: Estimate,
     /// Excludes hot pixels.
     pub(super) dark_current_e_s: Option<Estimate>,
@@ -157,7 +157,8 @@ fn patterns(found: &Found, hot: &Option<Outliers>, dead: &Option<Outliers>) -> R
     nonuniformity(&dark.map_err(refused)?, &bright.map_err(refused)?, gain, &found.data).map(Some).map_err(refused)
 }
 
-/// Returns the mean dark current without the contribution of hot pixels. The uncertainty includes the variation between units.
+/// Returns the mean dark current without the contribution of hot pixels. The uncertainty includes the sampling of pixels of this
+/// unit (variation between units).
 fn cool(mean: Estimate, hot: Option<&Outliers>, pixels: usize) -> Estimate {
     let Some(hot) = hot else { return mean };
     let (u, specimen) = (mean.standard_uncertainty, hot.spread_e_s / (pixels as f64).sqrt());

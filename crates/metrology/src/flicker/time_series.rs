@@ -295,7 +295,7 @@ impl TimeSeries {
             products += part.array_windows().map(|[a, b]| a * b).sum::<f64>();
             squares += part.iter().map(|r| r * r).sum::<f64>();
         }
-        // The correlation that independent errors show by chance is subtracted.
+        // Correlations that independent errors show by chance are ignored.
         let correlation = if squares > 0.0 { products / squares } else { 0.0 };
         let chance = 2.0 / (residuals.len() as f64).sqrt();
         if correlation > chance { (1.0 + correlation) / (1.0 - correlation).max(1e-6) } else { 1.0 }

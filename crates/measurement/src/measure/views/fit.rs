@@ -228,8 +228,8 @@ impl Found {
 /// Residuals of this many times the points' own uncertainty, and this much, are checked.
 const TIMES: f64 = 5.0;
 const MIN_PX: f64 = 0.05;
-/// Another model is reported if it leaves less than this fraction of the residual, or if the residual exceeds the uncertainty by
-/// the limits above once again.
+/// Another model is suggested if it leaves less than this fraction of the residual. Without such a model, a warning is given if
+/// the residual exceeds the limits above by the second factor.
 const SHARE: f64 = 0.5;
 const SURELY: f64 = 4.0;
 /// Candidate models.
