@@ -1,4 +1,4 @@
-//! Where cameras stand and how long they look.
+//! Camera poses and exposures of a chart job.
 
 use std::f64::consts::TAU;
 
@@ -11,29 +11,29 @@ use crate::error::ChartError;
 /// A camera of the job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraStation {
-    /// Its name in the job, which is that of its file.
+    /// Name in the job, and of its file.
     pub name: String,
-    /// Where it stands, m.
+    /// Position, m.
     pub position_m: DVec3,
-    /// What it looks at, m.
+    /// Point looked at, m.
     pub target_m: DVec3,
-    /// What is up.
+    /// Up direction.
     pub up: DVec3,
-    /// Its exposure, s, where it is not the camera's own.
+    /// Exposure, s, if it differs from the camera's own.
     pub exposure_s: Option<f64>,
-    /// Whether it is a dark frame: it looks away from the chart into the dark.
+    /// True for a dark frame: the camera looks away from the chart into the dark.
     pub dark: bool,
 }
 
 impl CameraStation {
-    /// The pose. Stations look neither at themselves nor along their up.
+    /// Returns the pose. Position and target differ, and the view direction is not along `up`.
     #[must_use]
     pub fn pose(&self) -> CameraPose {
         CameraPose::looking_at(self.position_m, self.target_m, self.up).expect("a station looks at the sheet")
     }
 }
 
-/// How exposures are spaced.
+/// Spacing of exposures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spacing {
     /// Equal ratios.
@@ -42,18 +42,18 @@ pub enum Spacing {
     Linear,
 }
 
-/// A series of exposures, by the share of saturation that white reaches in each.
+/// A series of exposures, by the fraction of saturation that white reaches in each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exposures {
-    /// Shares, above 0.
+    /// Fractions, above 0.
     pub shares: Vec<f64>,
 }
 
 impl Exposures {
-    /// `count` shares from `lowest` to `highest`.
+    /// Returns `count` fractions from `lowest` to `highest`.
     ///
     /// # Errors
-    /// Where there are fewer than two, or the shares do not rise from above 0.
+    /// If there are fewer than two, or the fractions do not increase from above 0.
     pub fn spaced(count: u32, spacing: Spacing, lowest: f64, highest: f64) -> Result<Self, ChartError> {
         if count < 2 {
             return Err(ChartError::option("exposures", count, "expected two or more exposures"));
@@ -73,10 +73,10 @@ impl Exposures {
         Ok(Self { shares: (0..count).map(at).collect() })
     }
 
-    /// The shares as listed.
+    /// Returns the fractions as listed.
     ///
     /// # Errors
-    /// Where there is none, or one is not above 0.
+    /// If there is none, or one is not above 0.
     pub fn listed(shares: Vec<f64>) -> Result<Self, ChartError> {
         let legal = !shares.is_empty() && shares.iter().all(|s| s.is_finite() && *s > 0.0);
         let text = shares.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
@@ -85,8 +85,8 @@ impl Exposures {
     }
 }
 
-/// The cameras of a job: one square before the sheet at `distance_m`; or `views` of them around it, tilted by 25 degrees and
-/// farther away so that the sheet stays in the picture, the first square; or one for each exposure (s).
+/// The cameras of a job: one perpendicular to the sheet at `distance_m`; or `views` of them around it, tilted by 25 degrees and
+/// farther away so that the sheet stays in the image, the first one perpendicular; or one for each exposure (s).
 #[must_use]
 pub fn camera_stations(distance_m: f64, views: u32, exposures_s: &[f64], dark: bool) -> Vec<CameraStation> {
     let ahead = |name: String, exposure_s| CameraStation {
@@ -118,14 +118,14 @@ pub fn camera_stations(distance_m: f64, views: u32, exposures_s: &[f64], dark: b
     }
 }
 
-/// Tilt of the views against the sheet.
+/// Tilt of the views relative to the sheet.
 const TILT_DEG: f64 = 25.0;
-/// How much farther away tilted views are.
+/// Distance of tilted views relative to the perpendicular one.
 const FARTHER: f64 = 1.45;
 /// Roll of the views about their own axis, in turn.
 const ROLLS_DEG: [f64; 3] = [0.0, 10.0, -10.0];
 
-/// View `i` of `count`: the first square, the others around it in even steps, rolled in turn.
+/// View `i` of `count`: the first perpendicular, the others around it in equal steps, rolled in turn.
 fn view(distance_m: f64, i: u32, count: u32) -> CameraStation {
     let centre = DVec3::X * distance_m;
     let turn = TAU * f64::from(i.saturating_sub(1)) / f64::from(count - 1);

@@ -1,29 +1,29 @@
-//! What a chart is: sheets, inks, and where its features lie.
+//! Contents of a chart: sheets, inks, and positions of its features.
 
 use glam::DVec2;
 use serde_json::{Map, Value};
 
 use crate::{ink::Ink, light::Panel};
 
-/// What there is to be found on a chart.
+/// Kind of a feature of a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The centre of a disc.
     Dot,
     /// A corner of squares.
     Corner,
-    /// A straight edge from one point to another, darker on its left hand where it is walked along.
+    /// A straight edge from one point to another, with the darker side on the left of its direction.
     Edge,
     /// The centre of a star or another figure.
     Centre,
     /// A lamp smaller than a pixel.
     Point,
-    /// The rim of a round figure, all round.
+    /// The outline of a round figure.
     Rim,
 }
 
 impl Kind {
-    /// Its name in the truth.
+    /// Name in the ground truth.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -37,16 +37,16 @@ impl Kind {
     }
 }
 
-/// Something to be found.
+/// A feature that measurements detect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
-    /// What it is.
+    /// Kind.
     pub kind: Kind,
-    /// On which panel.
+    /// Index of the panel.
     pub panel: usize,
-    /// Column and row in the chart's order, from 0 at the top left, where it has such.
+    /// Column and row in the chart's order, from 0 at the top left, if any.
     pub index: Option<[usize; 2]>,
-    /// Where: one point, the two ends of an edge, or the corners of a rim, mm.
+    /// Positions: one point, the two ends of an edge, or the corners of an outline, mm.
     pub points_mm: Vec<DVec2>,
     /// The radius of a disc, mm.
     pub radius_mm: Option<f64>,
@@ -69,32 +69,32 @@ impl Feature {
 /// An area of one ink.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// On which panel.
+    /// Index of the panel.
     pub panel: usize,
-    /// Its ink, by the place in the list.
+    /// Index of its ink in the list.
     pub ink: usize,
-    /// Its outline, mm.
+    /// Outline, mm.
     pub outline_mm: Vec<DVec2>,
 }
 
-/// A picture of reflectances, 16 bits, linear: 65 535 is 1.
+/// An image of reflectances, 16 bits, linear: 65 535 is 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The name of its file; textures of the same numbers share one.
+    /// Name of its file; textures of the same numbers share one.
     pub file: String,
-    /// On which panel.
+    /// Index of the panel.
     pub panel: usize,
-    /// Where on it the picture lies, by its top left and bottom right corners, mm; it is mirrored beyond.
+    /// Position of the image on the panel: top left and bottom right corners, mm; it is mirrored beyond.
     pub place_mm: (DVec2, DVec2),
     /// Columns.
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Row by row from the top.
+    /// Values, row by row from the top.
     pub values: Vec<u16>,
 }
 
@@ -103,39 +103,39 @@ pub struct Texture {
 pub struct Cavity {
     /// The panel with the hole.
     pub panel: usize,
-    /// Its opening, mm, clockwise as seen.
+    /// Opening, mm, clockwise as seen.
     pub opening_mm: Vec<DVec2>,
     /// Depth, mm.
     pub depth_mm: f64,
-    /// The ink of its inside.
+    /// Ink of its inside.
     pub ink: usize,
 }
 
-/// A chart, drawn.
+/// A drawn chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     /// The sheets; the first is the chart itself.
     pub panels: Vec<Panel>,
     /// The inks.
     pub inks: Vec<Ink>,
-    /// Pictures on inks.
+    /// Images used as inks.
     pub textures: Vec<Texture>,
     /// Boxes behind holes.
     pub cavities: Vec<Cavity>,
-    /// Whether even light from everywhere falls on it; otherwise it shines by itself in the dark.
+    /// True if uniform light from all directions falls on it; otherwise it is self-luminous in the dark.
     pub lit: bool,
-    /// What is to be found.
+    /// Features.
     pub features: Vec<Feature>,
     /// Areas of one ink.
     pub patches: Vec<Patch>,
-    /// Samples a pixel that serve it.
+    /// Sufficient samples per pixel.
     pub spp: u32,
-    /// Sizes and settings for the truth.
+    /// Sizes and settings for the ground truth.
     pub facts: Map<String, Value>,
 }
 
 impl Drawing {
-    /// A chart of one sheet square before the camera, in even light.
+    /// A chart of one sheet perpendicular to the camera axis, in uniform light.
     #[must_use]
     pub fn printed(panel: Panel, inks: Vec<Ink>) -> Self {
         Self {
@@ -151,13 +151,13 @@ impl Drawing {
         }
     }
 
-    /// Whether it can be printed: it is one flat sheet.
+    /// True if it can be printed: it is one flat sheet.
     #[must_use]
     pub fn is_flat(&self) -> bool {
         self.panels.len() == 1
     }
 
-    /// Notes a size or setting for the truth.
+    /// Adds a size or setting to the ground truth.
     pub fn note(&mut self, key: &str, value: impl Into<Value>) {
         self.facts.insert(key.to_owned(), value.into());
     }

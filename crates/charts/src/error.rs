@@ -1,16 +1,16 @@
-//! Why a chart cannot be made.
+//! Errors of charts.
 
-/// Why a chart cannot be made.
+/// Reason why a chart cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ChartError {
-    /// A size or number that the chart cannot have.
+    /// A size or number that is not valid for the chart.
     #[error("`{option}` {value}: {expected}")]
     Option {
-        /// The name of the option's field.
+        /// Name of the option's field.
         option: &'static str,
-        /// What was given.
+        /// Given value.
         value: String,
-        /// What is expected, and what to do.
+        /// Expected value and remedy.
         expected: String,
     },
     /// The camera does not look at a sheet in front of it.
@@ -19,7 +19,7 @@ pub enum ChartError {
 }
 
 impl ChartError {
-    /// An option with a value it cannot have.
+    /// An option with an invalid value.
     pub fn option(option: &'static str, value: impl ToString, expected: impl Into<String>) -> Self {
         Self::Option { option, value: value.to_string(), expected: expected.into() }
     }

@@ -1,7 +1,7 @@
-//! Views as a hand takes them: a little off the even steps of [`camera_stations`](crate::camera_stations).
+//! Hand-held views: small random deviations from the regular steps of [`camera_stations`](crate::camera_stations).
 //!
-//! Views in even steps meet the pixels' raster, and the mosaic of a sensor in colour, in the same places every time. A measurement over several such series
-//! repeats what the raster does to it instead of averaging it.
+//! Views in regular steps meet the pixel raster, and the mosaic of a colour sensor, at the same positions every time. A
+//! measurement over several such series repeats the raster's effect instead of averaging it.
 
 use etendue_core::maths::f64::sin_cos;
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
@@ -10,16 +10,16 @@ use rand::RngExt as _;
 
 use crate::camera_station::CameraStation;
 
-/// The camera points beside its target by up to this share of the distance, across and up.
+/// Maximum pointing error, horizontal and vertical, as a fraction of the distance.
 const ASIDE: f64 = 0.005;
-/// It stands farther away by up to this share of the distance, never nearer.
+/// Maximum increase of the distance, as a fraction; it is never reduced.
 const FARTHER: f64 = 0.02;
-/// It is rolled about its axis by up to this much, either way, degrees.
+/// Maximum roll about the axis, either way, degrees.
 const ROLL_DEG: f64 = 1.5;
 
 impl CameraStation {
-    /// The `nth` station of a series off its place as by hand, drawn by the seed: pointed aside by up to 0.5 % of its distance, across and up, up to 2 %
-    /// farther away, rolled by up to 1.5 degrees.
+    /// Returns the `nth` station of a series with random hand-held deviations from the seed: pointing off by up to 0.5 % of its
+    /// distance, horizontally and vertically, up to 2 % farther away, rolled by up to 1.5 degrees.
     #[must_use]
     pub fn hand_held(self, seed: u64, nth: u32) -> Self {
         let mut random = NoiseStream::new(seed, 0, 0, 0, Pixel { x: nth, y: 2 }, NoiseDraw::Shot);
@@ -48,7 +48,7 @@ mod tests {
             let aside = (held.target_m - station.target_m).length() / distance;
             let turn = held.up.angle_between(station.up).to_degrees();
             assert!((1.0..1.02).contains(&away) && aside > 0.0 && aside < 0.0071, "{away} {aside}");
-            // Up need not stand across the axis, so that it turns by as much at most.
+            // Up need not be perpendicular to the axis, so that the roll is at most this much.
             assert!(turn > 0.0 && turn < 1.5, "{turn}");
             assert_eq!(held, station.clone().hand_held(7, nth));
             assert!(held != station.clone().hand_held(8, nth) && held != station.hand_held(7, nth + 1));

@@ -1,4 +1,4 @@
-//! Inks: what the pieces of a sheet are printed with, and how that looks under the chart's light.
+//! Inks: materials of the pieces of a sheet, and their appearance in the chart's light.
 
 use etendue_spectra::colour::{Lab, lab, linear_srgb_from_xyz};
 use etendue_spectra::observer::{xyz, xyz_of_reflectance};
@@ -6,38 +6,38 @@ use etendue_spectra::{Spectrum, illuminant};
 
 use crate::light::Light;
 
-/// An ink and its name.
+/// A named ink.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ink {
-    /// Letters, digits and `-`: its name in the mesh, the scene and the truth.
+    /// Name in the mesh, the scene and the ground truth: letters, digits and `-`.
     pub name: String,
-    /// What it does with light.
+    /// Reflection or emission.
     pub paint: Paint,
 }
 
-/// What an ink does with light.
+/// Reflection or emission of an ink.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Paint {
-    /// Lambert's law, the same reflectance at all wavelengths, 0 … 1.
+    /// Lambertian, the same reflectance at all wavelengths, 0 … 1.
     Grey(f64),
-    /// Lambert's law with a measured reflectance.
+    /// Lambertian with a measured reflectance.
     Spectral(Spectrum),
-    /// Gives light of its own: this share of the light's luminance, in its spectrum. Reflects nothing.
+    /// Self-luminous: this fraction of the light's luminance, in its spectrum. Reflects nothing.
     Glow(f64),
-    /// The same in pulses, of which this share is the mean over time.
+    /// Self-luminous in pulses; the fraction is the mean over time.
     Pulses {
-        /// Share of the light's luminance.
+        /// Fraction of the light's luminance.
         share: f64,
-        /// How often they come, Hz.
+        /// Pulse frequency, Hz.
         frequency_hz: f64,
-        /// Share of the period that a pulse lasts.
+        /// Fraction of the period that a pulse lasts.
         duty: f64,
-        /// When the first begins, s.
+        /// Start of the first pulse, s.
         delay_s: f64,
     },
-    /// Lambert's law with the reflectances of a texture of the drawing; their mean.
+    /// Lambertian with the reflectances of a texture of the drawing, and their mean.
     Texture {
-        /// The texture's place in the drawing's list.
+        /// Index of the texture in the drawing's list.
         texture: usize,
         /// Mean reflectance.
         mean: f64,
@@ -57,8 +57,8 @@ impl Ink {
         Self::new(name, Paint::Grey(reflectance))
     }
 
-    /// Radiance of the ink as the light shows it, W·m⁻²·sr⁻¹·nm⁻¹: reflectance × that of the perfect diffuser under even light
-    /// from everywhere.
+    /// Radiance of the ink under the light, W·m⁻²·sr⁻¹·nm⁻¹: reflectance × radiance of the perfect diffuser under uniform light
+    /// from all directions.
     #[must_use]
     pub fn radiance(&self, light: &Light) -> Spectrum {
         match &self.paint {
@@ -70,13 +70,13 @@ impl Ink {
         }
     }
 
-    /// Luminance as the light shows it, cd/m².
+    /// Luminance under the light, cd/m².
     #[must_use]
     pub fn luminance_cd_m2(&self, light: &Light) -> f64 {
         xyz(&self.radiance(light))[1]
     }
 
-    /// Luminance over the perfect diffuser's: the luminous reflectance.
+    /// Luminance relative to the perfect diffuser: the luminous reflectance.
     #[must_use]
     pub fn luminous_fraction(&self, light: &Light) -> f64 {
         match &self.paint {
@@ -88,7 +88,7 @@ impl Ink {
         }
     }
 
-    /// Linear sRGB of a print of it, white 1, seen in daylight (D65), cut to what a screen can show.
+    /// Linear sRGB of its print, white 1, seen in daylight (D65), clamped to the gamut of a screen.
     #[must_use]
     pub fn print_rgb(&self) -> [f64; 3] {
         let own = match &self.paint {
@@ -101,7 +101,7 @@ impl Ink {
         own.map(|v| v.clamp(0.0, 1.0))
     }
 
-    /// CIE XYZ in the light, Y of the perfect diffuser 1.
+    /// CIE XYZ in the light, with Y = 1 for the perfect diffuser.
     #[must_use]
     pub fn xyz(&self, light: &Light) -> [f64; 3] {
         match &self.paint {
@@ -110,7 +110,7 @@ impl Ink {
         }
     }
 
-    /// CIELAB with the light itself as white.
+    /// CIELAB with the light itself as reference white.
     #[must_use]
     pub fn lab(&self, light: &Light) -> Lab {
         lab(self.xyz(light), light.white_xyz())

@@ -1,15 +1,15 @@
-//! Test charts as scene descriptions, with their truth.
+//! Test charts as scene descriptions, with ground truth.
 //!
 //! A chart is drawn ([`Chart::draw`]) on the part of a plane that a camera sees ([`Footprint`]): flat sheets whose pieces
-//! partition the plane exactly ([`shape`]), printed with inks ([`Ink`]). [`files`] makes of it the meshes, the scene, the job, the camera
-//! files, `truth.json` and a print in real millimetres.
+//! partition the plane exactly ([`shape`]), printed with inks ([`Ink`]). [`files`] creates the meshes, the scene, the job, the
+//! camera files, `truth.json` and a print in real millimetres.
 //!
-//! Sheet coordinates are mm, x to the right and y down as the camera sees the sheet, the origin in its middle. The sheet
-//! stands in the world's plane x = distance and faces the origin, where the camera stands: (x, y) mm is the point
-//! (distance, −x/1000, −y/1000) m.
+//! Sheet coordinates are mm, x to the right and y down as the camera sees the sheet, with the origin in its centre. The sheet is
+//! in the world's plane x = distance and faces the origin, where the camera is: (x, y) mm is the point (distance, −x/1000,
+//! −y/1000) m.
 //!
-//! This crate knows no lens and no sensor: a camera is a function from raster points to rays ([`RayCamera`]) and one from light to
-//! electrons ([`Meter`]), given by the caller. It reads no file and measures nothing.
+//! This crate is independent of lens and sensor models: the caller provides the camera as a function from raster points to rays
+//! ([`RayCamera`]) and one from light to electrons ([`Meter`]). It reads no file and measures nothing.
 
 mod camera_station;
 pub mod design;

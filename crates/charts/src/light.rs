@@ -1,4 +1,4 @@
-//! The light that a chart stands in, the panel (a sheet in its place in the world), and what a camera makes of it.
+//! The light of a chart, the panel (a sheet with its pose in the world), and a camera's response to light.
 
 use etendue_spectra::observer::{with_luminance, xyz_of_reflectance};
 use etendue_spectra::{Spectrum, illuminant};
@@ -6,7 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use crate::{error::ChartError, shape::Sheet};
 
-/// The light of a chart: an illuminant at a luminance, that of the perfect diffuser or of the brightest glow.
+/// The light of a chart: an illuminant at a luminance, that of the perfect diffuser or of the brightest self-luminous ink.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     name: String,
@@ -15,10 +15,10 @@ pub struct Light {
 }
 
 impl Light {
-    /// A tabulated illuminant at a luminance.
+    /// Returns a tabulated illuminant at a luminance.
     ///
     /// # Errors
-    /// Where the name is not known or the luminance not above 0.
+    /// If the name is not known or the luminance not above 0.
     pub fn named(name: &str, luminance_cd_m2: f64) -> Result<Self, ChartError> {
         let unknown =
             || ChartError::option("illuminant", name, format!("give one of {}", illuminant::names().join(", ")));
@@ -29,13 +29,13 @@ impl Light {
         Ok(Self { name: name.to_owned(), radiance: radiance.ok_or_else(error)?, luminance_cd_m2 })
     }
 
-    /// The illuminant's name.
+    /// Name of the illuminant.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its luminance, cd/m².
+    /// Luminance, cd/m².
     #[must_use]
     pub fn luminance_cd_m2(&self) -> f64 {
         self.luminance_cd_m2
@@ -47,53 +47,53 @@ impl Light {
         &self.radiance
     }
 
-    /// CIE XYZ of the perfect diffuser, Y 1.
+    /// CIE XYZ of the perfect diffuser, with Y = 1.
     #[must_use]
     pub fn white_xyz(&self) -> [f64; 3] {
         xyz_of_reflectance(&Spectrum::constant(1.0), &self.radiance)
     }
 
-    /// The spectrum, of any scale.
+    /// The spectrum, at an arbitrary scale.
     pub(crate) fn spectrum(&self) -> &Spectrum {
         &self.radiance
     }
 }
 
-/// What a camera makes of light, in the middle of its picture.
+/// A camera's response to light, at the image centre.
 pub struct Meter<'a> {
-    /// The exposure that its file describes, s.
+    /// Exposure that its file describes, s.
     pub exposure_s: f64,
-    /// The longest exposure that it allows, s.
+    /// Maximum exposure that it allows, s.
     pub longest_s: Option<f64>,
-    /// Electrons at which a pixel or its converter is full.
+    /// Electrons at which a pixel or its ADC saturates.
     pub saturation_e: f64,
-    /// Mean electrons of each channel in that exposure, by its name, for an even radiance, W·m⁻²·sr⁻¹·nm⁻¹.
+    /// Mean electrons of each channel in that exposure, by channel name, for a uniform radiance, W·m⁻²·sr⁻¹·nm⁻¹.
     pub electrons: &'a dyn Fn(&Spectrum) -> Vec<(String, f64)>,
 }
 
 impl Meter<'_> {
-    /// The greatest channel's electrons over saturation, for a radiance.
+    /// Electrons of the strongest channel relative to saturation, for a radiance.
     #[must_use]
     pub fn share(&self, radiance: &Spectrum) -> f64 {
         (self.electrons)(radiance).iter().map(|(_, e)| *e).fold(0.0, f64::max) / self.saturation_e
     }
 }
 
-/// A sheet in its place in the world.
+/// A sheet with its pose in the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// Its name, which is that of its mesh.
+    /// Name, which is that of its mesh.
     pub name: String,
-    /// What it is.
+    /// The sheet.
     pub sheet: Sheet,
-    /// Where its middle stands, m.
+    /// Position of its centre, m.
     pub position_m: DVec3,
-    /// Columns: the directions in the world of the sheet's x, of its y, and of the way behind it.
+    /// Columns: the directions in the world of the sheet's x, its y, and the direction behind it.
     pub rotation: DMat3,
 }
 
 impl Panel {
-    /// A sheet square before a camera at the origin that looks along +x.
+    /// A sheet perpendicular to the axis of a camera at the origin that looks along +x.
     #[must_use]
     pub fn facing(name: impl Into<String>, sheet: Sheet, distance_m: f64) -> Self {
         let rotation = DMat3::from_cols(DVec3::NEG_Y, DVec3::NEG_Z, DVec3::X);
@@ -106,7 +106,7 @@ impl Panel {
         self.position_m + self.local_m(point_mm)
     }
 
-    /// The same from the sheet's middle: a point of its mesh.
+    /// The same relative to the sheet's centre: a point of its mesh.
     #[must_use]
     pub fn local_m(&self, point_mm: DVec2) -> DVec3 {
         self.rotation * (point_mm / 1e3).extend(0.0)

@@ -1,4 +1,4 @@
-//! A camera as a function from raster points to rays, what it sees of a plane, and its inverse.
+//! A camera as a function from raster points to rays, its view of a plane, and the inverse function.
 
 use etendue_core::maths::f64::{cos, tan};
 use glam::{DMat2, DVec2, DVec3};
@@ -8,60 +8,60 @@ use crate::error::ChartError;
 /// The ray of a raster point, camera frame (x right, y down, z forward; m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RasterRay {
-    /// Where it begins.
+    /// Origin.
     pub origin_m: DVec3,
     /// Unit direction.
     pub direction: DVec3,
 }
 
-/// A camera: the size of its picture and the ray of each raster point (top left corner 0, 0; pixel centres at +0.5).
+/// A camera: its image size and the ray of each raster point (top left corner 0, 0; pixel centres at +0.5).
 pub struct RayCamera<'a> {
     /// Columns and rows.
     pub size_px: DVec2,
-    /// The ray of a raster point; `None` where no light comes.
+    /// The ray of a raster point; `None` if no light arrives.
     pub ray: &'a dyn Fn(DVec2) -> Option<RasterRay>,
 }
 
-/// Rays further from the axis than this are not asked to meet the sheet: it would have no end.
+/// Maximum angle of rays from the axis for the intersection with the sheet: beyond it the sheet would be unbounded.
 const WIDEST_DEG: f64 = 60.0;
-/// Points of a side at which the picture's border is followed.
+/// Points per side of the image border.
 const BORDER: usize = 32;
-/// Points of a side of the lattice from which an inversion starts.
+/// Points per side of the lattice from which an inversion starts.
 const LATTICE: usize = 24;
-/// Steps of Newton's method.
+/// Maximum steps of Newton's method.
 const STEPS: usize = 40;
 /// Newton's method ends at steps below this, px.
 const EXACT_PX: f64 = 1e-9;
 /// Step of the derivative, px.
 const STEP_PX: f64 = 1e-2;
 
-/// What a camera sees of the sheet's plane at a distance.
+/// A camera's view of the sheet's plane at a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
     /// Distance of the plane from the entrance pupil, m.
     pub distance_m: f64,
-    /// Size of the least rectangle about the sheet's middle around all that is seen, mm.
+    /// Size of the smallest rectangle about the sheet's centre that contains the whole view, mm.
     pub outer_mm: DVec2,
-    /// Size of the largest rectangle of that shape of which all is seen, mm.
+    /// Size of the largest fully visible rectangle of that shape, mm.
     pub inner_mm: DVec2,
-    /// Millimetres that a pixel in the middle of the picture covers.
+    /// Millimetres per pixel at the image centre.
     pub pixel_mm: f64,
-    /// Whether the outer rectangle covers the picture; wider cameras see beyond.
+    /// True if the outer rectangle covers the image; wider cameras see beyond it.
     pub fills: bool,
 }
 
 impl RayCamera<'_> {
-    /// What is seen of the plane square to the axis at `distance_m`.
+    /// Returns the view of the plane perpendicular to the axis at `distance_m`.
     ///
     /// # Errors
-    /// Where the camera does not look ahead in the middle of its picture.
+    /// If the camera does not look ahead at the image centre.
     pub fn footprint(&self, distance_m: f64) -> Result<Footprint, ChartError> {
         let middle = self.size_px / 2.0;
         let meets = |at: DVec2| (self.ray)(at).and_then(|ray| on_plane(&ray, distance_m));
         let ahead = |met: &(DVec2, bool)| met.1;
         let [left, right] = [-0.5, 0.5].map(|x| meets(middle + DVec2::new(x, 0.0)).filter(ahead));
         let (Some((left, _)), Some((right, _))) = (left, right) else { return Err(sideways()) };
-        // Where the border is dark, as a fisheye's, what is seen on the way to it.
+        // If the border is dark, as with a fisheye: the last visible point on the way to it.
         let inwards = |at: DVec2| {
             let on_the_way = |i: usize| meets(middle + (at - middle) * (i as f64 / BORDER as f64));
             meets(at).or_else(|| (1..BORDER).rev().find_map(on_the_way).map(|(met, _)| (met, false)))
@@ -88,8 +88,7 @@ impl RayCamera<'_> {
         points.filter_map(|point| Some((point, (self.ray)(point)?))).collect()
     }
 
-    /// Where in the raster a point of the camera frame (m) is seen, by Newton's method on the rays; `None` outside the
-    /// picture.
+    /// Position in the raster of a point of the camera frame (m), by Newton's method on the rays; `None` outside the image.
     #[must_use]
     pub fn project(&self, starts: &[(DVec2, RasterRay)], point_m: DVec3) -> Option<DVec2> {
         let near = |ray: &RasterRay| ray.direction.dot((point_m - ray.origin_m).normalize_or_zero());
@@ -113,7 +112,7 @@ impl RayCamera<'_> {
             if !step.is_finite() {
                 return None;
             }
-            // A step across the whole picture is no step of a smooth lens: half of it at most.
+            // A step across the whole image is not plausible for a smooth lens: limit it to half of it.
             let longest = self.size_px.max_element() / 2.0;
             at -= step.clamp_length_max(longest);
             at = at.clamp(DVec2::splat(-1.0), self.size_px + 1.0);
@@ -131,8 +130,8 @@ fn sideways() -> ChartError {
     ChartError::Camera(told.to_owned())
 }
 
-/// Where a ray meets the plane z = distance, m from the axis, and whether it is near enough to it; farther ones are
-/// taken at the widest angle in their direction.
+/// Intersection of a ray with the plane z = distance, m from the axis, and true if it is near enough to the axis; farther ones
+/// are clamped to the widest angle in their direction.
 fn on_plane(ray: &RasterRay, distance_m: f64) -> Option<(DVec2, bool)> {
     let widest = WIDEST_DEG.to_radians();
     let across = ray.direction.truncate();
@@ -143,8 +142,8 @@ fn on_plane(ray: &RasterRay, distance_m: f64) -> Option<(DVec2, bool)> {
     Some((distance_m * tan(widest) * across.normalize_or_zero(), false))
 }
 
-/// By how much a ray's direction misses a point: its parts across the direction in which `about` should look, over its
-/// part along it. `None` for rays that look away.
+/// Error of a ray's direction relative to a point: its components perpendicular to the direction in which `about` should look,
+/// over its component along it. `None` for rays that look away.
 fn miss(about: &RasterRay, ray: &RasterRay, point_m: DVec3) -> Option<DVec2> {
     let axis = (point_m - about.origin_m).try_normalize()?;
     let (x, y) = axis.any_orthonormal_pair();
@@ -161,7 +160,7 @@ mod tests {
 
     const SIZE: DVec2 = DVec2::new(640.0, 480.0);
 
-    /// A pinhole of 500 px with a barrel.
+    /// A pinhole of 500 px with barrel distortion.
     fn barrel(at: DVec2) -> Option<RasterRay> {
         let p = (at - SIZE / 2.0) / 500.0;
         let ideal = p * (1.0 + 0.2 * p.length_squared());
@@ -188,7 +187,7 @@ mod tests {
         let seen = ray_camera.footprint(2.0).expect("ahead");
         // The corner: p = (0.64, 0.48), r² = 0.64, ideal = 1.128 p.
         assert!((seen.outer_mm - 4000.0 * 1.128 * DVec2::new(0.64, 0.48)).length() < 1e-9, "{seen:?}");
-        // The tightest: the middle of the upper side, ideal y = 0.48 (1 + 0.2 · 0.2304).
+        // The limiting point: the middle of the upper side, ideal y = 0.48 (1 + 0.2 · 0.2304).
         let share = (1.0 + 0.2 * 0.2304) / 1.128;
         assert!((seen.inner_mm - share * seen.outer_mm).length() < 1e-9);
         assert!((seen.pixel_mm - 4.0).abs() < 1e-5 && seen.fills);

@@ -1,24 +1,23 @@
-//! Plane geometry: outlines, sheets that pieces partition, lattices of cells with figures in them.
+//! Plane geometry: outlines, sheets partitioned into pieces, lattices of cells with figures in them.
 //!
-//! All pieces lie in one plane, and neighbours share their vertices: no offsets in depth, no cracks, no textures where an
-//! edge is to be hard. Coordinates are mm, x to the right and y down; an outline's area is positive where it turns
-//! clockwise as seen.
+//! All pieces are in one plane, and neighbours share their vertices: no depth offsets, no cracks, no textures at sharp edges.
+//! Coordinates are mm, x to the right and y down; an outline's area is positive if it turns clockwise as seen.
 
 use std::f64::consts::TAU;
 
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
 
-/// What lies between a convex outline and the one within it (all of it for the innermost).
+/// The area between a convex outline and the next inner one (all of it for the innermost).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zone {
     /// The outer outline, about the figure's centre.
     pub outline: Vec<DVec2>,
-    /// One fill for all; or one for each edge of the outline: sectors.
+    /// One fill for the zone, or one for each edge of the outline (sectors).
     pub fills: Vec<Fill>,
 }
 
-/// Zones from the inside out, about a centre.
+/// Zones from the inside out, around a centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// The centre, inside of all zones.
@@ -43,7 +42,7 @@ impl Figure {
         Self { centre, zones: vec![Zone::even(outline, ink)] }
     }
 
-    /// Its pieces, and those of what is left of `cell` around it.
+    /// Returns its pieces, and those of the rest of `cell` around it.
     #[must_use]
     pub fn pieces(&self, cell: &[DVec2], ground: Fill) -> Vec<Piece> {
         let mut pieces = Vec::new();
@@ -79,11 +78,11 @@ impl Figure {
     }
 }
 
-/// Triangles that partition what lies between a convex outline and another around it, by both outlines' own corners
-/// alone. Both turn the same way about `centre`, which is inside of both.
+/// Triangles that partition the area between a convex outline and another around it, with only both outlines' own corners. Both
+/// turn the same way about `centre`, which is inside both.
 ///
-/// The corners of both are taken in the order of their angle about the centre: each step joins an edge of one outline
-/// with a corner of the other.
+/// The corners of both are visited in the order of their angle about the centre: each step joins an edge of one outline with a
+/// corner of the other.
 #[must_use]
 pub fn ring(centre: DVec2, inner: &[DVec2], outer: &[DVec2]) -> Vec<[DVec2; 3]> {
     let start = nearest(centre, inner[0], outer);
@@ -96,7 +95,7 @@ pub fn ring(centre: DVec2, inner: &[DVec2], outer: &[DVec2]) -> Vec<[DVec2; 3]> 
         let (next_a, next_b) = at(i + 1, j + 1);
         let of_inner = [next_a, a, b];
         let of_outer = [a, b, next_b];
-        // The next corner in the order of angles; where that would fold the ring, the other.
+        // The next corner in the order of angles, or the other one if that would fold the ring.
         let turn = (next_a - centre).perp_dot(next_b - centre);
         let inner_first = j == m || (i < n && turn > 0.0);
         if (inner_first && area(&of_inner) > 0.0) || j == m {
@@ -117,21 +116,21 @@ fn nearest(centre: DVec2, corner: DVec2, outer: &[DVec2]) -> usize {
     (0..outer.len()).max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(0)
 }
 
-/// What a piece is.
+/// Fill of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fill {
-    /// Printed with an ink, by its place in the drawing's list.
+    /// Printed with an ink, by its index in the drawing's list.
     Ink(usize),
-    /// Not there.
+    /// Open.
     Hole,
 }
 
 /// A convex piece of a sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// Its corners, mm, clockwise as seen.
+    /// Corners, mm, clockwise as seen.
     pub outline: Vec<DVec2>,
-    /// What it is.
+    /// Fill.
     pub fill: Fill,
 }
 
@@ -145,7 +144,7 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// A sheet without pieces yet.
+    /// A sheet without pieces.
     #[must_use]
     pub fn new(size_mm: DVec2) -> Self {
         Self { size_mm, pieces: Vec::new() }
@@ -171,7 +170,7 @@ pub fn area(outline: &[DVec2]) -> f64 {
     edges(outline).map(|(a, b)| a.perp_dot(b)).sum::<f64>() / 2.0
 }
 
-/// Centroid of the area; the mean of the corners where there is no area.
+/// Centroid of the area; the mean of the corners if the area is zero.
 #[must_use]
 pub fn centroid(outline: &[DVec2]) -> DVec2 {
     let first = outline.first().copied().unwrap_or_default();
@@ -186,7 +185,7 @@ pub fn centroid(outline: &[DVec2]) -> DVec2 {
     }
 }
 
-/// Least and greatest coordinates.
+/// Minimum and maximum coordinates.
 #[must_use]
 pub fn bounds(outline: &[DVec2]) -> (DVec2, DVec2) {
     let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -199,8 +198,8 @@ pub fn rectangle(low: DVec2, high: DVec2) -> Vec<DVec2> {
     vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
 }
 
-/// A regular polygon of `corners` corners with the area of the disc of `radius`, the first corner at `start_rad` from +x
-/// towards +y. Its outline leaves the circle by at most radius · (π/corners)²/3 on either side; its centroid is the disc's.
+/// A regular polygon of `corners` corners with the area of the disc of `radius`, the first corner at `start_rad` from +x towards
+/// +y. Its outline departs from the circle by at most radius · (π/corners)²/3 on either side; its centroid is the disc's.
 #[must_use]
 pub fn disc(centre: DVec2, radius: f64, corners: usize, start_rad: f64) -> Vec<DVec2> {
     let step = TAU / corners as f64;
@@ -208,7 +207,7 @@ pub fn disc(centre: DVec2, radius: f64, corners: usize, start_rad: f64) -> Vec<D
     (0..corners).map(|i| centre + reach * direction(start_rad + step * i as f64)).collect()
 }
 
-/// An outline turned about `centre` by `angle_rad`, clockwise as seen, and enlarged.
+/// An outline rotated about `centre` by `angle_rad`, clockwise as seen, and scaled.
 #[must_use]
 pub fn turned(outline: &[DVec2], centre: DVec2, angle_rad: f64) -> Vec<DVec2> {
     let axis = direction(angle_rad);
@@ -227,7 +226,7 @@ pub(crate) fn edges(outline: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> +
     outline.iter().copied().zip(next.copied())
 }
 
-/// What a cell of a lattice holds.
+/// Content of a lattice cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// One fill.
@@ -236,7 +235,7 @@ pub enum Cell {
     Figure(Figure, Fill),
 }
 
-/// The lines of a lattice, the sheet's borders the first and the last of them.
+/// The lines of a lattice; the first and the last are the sheet's borders.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
     xs: Vec<f64>,
@@ -244,7 +243,7 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// A lattice by its rising lines, two or more each way, mm.
+    /// A lattice by its increasing lines, two or more in each direction, mm.
     #[must_use]
     pub fn new(xs: Vec<f64>, ys: Vec<f64>) -> Self {
         let rising = |v: &[f64]| v.len() > 1 && v.windows(2).all(|w| w[0] < w[1]);
@@ -252,8 +251,8 @@ impl Lattice {
         Self { xs, ys }
     }
 
-    /// `columns` × `rows` cells of `pitch` about the origin, numbered from 1, and a margin around them, numbered 0 and last,
-    /// up to a sheet of `size` or 2 % larger than the cells.
+    /// `columns` × `rows` cells of `pitch` about the origin, numbered from 1, and a margin around them, numbered 0 and last, up to
+    /// a sheet of `size` or 2 % larger than the cells.
     #[must_use]
     pub fn framed(columns: usize, rows: usize, pitch: DVec2, size: DVec2) -> Self {
         let lines = |count: usize, pitch: f64, size: f64| {
@@ -265,7 +264,7 @@ impl Lattice {
         Self::new(lines(columns, pitch.x, size.x), lines(rows, pitch.y, size.y))
     }
 
-    /// Whether a cell of a framed lattice is none of its margin.
+    /// True if a cell of a framed lattice is not part of its margin.
     #[must_use]
     pub fn is_inside(&self, column: usize, row: usize) -> bool {
         (1..self.columns() - 1).contains(&column) && (1..self.rows() - 1).contains(&row)
@@ -290,14 +289,14 @@ impl Lattice {
         rectangle(low, DVec2::new(self.xs[column + 1], self.ys[row + 1]))
     }
 
-    /// The middle of a cell.
+    /// The centre of a cell.
     #[must_use]
     pub fn middle(&self, column: usize, row: usize) -> DVec2 {
         let mean = |lines: &[f64], i: usize| (lines[i] + lines[i + 1]) / 2.0;
         DVec2::new(mean(&self.xs, column), mean(&self.ys, row))
     }
 
-    /// The sheet, by what each cell (column, row) holds.
+    /// The sheet, from the content of each cell (column, row).
     #[must_use]
     pub fn sheet(&self, mut of: impl FnMut(usize, usize) -> Cell) -> Sheet {
         let size = DVec2::new(self.xs[self.columns()] - self.xs[0], self.ys[self.rows()] - self.ys[0]);
@@ -324,7 +323,7 @@ mod tests {
         assert_eq!(triangles.len(), inner.len() + outer.len());
         assert!(triangles.iter().all(|t| area(t) > 0.0), "{inner:?} {outer:?}");
         let sum: f64 = triangles.iter().map(|t| area(t)).sum();
-        // Triangles that all turn the right way and add up cannot overlap.
+        // Triangles that all have the right orientation and add up cannot overlap.
         assert!((sum / (area(outer) - area(inner)) - 1.0).abs() < 1e-12);
     }
 

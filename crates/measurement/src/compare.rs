@@ -1,7 +1,7 @@
-//! Two results side by side: errors A − B, of the first against the second, with their uncertainty, and pictures of both.
+//! Comparison of two results: errors A − B with their uncertainty, and images of both.
 //!
-//! Channels that carry a variance (`variance.NAME` beside `NAME`) are compared by a Z test with a family-wise
-//! significance over all channels; identities and everything without variance must be equal.
+//! Channels that carry a variance (`variance.NAME` for `NAME`) are compared by a Z test with a family-wise significance over all
+//! channels; identifiers and all channels without variance must be equal.
 
 use std::path::Path;
 
@@ -11,25 +11,25 @@ use etendue_io::{Existing, OutputFolder, inspect::Preview};
 use etendue_stats::planes::{EstimatedPlane, PlaneTest, Verdict, compare as compare_planes};
 use etendue_stats::{ErrorSummary, chi_square::sidak_level};
 
-/// What is found of one channel.
+/// Comparison of one channel.
 #[derive(Clone, Debug)]
 pub struct ChannelComparison {
-    /// The channel's name.
+    /// Channel name.
     pub name: String,
-    /// Errors A − B of A against the reference B; `None` for identities.
+    /// Errors A − B relative to the reference B; `None` for identifiers.
     pub errors: Option<ErrorSummary>,
     /// Samples that are not equal bit for bit.
     pub unequal: usize,
-    /// Samples that are not finite (NaN or infinite), in A, in B or in both: they are not in the errors. In a channel with variance those
-    /// whose variance is not finite, or below zero, are among them, and the test says that the channels differ where there is one. 0 for
-    /// identities.
+    /// Samples that are not finite (NaN or infinite) in A, in B or in both; excluded from the errors. In a channel with variance
+    /// they include samples whose variance is not finite or below zero; the test then reports a difference if there is any. 0 for
+    /// identifiers.
     pub not_finite: usize,
     /// The Z test, for channels with variance.
     pub test: Option<PlaneTest>,
 }
 
 impl ChannelComparison {
-    /// Whether the channels differ: by the test where there is one, otherwise where a sample is not equal.
+    /// True if the channels differ: by the test if there is one, otherwise if any sample differs.
     #[must_use]
     pub fn differs(&self) -> bool {
         self.test.map_or(self.unequal > 0, |test| test.verdict == Verdict::Differ)
@@ -44,7 +44,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Whether any channel differs.
+    /// True if any channel differs.
     #[must_use]
     pub fn differs(&self) -> bool {
         self.channels.iter().any(ChannelComparison::differs)
@@ -53,7 +53,7 @@ impl Comparison {
     /// Writes `a.png`, `b.png` and `difference.png` (|a − b|) of the channel that differs most into a folder.
     ///
     /// # Errors
-    /// Where the folder cannot be written.
+    /// If the folder cannot be written.
     pub fn save_pictures(&self, folder: &Path) -> Result<(), Error> {
         write(&self.pair, folder)
     }
@@ -63,7 +63,7 @@ impl Comparison {
 /// below 1.
 ///
 /// # Errors
-/// Where a file cannot be read, or they differ in size or channels.
+/// If a file cannot be read, or the files differ in size or channels.
 pub fn compare(a: &Path, b: &Path, significance: f64) -> Result<Comparison, Error> {
     if !(significance > 0.0 && significance < 1.0) {
         let message = format!("`significance` {significance}: expected a probability between 0 and 1");
@@ -102,7 +102,7 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparis
                 };
             let alike = pair.origin.0.alike.max(pair.origin.1.alike);
             let errors = ErrorSummary::of(a, b).map(|errors| errors.shared_by(alike));
-            // No errors at all: no sample is finite in both.
+            // No errors: no sample is finite in both.
             let without_errors = errors.map_or(a.len(), |errors| errors.not_finite);
             let not_finite = test.map_or(without_errors, |test| test.not_finite);
             Ok(ChannelComparison { name, errors, unequal, not_finite, test })
@@ -136,7 +136,7 @@ fn worst(pair: &Pair) -> Option<(Vec<f32>, Vec<f32>)> {
     numbers.max_by(|x, y| distance(&x.0, &x.1).total_cmp(&distance(&y.0, &y.1)))
 }
 
-/// Sum of |a − b| over the sum of |a| + |b|, of what is finite.
+/// Sum of |a − b| over the sum of |a| + |b|, over finite samples.
 fn distance(a: &[f32], b: &[f32]) -> f64 {
     let pairs = || a.iter().zip(b).filter(|(a, b)| a.is_finite() && b.is_finite());
     let size: f64 = pairs().map(|(a, b)| f64::from(a.abs()) + f64::from(b.abs())).sum();

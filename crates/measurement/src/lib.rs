@@ -1,5 +1,5 @@
-//! Images to parameters of cameras with their uncertainty: single measurements, the characterisation of a laboratory folder, the comparison of two
-//! results; their reports, plots and pages.
+//! From images to camera parameters with uncertainty: single measurements, characterisation from a laboratory folder, comparison
+//! of two results; their reports, plots and pages.
 
 pub mod characterise;
 mod compare;

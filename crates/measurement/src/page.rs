@@ -1,4 +1,4 @@
-//! Pages that a browser opens from the file system: the look that results and reports share, and the report of a measurement.
+//! Pages that a browser opens from the file system: the common style of reports and results, and the report of a measurement.
 
 use std::fmt::Write as _;
 
@@ -8,13 +8,13 @@ use serde_json::Value;
 use crate::plot::svg;
 use crate::report::{Cell, Report, Table};
 
-/// The look that all pages share: colours, light or dark as the system asks for, text and tables.
+/// Style of all pages: colours (light or dark by the system setting), text and tables.
 pub const PAGE_STYLE: &str = include_str!("page/style.css");
 
-/// What a page of this program has near its beginning.
+/// Marker near the beginning of every page of this program.
 pub const PAGE_GENERATOR: &str = "<meta name=\"generator\" content=\"etendue ";
 
-/// A page: its head, and what stands in the body. Nothing of `style`, which comes after [`PAGE_STYLE`], and of `body` is escaped.
+/// A page from its title, style and body. Neither `style`, which follows [`PAGE_STYLE`], nor `body` is escaped.
 #[must_use]
 pub fn html_page(title: &str, style: &str, body: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
@@ -26,12 +26,12 @@ pub fn html_page(title: &str, style: &str, body: &str) -> String {
     )
 }
 
-/// The look of reports.
+/// Style of reports.
 pub(crate) const REPORT_STYLE: &str = include_str!("page/report.css");
-/// Rows of a table on the page; JSON has all of them.
+/// Maximum rows of a table on the page; JSON has all of them.
 const MAX_ROWS: usize = 500;
 
-/// The page of a report, in the look of the pages of results.
+/// The page of a report, in the style of the pages of results.
 #[must_use]
 pub fn report_page(report: &Report) -> String {
     let section = |title: &str, inside: String| match inside.as_str() {
@@ -57,14 +57,14 @@ pub(crate) fn details(report: &Report) -> String {
     format!("{}{}{tables}", settings(report), figures(report))
 }
 
-/// Every plot of a report; empty where there is none.
+/// All plots of a report; empty if none.
 pub(crate) fn curves(report: &Report) -> String {
     let figures: String =
         report.plots().iter().map(|plot| format!("<figure>{}</figure>\n", svg(std::slice::from_ref(plot)))).collect();
     if figures.is_empty() { figures } else { format!("<div class=\"plots\">\n{figures}</div>\n") }
 }
 
-/// The notes of a report as a list; empty where there is none.
+/// The notes of a report as a list; empty if none.
 pub(crate) fn notes(report: &Report) -> String {
     let notes: String = report.notes().iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
     if notes.is_empty() { notes } else { format!("<ul>\n{notes}</ul>\n") }
@@ -74,7 +74,7 @@ fn heading(table: &Table) -> String {
     table.key.replace('_', " ")
 }
 
-/// What was chosen, and how light was found from the numbers of the pictures.
+/// Settings, and the conversion from the images' numbers to light.
 fn settings(report: &Report) -> String {
     let told = report.json();
     let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
@@ -130,7 +130,7 @@ fn cell(cell: &Cell) -> String {
     format!("<td{}>{}</td>", class(cell), escaped(&cell.text()))
 }
 
-/// Numbers stand to the right.
+/// Aligns numbers to the right.
 fn class(cell: &Cell) -> &'static str {
     if matches!(cell, Cell::Text(_) | Cell::Nothing) { "" } else { " class=\"number\"" }
 }

@@ -1,4 +1,4 @@
-//! What a measurement found: numbers with unit and standard uncertainty, tables, curves and notes; as text, JSON and plots.
+//! Results of a measurement: numbers with unit and standard uncertainty, tables, curves and notes; as text, JSON and plots.
 
 use std::fmt;
 
@@ -14,45 +14,45 @@ pub use etendue_metrology::Estimate;
 /// One number of a report.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// Its name in JSON, with its unit.
+    /// Name in JSON, with its unit.
     pub key: String,
-    /// Its name for people.
+    /// Human-readable name.
     pub label: String,
-    /// Its unit; empty where it has none.
+    /// Unit; empty if dimensionless.
     pub unit: &'static str,
-    /// The value with its standard uncertainty.
+    /// Value with its standard uncertainty.
     pub value: Estimate,
-    /// Whether the value's uncertainty is known: not of counts and of what describes the measurement itself.
+    /// True if the value's uncertainty is known: false for counts and properties of the measurement itself.
     pub stated: bool,
 }
 
 /// A cell of a table.
 #[derive(Clone, Debug)]
 pub enum Cell {
-    /// A number to some decimals.
+    /// A number with a number of decimals.
     Number(f64, usize),
     /// A number with its standard uncertainty.
     Estimate(Estimate),
-    /// Numbers in a row, to some decimals.
+    /// A list of numbers, with a number of decimals.
     List(Vec<f64>, usize),
-    /// A word.
+    /// Text.
     Text(String),
-    /// Nothing known.
+    /// Unknown.
     Nothing,
 }
 
 /// A table: column keys with headings, and rows of cells.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// Its name in JSON.
+    /// Name in JSON.
     pub key: &'static str,
-    /// Of each column its name in JSON and its heading.
+    /// Name in JSON and heading of each column.
     pub columns: Vec<(&'static str, &'static str)>,
-    /// Rows of as many cells as there are columns.
+    /// Rows with one cell per column.
     pub rows: Vec<Vec<Cell>>,
 }
 
-/// A measurement's results.
+/// Results of a measurement.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     kind: &'static str,
@@ -63,10 +63,10 @@ pub struct Report {
     notes: Vec<String>,
     plots: Vec<Plot>,
     camera: Option<String>,
-    /// Tables of JSON alone.
+    /// Tables that appear in JSON only.
     data: Vec<Table>,
     covariances: Vec<Covariance>,
-    /// How light was found from the numbers of the pictures, each way once.
+    /// Conversions from the images' numbers to light, without repetitions.
     encodings: Vec<Stated>,
 }
 
@@ -80,25 +80,25 @@ pub struct Covariance {
 }
 
 impl Report {
-    /// What was measured, as the command line names it.
+    /// Name of the measurement on the command line.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         self.kind
     }
 
-    /// By which method or standard.
+    /// Method or standard.
     #[must_use]
     pub fn method(&self) -> &'static str {
         self.method
     }
 
-    /// The numbers that were found.
+    /// The measured numbers.
     #[must_use]
     pub fn figures(&self) -> &[Figure] {
         &self.figures
     }
 
-    /// The number of a key; `None` where the measurement does not know it.
+    /// The number of a key; `None` if the measurement does not have it.
     #[must_use]
     pub fn value(&self, key: &str) -> Option<Estimate> {
         self.figures.iter().find(|figure| figure.key == key).map(|figure| figure.value)
@@ -109,7 +109,7 @@ impl Report {
         self.tables.iter().chain(&self.data)
     }
 
-    /// What a user should know of the result.
+    /// Notes on the result for the user.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
@@ -123,7 +123,7 @@ impl Report {
         self.push(key, label, unit, value, true);
     }
 
-    /// A number whose uncertainty is not stated: a count, or what describes the measurement itself.
+    /// Adds a number without a stated uncertainty: a count, or a property of the measurement itself.
     pub(crate) fn fact(&mut self, key: &str, label: &str, unit: &'static str, value: f64) {
         self.push(key, label, unit, Estimate::new(value, 0.0), false);
     }
@@ -132,12 +132,12 @@ impl Report {
         self.figures.push(Figure { key: key.to_owned(), label: label.to_owned(), unit, value, stated });
     }
 
-    /// What was chosen and decides what figures mean, such as the camera model.
+    /// Adds a choice that decides the meaning of figures, such as the camera model.
     pub(crate) fn setting(&mut self, key: &'static str, value: String) {
         self.settings.push((key, value));
     }
 
-    /// How light was found from a picture's numbers.
+    /// Adds the conversion from an image's numbers to light.
     pub(crate) fn encoding(&mut self, stated: &Stated) {
         if !self.encodings.contains(stated) {
             self.encodings.push(stated.clone());
@@ -148,7 +148,7 @@ impl Report {
         self.tables.push(table);
     }
 
-    /// A table of many rows: in JSON always, in the text where it is asked for.
+    /// Adds a table of many rows: always in JSON, in the text if requested.
     pub(crate) fn table_if(&mut self, shown: bool, table: Table) {
         if shown { self.tables.push(table) } else { self.data.push(table) }
     }
@@ -161,13 +161,13 @@ impl Report {
         self.notes.push(note.into());
     }
 
-    /// What was found as keys of a camera file; `None` where it was not asked for, or the measurement has none.
+    /// Results as keys of a camera file; `None` if not requested, or if the measurement has none.
     #[must_use]
     pub fn camera_keys(&self) -> Option<&str> {
         self.camera.as_deref()
     }
 
-    /// What a camera file says of what was found.
+    /// Sets the results as keys of a camera file.
     pub(crate) fn camera(&mut self, text: String) {
         self.camera = Some(text);
     }
@@ -176,21 +176,21 @@ impl Report {
         self.plots.push(plot);
     }
 
-    /// Whether it has curves to draw.
+    /// True if there are curves to draw.
     #[must_use]
     pub fn has_plots(&self) -> bool {
         !self.plots.is_empty()
     }
 
-    /// Its curves.
+    /// Curves of the report.
     pub(crate) fn plots(&self) -> &[Plot] {
         &self.plots
     }
 
-    /// Its plots as one SVG.
+    /// All plots as one SVG.
     ///
     /// # Errors
-    /// Where the measurement has no curve to draw.
+    /// If the measurement has no curve to draw.
     pub fn svg(&self) -> Result<String, Error> {
         if self.plots.is_empty() {
             return Err(
@@ -200,7 +200,7 @@ impl Report {
         Ok(svg(&self.plots))
     }
 
-    /// The report as JSON; what is unknown or not finite is null.
+    /// The report as JSON; unknown or non-finite values are null.
     #[must_use]
     pub fn json(&self) -> Value {
         let figure = |f: &Figure| {
@@ -240,7 +240,7 @@ impl serde::Serialize for Report {
 }
 
 impl fmt::Display for Report {
-    /// A table for people.
+    /// A readable table.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text())
     }
@@ -303,7 +303,7 @@ impl Cell {
         }
     }
 
-    /// The cell as text, numbers to the digits that they are known by.
+    /// The cell as text, with the significant digits of its numbers.
     #[must_use]
     pub fn text(&self) -> String {
         match self {
@@ -321,7 +321,7 @@ impl Cell {
     }
 }
 
-/// JSON knows no infinity.
+/// JSON cannot express infinity.
 pub(crate) fn finite(x: f64) -> Value {
     if x.is_finite() { (x + 0.0).into() } else { Value::Null }
 }
@@ -350,7 +350,7 @@ pub(crate) fn with_uncertainty(e: Estimate) -> String {
     format!("{} ± {}", fixed(value, decimals), fixed(u, decimals))
 }
 
-/// A number to some decimals; what rounds to nothing has no sign.
+/// A number with this many decimals; a value that rounds to zero has no sign.
 pub(crate) fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{x:.decimals$}");
     match text.strip_prefix('-') {
@@ -359,7 +359,7 @@ pub(crate) fn fixed(x: f64, decimals: usize) -> String {
     }
 }
 
-/// A number to so many digits.
+/// A number with this many digits.
 fn digits(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();

@@ -1,15 +1,16 @@
 //! Lateral chromatic displacement after ISO 19084:2015.
 //!
-//! The points of a chart are found in each channel by itself; the displacement of a point is where red, or blue, shows it less
-//! where green does (vector, px). Its radial part (positive: farther from the centre than green) and its tangential part
-//! (positive: turned from x towards y) are taken about the picture's centre. Points belong together where they are nearest,
-//! within half a step. By rings of a tenth of the half diagonal: the means, with their standard uncertainty from the scatter
-//! within the ring of what a shift and another scale of the whole channel leave, or from the points' own uncertainties where that is
-//! more. The mean of all points is the channel's shift as a whole, which rings about the centre do not show; of a chart that lies evenly
-//! about the centre, a difference in scale is not in it.
-//! The largest displacement is the longest of many lengths, noise and all: longer than the truth, and no uncertainty is stated.
+//! The points of a chart are detected in each channel separately. The displacement of a point is its position in red, or blue,
+//! less its position in green (vector, px). It has a radial part (positive: farther from the centre than green) and a tangential
+//! part (positive: turned from x towards y) about the image centre. Points are matched to the nearest within half a step.
 //!
-//! Discs' shifts by perspective are the same in all channels to second order, and not taken off.
+//! Means are taken over rings of a tenth of the half diagonal. Their standard uncertainty is the larger of two: the scatter
+//! within the ring after a shift and a scale of the whole channel are removed, or the points' own uncertainties. The mean of all
+//! points is the channel's overall shift, which rings about the centre do not show; for a chart that is symmetric about the
+//! centre, it is independent of a difference in scale. The largest displacement is the maximum of many noisy lengths, hence
+//! biased upwards, and has no stated uncertainty.
+//!
+//! Perspective shifts of disc centroids are equal in all channels to second order, and not corrected.
 
 use glam::DVec2;
 
@@ -18,15 +19,15 @@ use crate::{Estimate, target::Grid};
 /// The displacement at a point of the chart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Displacement {
-    /// Where green shows it, px.
+    /// Position in green, px.
     pub at: DVec2,
-    /// The other channel less green, px.
+    /// Position in the other channel less that in green, px.
     pub by: DVec2,
-    /// The direction from the picture's centre to it.
+    /// Direction from the image centre to the point.
     pub outwards: DVec2,
-    /// The radial part, px.
+    /// Radial part, px.
     pub radial: f64,
-    /// The tangential part, px.
+    /// Tangential part, px.
     pub tangential: f64,
     /// Distance from the centre, in half diagonals.
     pub field: f64,
@@ -34,7 +35,7 @@ pub struct Displacement {
     pub uncertainty_px: f64,
 }
 
-/// The mean over a ring.
+/// Means over a ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
     /// Mean field of its points, in half diagonals.
@@ -47,7 +48,7 @@ pub struct Ring {
     pub points: usize,
 }
 
-/// Displacements of a channel against green, about a picture's middle.
+/// Displacements of a channel relative to green, about the image centre.
 #[must_use]
 pub fn displacements(green: &Grid, other: &Grid, size_px: [usize; 2]) -> Vec<Displacement> {
     let size = DVec2::new(size_px[0] as f64, size_px[1] as f64);
@@ -71,14 +72,14 @@ pub fn displacements(green: &Grid, other: &Grid, size_px: [usize; 2]) -> Vec<Dis
     green.nodes.iter().filter_map(at).collect()
 }
 
-/// The length of the shortest step to a neighbour, px.
+/// Length of the shortest step to a neighbour, px.
 fn step(grid: &Grid, node: &crate::target::Node) -> Option<f64> {
     let [i, j] = node.index;
     let beside = [[i + 1, j], [i.wrapping_sub(1), j], [i, j + 1], [i, j.wrapping_sub(1)]];
     beside.iter().filter_map(|index| Some((grid.node(*index)?.at - node.at).length())).min_by(f64::total_cmp)
 }
 
-/// Rings of a tenth of the half diagonal that hold at least three points.
+/// Rings of a tenth of the half diagonal with at least three points.
 #[must_use]
 pub fn rings(displacements: &[Displacement]) -> Vec<Ring> {
     const RINGS: i32 = 10;
@@ -97,7 +98,7 @@ pub fn rings(displacements: &[Displacement]) -> Vec<Ring> {
     (0..RINGS).filter_map(ring).collect()
 }
 
-/// The mean displacement along x and along y, px; `None` of fewer than three points.
+/// The mean displacement along x and along y, px; `None` for fewer than three points.
 #[must_use]
 pub fn shift(displacements: &[Displacement]) -> Option<[Estimate; 2]> {
     let (points, rest) = (displacements.iter().collect::<Vec<_>>(), rest(displacements));
@@ -105,7 +106,7 @@ pub fn shift(displacements: &[Displacement]) -> Option<[Estimate; 2]> {
     (points.len() >= 3).then(|| [mean(&points, &rest, |d| d.by.x), mean(&points, &rest, |d| d.by.y)])
 }
 
-/// Displacements less what a shift and another scale make of them (least squares): what scatters from point to point.
+/// Displacements less their least-squares fit of a shift and a scale: the scatter from point to point.
 fn rest(displacements: &[Displacement]) -> Vec<Displacement> {
     let count = displacements.len().max(1) as f64;
     let mean = |of: fn(&Displacement) -> DVec2| displacements.iter().map(of).sum::<DVec2>() / count;
@@ -119,8 +120,8 @@ fn rest(displacements: &[Displacement]) -> Vec<Displacement> {
     displacements.iter().map(less).collect()
 }
 
-/// Of a part of the displacements: its mean, by the scatter of what is left of them or by the points' own uncertainties, whichever
-/// is more.
+/// Mean of a part of the displacements, with the larger of two uncertainties: the scatter of the residuals or the points' own
+/// uncertainties.
 fn mean(points: &[&Displacement], rest: &[&Displacement], part: fn(&Displacement) -> f64) -> Estimate {
     let count = points.len() as f64;
     let own = points.iter().map(|d| d.uncertainty_px * d.uncertainty_px).sum::<f64>() / count;

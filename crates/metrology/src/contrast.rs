@@ -1,17 +1,17 @@
-//! Contrast detection: how surely a camera shows a contrast of the scene.
+//! Contrast detection: the probability that a camera reproduces a contrast of the scene.
 //!
-//! After the IEEE P2020 white paper (2018) and the abstracts on its later working draft. Weber contrast of two patches of readings x
-//! and y is K = y/x − 1. With K the scene's contrast and K_m that of a pair of pixels, one of each patch:
+//! After the IEEE P2020 white paper (2018) and the abstracts on its later working draft. Weber contrast of two patches of
+//! readings x and y is K = y/x − 1. With K the scene's contrast and K_m that of a pair of pixels, one of each patch:
 //!
 //! ```text
 //! CDP = P(K (1 − ε) ≤ K_m ≤ K (1 + ε))          ε = 0.5 in the white paper
 //! P(K_m ≤ k) = Φ(((1 + k) μ_x − μ_y)/√(σ_y² + (1 + k)² σ_x²))       ratio of two Gaussians, x > 0
-//! CTA = ⟨K_m⟩/K with ⟨K_m⟩ = μ_y/μ_x − 1        contrast transfer accuracy: 1 where contrast is kept (our reading)
+//! CTA = ⟨K_m⟩/K with ⟨K_m⟩ = μ_y/μ_x − 1        contrast transfer accuracy: 1 if the contrast is preserved (our interpretation)
 //! CSNR = (μ_y − μ_x)/√(σ_x² + σ_y²)
 //! ```
 //!
-//! Means and variances of patches replace all pairs of pixels (an error below 0.04 where readings are near Gaussian and positive).
-//! Uncertainty: of means and of variances ([`patch_statistics`](crate::patch_statistics)), propagated.
+//! Means and variances of patches replace all pairs of pixels (an error below 0.04 for readings that are nearly Gaussian and
+//! positive). Uncertainty: propagated from those of means and variances ([`patch_statistics`](crate::patch_statistics)).
 
 use etendue_core::maths::f64::hypot;
 use etendue_stats::normal;
@@ -32,29 +32,29 @@ pub struct ContrastPair {
     pub contrast_snr: Estimate,
 }
 
-/// How contrasts are measured.
+/// Settings of a contrast measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContrastSettings {
-    /// Reading of no light.
+    /// Reading without light.
     pub black: f64,
     /// Reading of a saturated pixel.
     pub full_scale: Option<f64>,
-    /// How much a measured contrast may differ from the scene's, ε.
+    /// Maximum relative deviation of a measured contrast from the scene's, ε.
     pub share: f64,
-    /// Side of the blocks of pixels in which errors are alike, px; 1: in none.
+    /// Side of the blocks of pixels with equal errors, px; 1: none.
     pub shared_px: usize,
 }
 
-/// Why a contrast cannot be measured.
+/// Reason why a contrast cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ContrastError {
     /// A patch of fewer than four pixels.
     #[error("a contrast needs patches of at least four pixels each")]
     TooSmall,
-    /// The scene's contrast is zero or no number.
+    /// The scene's contrast is zero or not a number.
     #[error("the scene's contrast must be a number above 0, not {0}: name the darker patch first")]
     Contrast(f64),
-    /// The share is outside 0 to 1.
+    /// The tolerance is outside 0 to 1.
     #[error("the tolerated share must lie above 0 and at most 1, not {0}")]
     Share(f64),
     /// A patch is clipped.
@@ -62,10 +62,10 @@ pub enum ContrastError {
         "{percent:.1} % of a patch is saturated, which lowers its contrast and its noise: expose less, or leave it out"
     )]
     Saturated {
-        /// Share of pixels.
+        /// Percentage of clipped pixels.
         percent: f64,
     },
-    /// The patches are mixed up.
+    /// The patches are in the wrong order.
     #[error("the brighter patch reads less than the darker one, or is the same: name the darker patch first")]
     Order,
     /// The darker patch has no light.
@@ -73,10 +73,10 @@ pub enum ContrastError {
     Dark,
 }
 
-/// The contrast of a darker and a brighter patch against the scene's.
+/// Measures the contrast of a darker and a brighter patch against the scene's.
 ///
 /// # Errors
-/// Where patches are too small or dark, or the scene's contrast or the share make no sense.
+/// If patches are too small or dark, or the scene's contrast or the tolerance is invalid.
 pub fn measure_contrast(
     darker: &Image,
     brighter: &Image,
@@ -121,13 +121,13 @@ pub fn detection_probability(darker: [f64; 2], brighter: [f64; 2], scene_contras
         let ratio = 1.0 + contrast;
         let spread = (brighter[1] + ratio * ratio * darker[1]).max(0.0).sqrt();
         let distance = ratio * darker[0] - brighter[0];
-        // Without noise the probability is a step.
+        // Without noise the probability is a step function.
         if spread > 0.0 { normal::cdf(distance / spread) } else { f64::from(u8::from(distance >= 0.0)) }
     };
     below(scene_contrast * (1.0 + share)) - below(scene_contrast * (1.0 - share))
 }
 
-/// Mean less black, and variance.
+/// Mean less black, and variance, of a patch.
 fn moments(patch: &Image, black: f64, shared_px: usize) -> [Estimate; 2] {
     let patch = patch_statistics(patch, shared_px);
     [Estimate::new(patch.mean.value - black, patch.mean.standard_uncertainty), patch.variance]
@@ -141,14 +141,14 @@ mod tests {
 
     #[test]
     fn known_probabilities() {
-        // Check values by simulation, to their third digit.
+        // Reference values by simulation, to their third digit.
         let cdp = |s: f64, t: f64| detection_probability([1000.0, s * s], [1500.0, t * t], 0.5, 0.5);
         assert!((cdp(60.0, 75.0) - 0.964).abs() < 1e-3, "{}", cdp(60.0, 75.0));
         assert!((cdp(300.0, 360.0) - 0.338).abs() < 1e-3, "{}", cdp(300.0, 360.0));
         assert_eq!(cdp(0.0, 0.0), 1.0);
     }
 
-    /// All pairs of pixels counted, against means and variances.
+    /// Counting all pairs of pixels agrees with the result from means and variances.
     #[test]
     fn counting_pairs_agrees() {
         let patch = |mean: f64, sigma: f64, frame: u32| {

@@ -1,12 +1,13 @@
-//! How often stated intervals cover the truth.
+//! Coverage of stated intervals: the fraction that contains the true value.
 //!
-//! A quantity is measured from 200 seeds; its 95 % interval, value ± 1.96 standard uncertainties, must hold the truth in 90 to 99 % of
-//! them, 180 to 198: a fair 95 % leaves that range once in 600 tries (binomial; 1.2·10⁻³ below, 0.4·10⁻³ above). docs/coverage.md is the table.
+//! A quantity is measured with 200 seeds. Its 95 % interval, value ± 1.96 standard uncertainties, must contain the true value in
+//! 90 to 99 % of them, 180 to 198: a correct 95 % interval leaves that range once in 600 tries (binomial; 1.2·10⁻³ below,
+//! 0.4·10⁻³ above). docs/coverage.md is the table.
 //!
-//! `ETENDUE_BLESS=1` writes the table anew and `ETENDUE_WHOLE=1` compares it with 200 seeds; a count that differs by more than three is an
-//! error. Otherwise the first 50 seeds alone are measured, and the root mean square of their errors in standard uncertainties must be the
-//! table's within 3 %. That is the finer test: uncertainties that are too small by a tenth change it by a tenth, but the count of 200 by
-//! some six.
+//! `ETENDUE_BLESS=1` rewrites the table and `ETENDUE_WHOLE=1` compares it with 200 seeds; a count that differs by more than three
+//! is an error. Otherwise only the first 50 seeds are measured, and the root mean square of their errors in standard
+//! uncertainties must agree with the table within 3 %. That test is more sensitive: uncertainties that are too small by a tenth
+//! change it by a tenth, but the count of 200 by about six.
 
 use std::{path::PathBuf, sync::Mutex};
 
@@ -14,32 +15,32 @@ use rayon::prelude::*;
 
 use crate::Estimate;
 
-/// Seeds of every quantity.
+/// Seeds per quantity.
 const SEEDS: u64 = 200;
-/// How many of them may be covered.
+/// Allowed number of covered seeds.
 const FAIR: core::ops::RangeInclusive<usize> = 180..=198;
-/// Counts that moved by no more than this are those of the table.
+/// Maximum difference of a count from the table.
 const MOVED: usize = 3;
-/// Seeds that every run of the tests measures.
+/// Seeds that every test run measures.
 const FEW_SEEDS: usize = 50;
-/// The greatest relative difference of their root mean square error from the table's.
+/// Maximum relative difference of their root mean square error from the table's.
 const SPREAD_TOLERANCE: f64 = 0.03;
-/// Tests of one run write the table one after another.
+/// Serialises the tests of one run that write the table.
 static WRITING: Mutex<()> = Mutex::new(());
 
-/// A quantity of one seed: its name, what was measured, the truth.
+/// A quantity for one seed: its name, the measured estimate, the true value.
 pub(crate) type Run = Vec<(&'static str, Estimate, f64)>;
 
-/// What is known of a quantity.
+/// Coverage of a quantity.
 struct Coverage {
     quantity: &'static str,
-    /// Seeds whose interval holds the truth.
+    /// Seeds whose interval contains the true value.
     covered: usize,
     /// Root mean square of the errors of the first 50 seeds, in standard uncertainties.
     spread: f64,
 }
 
-/// The intervals of every quantity must cover the truth as the table says.
+/// Asserts that the intervals of every quantity cover the true value as the table states.
 #[track_caller]
 pub(crate) fn covers(measurement: &str, measured: impl Fn(u64) -> Run + Send + Sync) {
     let is_whole = is_set("ETENDUE_BLESS") || is_set("ETENDUE_WHOLE");
@@ -75,7 +76,7 @@ fn coverage(runs: &[Run], k: usize) -> Coverage {
     Coverage { quantity, covered, spread: (squares / FEW_SEEDS as f64).sqrt() }
 }
 
-/// The head of a quantity's row.
+/// The beginning of a quantity's row.
 fn head(measurement: &str, quantity: &str) -> String {
     format!("| {measurement} | {quantity} | ")
 }
@@ -100,7 +101,7 @@ fn compare(page: &str, measurement: &str, quantities: &[Coverage], is_whole: boo
     }
 }
 
-/// The page with the rows of a measurement made anew.
+/// The page with regenerated rows of a measurement.
 fn with_rows(page: &str, measurement: &str, quantities: &[Coverage]) -> String {
     let own = format!("| {measurement} | ");
     let mut rows: Vec<String> =

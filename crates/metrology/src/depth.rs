@@ -1,22 +1,22 @@
-//! How good an estimated depth picture is against the truth.
+//! Accuracy of an estimated depth image against ground truth.
 //!
-//! With error e = d̂ − d over pixels whose truth is finite and above 0, by range of d and over all:
+//! With error e = d̂ − d over pixels whose true depth is finite and above 0, by range of d and over all:
 //!
 //! ```text
 //! bias ⟨e⟩    MAE ⟨|e|⟩    RMSE √⟨e²⟩    ⟨|e|/d⟩    ⟨e²/d⟩    of logarithms √⟨l²⟩, l = ln d̂ − ln d
-//! SILog √(⟨l²⟩ − ⟨l⟩²): what no common factor takes away          (Eigen, Puhrsch & Fergus 2014)
-//! δ_k: share of max(d̂/d, d/d̂) < 1.25^k                          (the same)
+//! SILog √(⟨l²⟩ − ⟨l⟩²): independent of a common factor          (Eigen, Puhrsch & Fergus 2014)
+//! δ_k: fraction with max(d̂/d, d/d̂) < 1.25^k                      (the same)
 //! iRMSE √⟨(1/d̂ − 1/d)²⟩                                          (KITTI's depth completion: Uhrig et al. 2017)
-//! outliers: |e| > d · share and |e| > least
+//! outliers: |e| > d · ratio and |e| > least
 //! D1: |D̂ − D| > 3 px and > 5 %; EPE ⟨|D̂ − D|⟩, D = B f/d          (KITTI 2015: Menze & Geiger; with a stereo rig's B f)
 //! ```
 //!
-//! Pixels at edges of the truth (where a neighbour within `edge_px` differs by more than `edge_ratio` of the depth, or is infinitely far)
-//! are told apart: a pixel sees two depths there, and neither estimate nor truth has one. Truth that is NaN or not above 0 is
-//! not known, and makes no edge (sparse truth); infinite truth is sky. Estimates that are NaN, infinite or not above 0 are
-//! missing: counted, and in no error. Networks that know depth but for a factor are scaled first, by the median of d/d̂ over the pixels
-//! away from edges ([`Alignment::Median`]). Uncertainty: errors of neighbours belong together, so that all means are taken from
-//! blocks of 16 × 16 pixels as if these were independent.
+//! Pixels at edges of the true depth (a neighbour within `edge_px` differs by more than `edge_ratio` of the depth, or is
+//! infinitely far) are reported separately: such a pixel contains two depths, and its depth is ambiguous. True depth that is NaN
+//! or not above 0 is unknown, and makes no edge (sparse ground truth); infinite depth is sky. Estimates that are NaN, infinite or
+//! not above 0 are missing: counted, but excluded from the errors. Networks that estimate depth up to a factor are scaled first,
+//! by the median of d/d̂ over the pixels away from edges ([`Alignment::Median`]). Uncertainty: as errors of neighbours are
+//! correlated, all means are taken over blocks of 16 × 16 pixels, which are treated as independent.
 
 #[cfg(test)]
 mod tests;
@@ -26,10 +26,10 @@ use etendue_stats::{Moments, upper_median};
 
 use crate::{Estimate, Image};
 
-/// Judges an estimate against the truth, both in m.
+/// Compares an estimate with ground truth, both in m.
 ///
 /// # Errors
-/// Where sizes differ, settings are no numbers, limits do not rise, pictures are the same, or nothing can be compared.
+/// If sizes differ, settings are not valid numbers, limits do not increase, the images are equal, or nothing can be compared.
 pub fn measure_depth(estimate: &Image, truth: &Image, settings: &DepthSettings) -> Result<DepthReport, DepthError> {
     let size = |image: &Image| (image.width(), image.height());
     if size(estimate) != size(truth) {
@@ -68,7 +68,7 @@ fn known(depth: f64) -> bool {
     depth.is_finite() && depth > 0.0
 }
 
-/// Whether each pixel lies at an edge of the truth; sky beside something is an edge, too.
+/// Marks pixels at an edge of the true depth; sky next to an object is an edge, too.
 fn edges(truth: &Image, settings: &DepthSettings) -> Vec<bool> {
     let (width, height) = (truth.width(), truth.height());
     let at = |x: usize, y: usize| f64::from(truth.at(x, y));
@@ -104,34 +104,34 @@ fn edges(truth: &Image, settings: &DepthSettings) -> Vec<bool> {
     edges
 }
 
-/// Why depth cannot be judged.
+/// Reason why depth cannot be compared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DepthError {
-    /// Pictures of different sizes.
+    /// Images of different sizes.
     #[error("the estimate is {} × {} pixels, the truth {} × {}: both must have one size", estimate.0, estimate.1, truth.0, truth.1)]
     Size {
         /// Width and height of the estimate.
         estimate: (usize, usize),
-        /// Width and height of the truth.
+        /// Width and height of the ground truth.
         truth: (usize, usize),
     },
     /// No pixel has both.
     #[error("no pixel away from edges has a finite depth above zero in both pictures: are these depths in metres?")]
     Nothing,
-    /// Ranges that do not rise.
+    /// Ranges that do not increase.
     #[error("the limits of the ranges must rise from 0 or more, two or more of them")]
     Ranges,
-    /// A setting that is no such number.
+    /// An invalid setting.
     #[error("{name}: expected a finite number of {least} or more, not {value}")]
     Setting {
-        /// Which.
+        /// Name of the setting.
         name: &'static str,
-        /// Its value.
+        /// Value.
         value: f64,
-        /// The least that it may be.
+        /// Allowed minimum.
         least: &'static str,
     },
-    /// The same picture twice.
+    /// The same image twice.
     #[error("the estimate is the truth, pixel by pixel: give two different pictures")]
     Same,
 }
@@ -139,9 +139,9 @@ pub enum DepthError {
 /// Errors of a set of pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthErrors {
-    /// Pixels with truth and estimate.
+    /// Pixels with true depth and estimate.
     pub pixels: usize,
-    /// Pixels with truth and no estimate.
+    /// Pixels with true depth and no estimate.
     pub missing: usize,
     /// Mean error, m.
     pub bias_m: Estimate,
@@ -159,53 +159,53 @@ pub struct DepthErrors {
     pub scale_invariant: Estimate,
     /// Root mean square error of 1/d, 1/km.
     pub inverse_rmse_per_km: Estimate,
-    /// Share of outliers.
+    /// Fraction of outliers.
     pub outliers: Estimate,
-    /// Shares of ratios within 1.25, 1.25², 1.25³.
+    /// Fractions of ratios within 1.25, 1.25², 1.25³.
     pub within: [Estimate; 3],
-    /// Share of disparities off by more than 3 px and 5 %, and mean error of disparity, px; of a stereo rig.
+    /// Fraction of disparities with an error above 3 px and 5 %, and mean error of disparity, px, for a stereo rig.
     pub disparity: Option<[Estimate; 2]>,
 }
 
 /// Errors over all, by range, and at edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthReport {
-    /// All pixels but those at edges.
+    /// All pixels except those at edges.
     pub all: DepthErrors,
     /// The same by range: lower and upper limit, m.
     pub ranges: Vec<(f64, f64, DepthErrors)>,
     /// Pixels at edges.
     pub edges: DepthErrors,
-    /// What the estimate was multiplied by.
+    /// Factor applied to the estimate.
     pub scale: f64,
 }
 
-/// How depth is judged.
+/// Settings of a depth comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthSettings {
-    /// Limits of the ranges, m, rising.
+    /// Limits of the ranges, m, increasing.
     pub ranges_m: Vec<f64>,
-    /// An outlier is off by more than this share of the depth …
+    /// Minimum error of an outlier as a fraction of the depth …
     pub outlier_ratio: f64,
-    /// … and by more than this, m.
+    /// … and its minimum error, m.
     pub outlier_least_m: f64,
-    /// A jump of more than this share of the depth is an edge.
+    /// Minimum depth jump at an edge, as a fraction of the depth.
     pub edge_ratio: f64,
-    /// Pixels this near to a jump are edge pixels.
+    /// Distance from a jump within which pixels are edge pixels.
     pub edge_px: usize,
-    /// A stereo rig's focal length times its base, px m, for errors of disparity.
+    /// Focal length times baseline of a stereo rig, px m, for errors of disparity.
     pub focal_base_px_m: Option<f64>,
-    /// What is done to the estimate before.
+    /// Alignment of the estimate before the comparison.
     pub alignment: Alignment,
 }
 
-/// What is done to an estimate before it is judged.
+/// Alignment of an estimate before the comparison.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Alignment {
-    /// Nothing: it is in metres.
+    /// None: it is in metres.
     #[default]
     None,
-    /// It is multiplied by the median of truth over estimate.
+    /// Multiplication by the median of true depth over estimate.
     Median,
 }
 
@@ -243,13 +243,13 @@ impl DepthSettings {
     }
 }
 
-/// Side of the blocks whose scatter gives uncertainties, px.
+/// Side of the blocks whose scatter gives the uncertainties, px.
 const BLOCK_PX: usize = 16;
 
-/// Numbers of a pixel whose means are taken, in the order of [`values`].
+/// Number of averaged values per pixel, in the order of [`values`].
 const COUNT: usize = 14;
 
-/// An outlier of disparity, px and share (KITTI 2015).
+/// An outlier of disparity, px and fraction (KITTI 2015).
 const DISPARITY_PX: f64 = 3.0;
 const DISPARITY_SHARE: f64 = 0.05;
 
@@ -321,12 +321,12 @@ impl Sums {
         self.blocks.iter().map(|b| b.0).sum()
     }
 
-    /// The mean of a number that follows from those of a pixel, in a straight line: weights of the sums.
+    /// The mean of a value that is a linear combination of those of a pixel, by weights of the sums.
     fn mean(&self, weights: &[(usize, f64)]) -> Estimate {
         let count = self.count();
         let of = |block: &(f64, [f64; COUNT])| weights.iter().map(|(i, w)| w * block.1[*i]).sum::<f64>();
         let mean = self.blocks.iter().map(of).sum::<f64>() / count;
-        // A block's pull on the mean: its share of the pixels times its distance from the whole.
+        // Contribution of a block to the mean: its fraction of the pixels times its deviation from the overall mean.
         let pulls = self.blocks.iter().filter(|b| b.0 > 0.0).map(|b| (of(b) - mean * b.0) / count);
         let moments = Moments::of(pulls);
         let scatter = (moments.variance().unwrap_or(f64::INFINITY) * moments.count() as f64).sqrt();

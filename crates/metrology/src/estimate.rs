@@ -1,32 +1,31 @@
-//! Measured numbers, how well they are known, and how figures that follow from them are.
+//! Measured quantities with uncertainty, and its propagation to derived quantities.
 
 use etendue_core::maths::f64::hypot;
 
-/// A measured number with its standard uncertainty (GUM, JCGM 100:2008, 2.3.1), both in the unit that their owner states.
+/// A measured quantity with its standard uncertainty (GUM, JCGM 100:2008, 2.3.1), both in the unit that the owner states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The best value.
+    /// Best estimate.
     pub value: f64,
-    /// One standard deviation of what is not known; infinite where the picture says nothing about it.
+    /// One standard deviation; infinite if the image does not determine the value.
     pub standard_uncertainty: f64,
 }
 
 impl Estimate {
-    /// A number known to a standard uncertainty.
+    /// A value with a standard uncertainty.
     #[must_use]
     pub fn new(value: f64, standard_uncertainty: f64) -> Self {
         Self { value, standard_uncertainty }
     }
 
-    /// The same in a unit that is `factor` times smaller.
+    /// Converts to a unit that is `factor` times smaller.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         Self { value: self.value * factor, standard_uncertainty: self.standard_uncertainty * factor.abs() }
     }
 
-    /// How far this is from `other` in expanded uncertainties (k = 2) of the difference, E_n of ISO 13528: at most 1 in
-    /// magnitude where the two agree. They must not share errors. Infinite where both claim to be exact and differ, 0
-    /// where they are exact and equal.
+    /// Difference from `other` in expanded uncertainties (k = 2) of the difference, E_n of ISO 13528: at most 1 in magnitude if the
+    /// two agree. Their errors must be independent. Infinite if both are exact and differ, 0 if they are exact and equal.
     #[must_use]
     pub fn normalised_error(self, other: Self) -> f64 {
         let difference = self.value - other.value;
@@ -35,29 +34,29 @@ impl Estimate {
     }
 }
 
-/// The figures `f` of independent inputs, with standard uncertainties by the law of propagation (GUM, JCGM 100:2008, 5.1.2),
-/// its derivatives taken as half the difference of the figures one standard uncertainty above and below each input
-/// (5.1.3, note 2). Choices that depend on the inputs (which points a fit uses) must not change inside `f`.
+/// Evaluates `f` of independent inputs, with standard uncertainties by the law of propagation (GUM, JCGM 100:2008, 5.1.2).
+/// Derivatives are half the difference of the results one standard uncertainty above and below each input (5.1.3, note 2).
+/// Choices that depend on the inputs (such as the points of a fit) must not change inside `f`.
 pub(crate) fn propagate<const N: usize>(inputs: &[Estimate], f: impl Fn(&[f64]) -> [f64; N]) -> [Estimate; N] {
     let figures = propagate_curved(inputs, |x| f(x).to_vec());
     core::array::from_fn(|k| figures[k].first_order)
 }
 
-/// A figure of noisy inputs to second order.
+/// A quantity derived from noisy inputs, to second order.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Curved {
-    /// Its value, with the standard uncertainty of first order.
+    /// Value, with the standard uncertainty of first order.
     pub first_order: Estimate,
-    /// By how much the inputs' noise shifts it on average: half of the second differences s of its inputs.
+    /// Mean shift due to the inputs' noise: half the sum of the second differences s of its inputs.
     bias: f64,
-    /// What curvature adds to its variance: s²/2 of each input (of a normal one).
+    /// Contribution of curvature to the variance: s²/2 for each (normal) input.
     variance: f64,
 }
 
 impl Curved {
-    /// Of a figure that cannot fall below 0, such as a length: its root mean square error, shift and curvature included; not known where
-    /// the shift is more than an eighth of the figure. (Of a length of several components of variance V in all the shift is V/2 over it,
-    /// so lengths below 2 √V are not told from 0. One that is 0 exceeds that by chance in 1 to 2 % of cases.)
+    /// Estimate of a quantity that cannot be negative, such as a length: its root mean square error, with shift and curvature;
+    /// unknown if the shift exceeds an eighth of the value. (For a length of several components of total variance V the shift is
+    /// V/2 over it, so lengths below 2 √V are not distinguished from 0. One that is 0 exceeds that by chance in 1 to 2 % of cases.)
     pub(crate) fn above_zero(self) -> Estimate {
         let (value, u) = (self.first_order.value, self.first_order.standard_uncertainty);
         let error = (u * u + self.variance + self.bias * self.bias).sqrt();
@@ -65,7 +64,7 @@ impl Curved {
     }
 }
 
-/// Any number of figures of independent inputs, to second order (5.1.2, note).
+/// Any number of derived quantities of independent inputs, to second order (5.1.2, note).
 pub(crate) fn propagate_curved(inputs: &[Estimate], f: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Curved> {
     let mut at: Vec<f64> = inputs.iter().map(|input| input.value).collect();
     let values = f(&at);
@@ -91,8 +90,8 @@ pub(crate) fn propagate_curved(inputs: &[Estimate], f: impl Fn(&[f64]) -> Vec<f6
     values.iter().zip(sums).map(curved).collect()
 }
 
-/// √x of a variance that may have come out negative: 0 then. Its uncertainty is half the way to the farther end of the 95 %
-/// interval, √(x ± 2 u): u/(2 √x) where x is well known, √(u/2) where it is not told from 0.
+/// √x of a variance whose estimate may be negative, then 0. Its uncertainty is half the distance to the farther end of the 95 %
+/// interval, √(x ± 2 u): u/(2 √x) if x is well determined, √(u/2) if it does not differ from 0.
 pub(crate) fn root(x: Estimate) -> Estimate {
     let at = |variance: f64| variance.max(0.0).sqrt();
     let (root, two) = (at(x.value), 2.0 * x.standard_uncertainty);

@@ -1,28 +1,28 @@
-//! Flare: how much light reaches places that send none.
+//! Flare: veiling light in places that emit none.
 //!
 //! ISO 18844:2017: light traps in a white field, readings linear,
 //!
 //! ```text
-//! F = (Y_black − b)/(Y_white − b) · 100 %        b: reading of no light
+//! F = (Y_black − b)/(Y_white − b) · 100 %        b: reading without light
 //! ```
 //!
-//! at each trap against the white about it, the mean of one or more regions. Uncertainty: of the regions' means
-//! ([`patch_statistics`](crate::patch_statistics)); light that the traps themselves reflect is not in it. IEEE 2020 adds a source within or outside the field: measure its traps the same way with the
-//! source on.
+//! for each trap relative to the surrounding white, the mean of one or more regions. Uncertainty: from the regions' means
+//! ([`patch_statistics`](crate::patch_statistics)); it does not include light that the traps themselves reflect. IEEE 2020 adds a
+//! source inside or outside the field: measure its traps in the same way with the source on.
 
 use crate::patch_statistics::{patch_statistics, saturated_percent};
 use crate::{Estimate, Image};
 
-/// Why flare cannot be measured.
+/// Reason why flare cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlareError {
-    /// No or tiny regions.
+    /// No regions, or too small.
     #[error("flare needs light traps and a white region of at least four pixels each")]
     TooSmall,
     /// The white region is saturated.
     #[error("{percent:.1} % of the white region is saturated: expose less")]
     Saturated {
-        /// Share of pixels.
+        /// Percentage of saturated pixels.
         percent: f64,
     },
     /// The traps are as bright as the white.
@@ -30,15 +30,16 @@ pub enum FlareError {
     NotWhite {
         /// Mean of the white region.
         white: f64,
-        /// Reading of no light, or of the traps.
+        /// Reading without light, or of the traps.
         black: f64,
     },
 }
 
-/// Flare of a trap, a share of the white about it; errors are alike in blocks of `shared_px` × `shared_px` pixels (1: in none).
+/// Flare of a trap, a fraction of the surrounding white; errors are equal in blocks of `shared_px` × `shared_px` pixels (1:
+/// none).
 ///
 /// # Errors
-/// Where regions are too small, the white is saturated, or no brighter than the trap.
+/// If regions are too small, or the white is saturated or no brighter than the trap.
 pub fn measure_flare(
     trap: &Image,
     whites: &[Image],

@@ -4,8 +4,8 @@
 //! F[k] = Σ_n f[n] exp(−2πi k n/N)
 //! ```
 //!
-//! By splitting the length into its prime factors (Cooley & Tukey 1965): N Σ p operations over the primes p of N. Long primes
-//! are slow (N²) and correct.
+//! By splitting the length into its prime factors (Cooley & Tukey 1965): N Σ p operations over the primes p of N. Large primes
+//! are slow (N²) but correct.
 
 use core::f64::consts::TAU;
 
@@ -70,7 +70,7 @@ mod tests {
                     let [a, b] = times(*v, root((k * n) % length, length));
                     [re + a, im + b]
                 });
-                // Rounding: some tens of operations on values up to 10 · 64.
+                // Rounding: about fifty operations on values up to 10 · 64.
                 assert!((got[0] - want[0]).abs() < 1e-11 && (got[1] - want[1]).abs() < 1e-11, "{length} {k}");
             }
         }

@@ -1,8 +1,8 @@
-//! From pictures to parameters of cameras, each with its uncertainty.
+//! From images to camera parameters, each with its uncertainty.
 //!
-//! Works on pictures only, rendered or photographed alike: this crate does not know the tracer, the sensor or any file
-//! format. Positions are raster coordinates: pixel centres lie at +0.5, x to the right, y down, from the top left corner.
-//! All arithmetic is `f64`, in the order of the pixels, with the functions of `etendue_core::maths`: the same bits everywhere.
+//! Operates on images only, rendered or captured: this crate is independent of the tracer, the sensor model and file formats.
+//! Positions are raster coordinates: pixel centres at +0.5, x to the right, y down, from the top left corner. All arithmetic is
+//! `f64`, in the order of the pixels, with the functions of `etendue_core::maths`: bit-identical on all platforms.
 
 pub mod calibrate;
 pub mod chromatic;

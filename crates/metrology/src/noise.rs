@@ -1,4 +1,4 @@
-//! Noise of a picture of an even surface.
+//! Noise of an image of a uniform surface.
 //!
 //! ISO 15739:2023, temporal and fixed-pattern noise from n frames (at least eight) of one patch, y_l frame l, ȳ their average:
 //!
@@ -9,17 +9,17 @@
 //! SNR = (mean − black)/σ
 //! ```
 //!
-//! For SNR at the scene instead of in the picture divide the mean by the incremental gain's share as the OECF gives it; for linear
-//! readings both are the same. Uncertainties: of σ_temp from the scatter over pixels, of σ_fp² that of χ² with the numbers of rows,
-//! columns and pixels ([`Pattern`]). Left out: the visual weighting of the standard's annex, removal of
-//! low-frequency shading (take a patch that is even).
+//! For SNR at the scene instead of in the image, divide the mean by the relative incremental gain from the OECF; for linear
+//! readings both are equal. Uncertainties: of σ_temp from the scatter over pixels, of σ_fp² that of χ² with the numbers of rows,
+//! columns and pixels ([`Pattern`]). Limitations: no visual weighting of the standard's annex, no removal of low-frequency
+//! shading (use a uniform patch).
 
 use crate::photon_transfer::{Pattern, Stack, TransferError};
 use crate::{Estimate, Image, estimate::root, patch_statistics::saturated_percent};
 
-/// The least number of frames that the standard lets.
+/// Minimum number of frames of the standard.
 pub const MIN_FRAMES: usize = 8;
-/// How far a frame's mean may lie from the others', of the signal: lamps flicker by a few percent.
+/// Maximum deviation of a frame's mean from the others', relative to the signal: lamps flicker by a few percent.
 const UNSTEADY: f64 = 0.1;
 
 /// Noise of a patch, in readings.
@@ -31,7 +31,7 @@ pub struct Noise {
     pub temporal: Estimate,
     /// Fixed-pattern noise.
     pub fixed: Estimate,
-    /// Both.
+    /// Total noise.
     pub total: Estimate,
 }
 
@@ -48,35 +48,35 @@ impl Noise {
     }
 }
 
-/// Why noise cannot be measured.
+/// Reason why noise cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoiseError {
-    /// The frames themselves.
+    /// Error of the frames themselves.
     #[error(transparent)]
     Frames(#[from] TransferError),
     /// Fewer than eight frames.
     #[error("noise needs at least {MIN_FRAMES} frames of the same patch (ISO 15739), not {0}")]
     TooFew(usize),
-    /// There is no light.
+    /// No light.
     #[error(
         "the mean reading {mean:.4} is no more than black, {black}: a signal over its noise needs light; is `black` right?"
     )]
     Dark {
         /// Mean reading.
         mean: f64,
-        /// Reading of no light.
+        /// Reading without light.
         black: f64,
     },
-    /// A frame shows something else.
+    /// A frame of another subject.
     #[error(
         "frame {frame} of {frames} reads {mean:.4} on average where most read {usual:.4}: are they frames of one patch in one light?"
     )]
     Unlike {
-        /// Which, from 1.
+        /// Number of the frame, from 1.
         frame: usize,
-        /// Of how many.
+        /// Number of frames.
         frames: usize,
-        /// Its mean.
+        /// Its mean reading.
         mean: f64,
         /// The median of all means.
         usual: f64,
@@ -84,20 +84,20 @@ pub enum NoiseError {
     /// A frame is clipped.
     #[error("{percent:.1} % of the pixels are saturated, which cuts their noise: expose less")]
     Saturated {
-        /// Share of pixels.
+        /// Percentage of saturated pixels.
         percent: f64,
     },
 }
 
-/// Whether a frame keeps its noise: its pixels are not saturated.
+/// Checks that the pixels of a frame are not saturated, so that its noise is intact.
 ///
 /// # Errors
-/// Where they are.
+/// If they are.
 pub fn check_frame(frame: &Image, full_scale: Option<f64>) -> Result<(), NoiseError> {
     saturated_percent([frame], full_scale).map_or(Ok(()), |percent| Err(NoiseError::Saturated { percent }))
 }
 
-/// Frames' means must lie within [`UNSTEADY`] of their median, less black.
+/// Checks that the frames' means are within [`UNSTEADY`] of their median, less black.
 fn one_light(means: &[f64], black: f64) -> Result<(), NoiseError> {
     let mut sorted = means.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -106,10 +106,10 @@ fn one_light(means: &[f64], black: f64) -> Result<(), NoiseError> {
     off.map_or(Ok(()), |i| Err(NoiseError::Unlike { frame: i + 1, frames: means.len(), mean: means[i], usual }))
 }
 
-/// The noise of a stack of frames of a patch.
+/// Measures the noise of a stack of frames of a patch.
 ///
 /// # Errors
-/// Where there are too few frames or pixels.
+/// If there are too few frames or pixels.
 pub fn measure_noise(stack: &Stack, black: f64) -> Result<Noise, NoiseError> {
     if stack.frames() < MIN_FRAMES {
         return Err(NoiseError::TooFew(stack.frames()));

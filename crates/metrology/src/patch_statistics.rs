@@ -1,26 +1,30 @@
-//! Mean and variance of an even patch, with uncertainties that hold for developed pictures as well.
+//! Mean and variance of a uniform patch, with uncertainties that are also valid for developed images.
 //!
-//! Demosaicking, filters and JPEG make neighbours alike: n pixels then say as much as fewer independent ones. With ρ the correlation of the
-//! deviations from the mean at a distance of d pixels,
+//! Demosaicing, filters and JPEG correlate neighbours: n pixels then carry as much information as fewer independent ones. With ρ
+//! the correlation of the deviations from the mean at a distance of d pixels,
 //!
 //! ```text
 //! u²(mean) = σ²/n Σ ρ(d)      |d_x|, |d_y| ≤ 3, no less than 1      u²(σ²) = 2 σ⁴/(n − 1) Σ ρ(d)
 //! ```
 //!
-//! (the first exact where correlations reach no farther, Priestley 1981; the second an upper bound, for Σ ρ² is in its place). Rendered pictures
-//! whose paths are shared by blocks of b × b pixels have correlations of up to b − 1 pixels, and nearly equal errors within a block. There the
-//! sum reaches so far, and as the mean is that of the same pixels, it is divided by what it misses, 1 − m/n with m = (2 max(3, b − 1) + 1)²
-//! distances; patches of fewer than 2 m pixels get the bound, Σ ρ = b². Premise: no
-//! correlations beyond, but for the noise that whole rows or columns share: with τ² the mean product of deviations in one row at distances beyond that reach (the next
-//! six), less the same off rows and columns (light that is uneven) and less two standard deviations of independent noise, of h rows u²(mean) has τ²/h more, where that is above 0, and Σ ρ has as much less
-//! of it. Columns likewise; neither where paths are shared by blocks. u²(σ²) does not know of rows and columns. A slope within
-//! the patch counts as noise.
+//! (The first is exact if correlations have no longer range, Priestley 1981; the second is an upper bound, as Σ ρ² would be
+//! exact.)
 //!
-//! The image of a disc: where its centre of area lies, and where the image of its centre.
+//! Rendered images with path reuse in blocks of b × b pixels have correlations of up to b − 1 pixels, and nearly equal errors
+//! within a block. There the sum extends that far. As the mean is that of the same pixels, the sum is divided by 1 − m/n to
+//! correct its bias, with m = (2 max(3, b − 1) + 1)² distances; patches of fewer than 2 m pixels use the bound, Σ ρ = b².
 //!
-//! The two differ in perspective and under distortion (Heikkilä 2000; Mallon & Whelan 2007), for a disc of radius r by about
-//! r²/8 times the second derivatives of the map, a tenth of a pixel for large dots in a wide picture. The disc's rim is mapped at
-//! 64 points, and the centroid of the polygon taken; a polygon of n corners has all but 2π²/(3 n²), here 0.2 %, of the shift.
+//! Assumption: no longer correlations, except row and column noise. τ² is the mean product of deviations in one row at distances
+//! beyond that reach (the next six), less the same off rows and columns (non-uniform light) and less two standard deviations for
+//! independent noise. For h rows u²(mean) increases by τ²/h, if positive, and Σ ρ is reduced by the same variance. Columns are
+//! treated likewise; neither is done with path reuse. u²(σ²) ignores rows and columns. A slope within the patch counts as noise.
+//!
+//! The image of a disc: offset of its centroid from the image of its centre.
+//!
+//! The two differ under perspective and distortion (Heikkilä 2000; Mallon & Whelan 2007), for a disc of radius r by about r²/8
+//! times the second derivatives of the map, a tenth of a pixel for large dots in a wide-angle image. The disc's outline is mapped
+//! at 64 points, and the centroid of the polygon computed; a polygon of n corners has all but 2π²/(3 n²), here 0.2 %, of the
+//! shift.
 
 use core::f64::consts::TAU;
 
@@ -30,14 +34,15 @@ use glam::DVec2;
 
 use crate::Estimate;
 
-/// How far neighbours are looked at, px.
+/// Maximum distance of neighbours, px.
 const REACH: usize = 3;
 /// Distances beyond the reach at which pixels of a line are compared.
 const BEYOND: usize = 6;
-/// Correlations are taken from the middle of large patches, px: tens of thousands of pixels tell them to a few per cent.
+/// Maximum side, px, of the central part from which correlations are computed: tens of thousands of pixels determine them to a
+/// few per cent.
 const ENOUGH: usize = 256;
 
-/// What an even patch says.
+/// Statistics of a uniform patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchStatistics {
     /// Mean reading.
@@ -46,13 +51,13 @@ pub struct PatchStatistics {
     pub variance: Estimate,
 }
 
-/// Mean and variance of a patch, in which errors are alike in blocks of `shared_px` × `shared_px` pixels (1: in none).
+/// Mean and variance of a patch with equal errors in blocks of `shared_px` × `shared_px` pixels (1: none).
 #[must_use]
 pub fn patch_statistics(patch: &Image, shared_px: usize) -> PatchStatistics {
     let moments = Moments::of(patch.samples().iter().map(|s| f64::from(*s)));
     let (count, variance) = (moments.count() as f64, moments.variance().unwrap_or(0.0));
     let deviations = Deviations::of(patch);
-    // Few blocks look like lines: rendered ones have none but the sensor's.
+    // Few blocks look like lines: rendered images have no line noise except the sensor's.
     let lines = if shared_px > 1 { Lines::default() } else { Lines::of(&deviations) };
     let alike =
         if shared_px > 1 { alike_in_blocks(patch, &deviations, shared_px) } else { alike(&deviations, REACH, lines) };
@@ -63,7 +68,7 @@ pub fn patch_statistics(patch: &Image, shared_px: usize) -> PatchStatistics {
     }
 }
 
-/// Σ ρ where errors are alike in blocks.
+/// Σ ρ for equal errors in blocks.
 fn alike_in_blocks(patch: &Image, deviations: &Deviations, shared_px: usize) -> f64 {
     let reach = REACH.max(shared_px - 1);
     let distances = ((2 * reach + 1) * (2 * reach + 1)) as f64;
@@ -74,7 +79,8 @@ fn alike_in_blocks(patch: &Image, deviations: &Deviations, shared_px: usize) -> 
     alike(deviations, reach, Lines::default()) / (1.0 - distances / count)
 }
 
-/// Σ ρ over neighbours up to a reach, 1 or more, without what lines share: how many pixels say what one independent one would.
+/// Σ ρ over neighbours up to a reach, 1 or more, without row and column noise: the number of pixels equivalent to one independent
+/// pixel.
 fn alike(deviations: &Deviations, reach: usize, lines: Lines) -> f64 {
     let own = deviations.products(0, 0);
     if own <= 0.0 || deviations.width <= 2 * reach || deviations.height <= 2 * reach {
@@ -89,7 +95,7 @@ fn alike(deviations: &Deviations, reach: usize, lines: Lines) -> f64 {
     (1.0 + 2.0 * sum / own - of_lines).max(1.0)
 }
 
-/// What the pixels of a row, and those of a column, share, of the variance of a pixel.
+/// Variance shared by the pixels of a row, and of a column, relative to the variance of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 struct Lines {
     rows: f64,
@@ -97,7 +103,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// 0 where the patch is too small to tell.
+    /// 0 if the patch is too small.
     fn of(deviations: &Deviations) -> Self {
         let own = deviations.mean_product(0, 0);
         if own <= 0.0 || deviations.width.min(deviations.height) < 2 * (REACH + BEYOND) {
@@ -117,7 +123,7 @@ impl Lines {
     }
 }
 
-/// Deviations from the mean in the middle of a patch.
+/// Deviations from the mean in the centre of a patch.
 struct Deviations {
     width: usize,
     height: usize,
@@ -133,7 +139,7 @@ impl Deviations {
         Self { width, height, values: part.samples().iter().map(|s| f64::from(*s) - mean).collect() }
     }
 
-    /// The sum of the products of deviations so many columns and rows apart.
+    /// The sum of the products of deviations at this offset in columns and rows.
     fn products(&self, dx: isize, dy: isize) -> f64 {
         let (right, down, up) = (dx.unsigned_abs(), dy.max(0).unsigned_abs(), dy.min(0).unsigned_abs());
         let (columns, rows) = (self.width.saturating_sub(right), self.height.saturating_sub(down + up));
@@ -151,8 +157,8 @@ impl Deviations {
     }
 }
 
-/// What one pixel of one channel says: a digital number, or a linear quantity in the unit that the owner states.
-/// Digital numbers of up to 24 bits are exact.
+/// Value of one pixel of one channel: a digital number, or a linear quantity in the unit that the owner states. Digital numbers
+/// of up to 24 bits are exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading;
 
@@ -162,14 +168,14 @@ impl Quantity for Reading {
     const UNIT: &'static str = "DN or 1";
 }
 
-/// One channel of a picture.
+/// One channel of an image.
 pub type Image = Plane<Reading>;
 
-/// The largest share of saturated pixels that a measurement lets pass.
+/// Maximum fraction of saturated pixels that a measurement accepts.
 pub(crate) const SATURATED_SHARE: f64 = 1e-3;
 
-/// Share of pixels at or above full scale. Where full scale is unknown, share of pixels at the largest reading: a plateau tells of
-/// clipping, unless the picture is all one value.
+/// Fraction of pixels at or above full scale. If full scale is unknown, fraction of pixels at the largest reading: a plateau
+/// indicates clipping, unless the image has a single value.
 pub(crate) fn saturated_fraction(samples: &[f32], full_scale: Option<f64>) -> f64 {
     let count = |level: f64| samples.iter().filter(|s| f64::from(**s) >= level).count() as f64 / samples.len() as f64;
     if let Some(full) = full_scale {
@@ -177,12 +183,12 @@ pub(crate) fn saturated_fraction(samples: &[f32], full_scale: Option<f64>) -> f6
     }
     let most = samples.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let plateau = count(f64::from(most));
-    // One pixel in a hundred at exactly the largest reading is no accident of noise.
+    // One pixel in a hundred at exactly the largest reading is not due to noise.
     if plateau > 0.01 && plateau < 1.0 { plateau } else { 0.0 }
 }
 
-/// Percent of the pixels of parts of a picture, that of the worst part, at or above a known full scale, where that is more than a
-/// measurement lets pass.
+/// Percentage of the pixels at or above a known full scale, for the worst part of an image, if that is more than a measurement
+/// accepts.
 pub(crate) fn saturated_percent<'a>(
     parts: impl IntoIterator<Item = &'a Image>,
     full_scale: Option<f64>,
@@ -192,8 +198,8 @@ pub(crate) fn saturated_percent<'a>(
     (share > SATURATED_SHARE).then_some(100.0 * share)
 }
 
-/// A sixth of the squared second differences of neighbours in a row, at the middle one: unbiased for independent noise on a level
-/// that changes evenly from pixel to pixel.
+/// A sixth of the squared second differences of neighbours in a row, at the middle one: unbiased for independent noise on a
+/// linearly varying level.
 pub(crate) fn neighbour_variances(image: &Image) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
     let rows = image.samples().chunks_exact(image.width()).enumerate();
     rows.flat_map(|(y, row)| {
@@ -205,7 +211,7 @@ pub(crate) fn neighbour_variances(image: &Image) -> impl Iterator<Item = (usize,
     })
 }
 
-/// Centroid of a disc's image less the image of its centre; `None` where the map has no image of one of them.
+/// Centroid of a disc's image less the image of its centre; `None` if the map is undefined at one of the points.
 pub fn centroid_shift(map: impl Fn(DVec2) -> Option<DVec2>, centre: DVec2, radius: f64) -> Option<DVec2> {
     const CORNERS: usize = 64;
     let middle = map(centre)?;
@@ -227,7 +233,7 @@ pub fn centroid_shift(map: impl Fn(DVec2) -> Option<DVec2>, centre: DVec2, radiu
 mod tests {
     use super::*;
 
-    /// Every pixel twice along and twice down: four pixels are one.
+    /// Every pixel twice horizontally and twice vertically: four pixels count as one.
     #[test]
     fn repeated_pixels_count_once() {
         let noise = |x: usize, y: usize| ((x * 7919 + y * 104_729 + x * y * 31) % 97) as f32;
@@ -246,7 +252,7 @@ mod tests {
         assert_eq!((patch.mean, patch.variance), (Estimate::new(7.0, 0.0), Estimate::new(0.0, 0.0)));
     }
 
-    /// A number from −1/2 to 1/2 for a place and a picture.
+    /// A number from −1/2 to 1/2 for a position and an image.
     fn scatter(x: usize, y: usize, picture: usize) -> f64 {
         let mixed =
             (x as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (y as u64 + 1).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
@@ -256,7 +262,7 @@ mod tests {
         ((mixed ^ (mixed >> 33)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 
-    /// Means over patches of blocks that share nearly all of their error: 95 % intervals hold the truth as often as they should, whatever the size.
+    /// Means over patches of blocks with nearly equal errors: 95 % intervals have their nominal coverage at every patch size.
     #[test]
     fn means_over_shared_blocks_know_it() {
         const PICTURES: usize = 400;
@@ -274,7 +280,7 @@ mod tests {
             let inside = means.iter().filter(|m| (m.value - 100.0).abs() <= 2.0 * m.standard_uncertainty).count();
             let covered = inside as f64 / PICTURES as f64;
             assert!(covered >= 0.9, "blocks of {shared}, patch of {side}: {covered}");
-            // Stated variances beside that of the means: not much wider either. Patches of few blocks have a bound.
+            // Stated variances relative to that of the means: not much larger. Patches of few blocks use a bound.
             let stated =
                 means.iter().map(|m| m.standard_uncertainty * m.standard_uncertainty).sum::<f64>() / PICTURES as f64;
             let scattered = means.iter().map(|m| (m.value - 100.0) * (m.value - 100.0)).sum::<f64>() / PICTURES as f64;
@@ -287,7 +293,7 @@ mod tests {
 
     #[test]
     fn a_tilted_disc_s_image_is_an_ellipse_whose_centre_is_known() {
-        // x′ = x/(1 + h x): a disc about the origin goes to an ellipse from −r/(1 − h r) to r/(1 + h r).
+        // x′ = x/(1 + h x): a disc about the origin maps to an ellipse from −r/(1 − h r) to r/(1 + h r).
         let (h, r) = (0.02, 3.0);
         let map = |p: DVec2| Some(p / (1.0 + h * p.x));
         let shift = centroid_shift(map, DVec2::ZERO, r).expect("finite");

@@ -1,7 +1,6 @@
 //! The χ² distribution, and Pearson's tests of counts.
 //!
-//! Many tests at once: Šidák's correction (Šidák 1967), exact for independent tests and safe for positively
-//! dependent ones.
+//! Multiple tests: Šidák's correction (Šidák 1967), exact for independent tests and safe for positively dependent ones.
 
 use etendue_core::maths::f64::{exp_m1, ln_1p};
 
@@ -26,7 +25,7 @@ pub struct ChiSquareTest {
     pub statistic: f64,
     /// Degrees of freedom.
     pub degrees_of_freedom: usize,
-    /// Probability of so large a statistic where the hypothesis is true.
+    /// Probability of a statistic this large or larger under the hypothesis.
     pub p: f64,
 }
 
@@ -37,13 +36,14 @@ impl ChiSquareTest {
     }
 }
 
-/// A pooled bin needs this many expected counts for χ² to hold (Cochran 1954).
+/// Minimum expected count of a pooled bin for χ² to apply (Cochran 1954).
 const MIN_EXPECTED: f64 = 5.0;
 
-/// Whether `observed` counts come from a distribution that expects `expected` counts (same total, nothing fitted).
+/// Tests the hypothesis that `observed` counts come from a distribution that expects `expected` counts (same total, no fitted
+/// parameters).
 ///
-/// Neighbouring bins are pooled until each expects at least five. A count where nothing is expected makes the
-/// statistic infinite. `None` where the slices differ in length, or fewer than two bins remain.
+/// Neighbouring bins are pooled until each expects at least five. A count where nothing is expected makes the statistic infinite.
+/// Returns `None` if the slices differ in length, or fewer than two bins remain.
 #[must_use]
 pub fn goodness_of_fit(observed: &[u64], expected: &[f64]) -> Option<ChiSquareTest> {
     if observed.len() != expected.len() {
@@ -58,10 +58,10 @@ pub fn goodness_of_fit(observed: &[u64], expected: &[f64]) -> Option<ChiSquareTe
     ChiSquareTest::new(statistic, bins.len())
 }
 
-/// Whether two samples, counted in the same bins, come from one distribution.
+/// Tests the hypothesis that two samples, counted in the same bins, come from one distribution.
 ///
-/// Neighbouring bins are pooled until each sample expects at least five. `None` where the slices differ in length, a
-/// sample is empty, or fewer than two bins remain.
+/// Neighbouring bins are pooled until each sample expects at least five. Returns `None` if the slices differ in length, a sample
+/// is empty, or fewer than two bins remain.
 #[must_use]
 pub fn same_distribution(a: &[u64], b: &[u64]) -> Option<ChiSquareTest> {
     let (total_a, total_b) = (a.iter().sum::<u64>() as f64, b.iter().sum::<u64>() as f64);
@@ -76,7 +76,7 @@ pub fn same_distribution(a: &[u64], b: &[u64]) -> Option<ChiSquareTest> {
     ChiSquareTest::new(statistic, bins.len())
 }
 
-/// Neighbours added up until `enough`; what is left over at the end joins the last bin.
+/// Pools neighbours until `enough`; the remainder at the end joins the last bin.
 fn pooled(pairs: impl Iterator<Item = (f64, f64)>, enough: impl Fn((f64, f64)) -> bool) -> Vec<(f64, f64)> {
     let mut bins: Vec<(f64, f64)> = Vec::new();
     let mut open = (0.0, 0.0);
@@ -92,14 +92,14 @@ fn pooled(pairs: impl Iterator<Item = (f64, f64)>, enough: impl Fn((f64, f64)) -
     bins
 }
 
-/// The level of each of `tests` tests at which the whole family is wrong with probability `significance`:
-/// 1 − (1 − α)^(1/n). Of no test at all it is `significance`.
+/// Level of each of `tests` tests at which the whole family is wrong with probability `significance`: 1 − (1 − α)^(1/n). For no
+/// tests it is `significance`.
 #[must_use]
 pub fn sidak_level(significance: f64, tests: usize) -> f64 {
     -exp_m1(ln_1p(-significance) / tests.max(1) as f64)
 }
 
-/// The family's p-value, from its smallest single one: 1 − (1 − p)ⁿ. Of no test at all it is 1.
+/// p-value of the family, from its smallest single one: 1 − (1 − p)ⁿ. For no tests it is 1.
 #[must_use]
 pub fn sidak_p(smallest_p: f64, tests: usize) -> f64 {
     if tests == 0 { 1.0 } else { -exp_m1(ln_1p(-smallest_p) * tests as f64) }

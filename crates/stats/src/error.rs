@@ -1,42 +1,43 @@
-//! By how much does a picture differ from a reference?
+//! Error metrics of an image against a reference.
 
 use crate::moments::Moments;
 
-/// Errors of a picture against a reference, over all samples.
+/// Errors of an image against a reference, over all samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorSummary {
-    /// Samples compared: those where both are finite.
+    /// Samples compared: those that are finite in both.
     pub samples: usize,
-    /// Samples left out because one of the two is not finite.
+    /// Samples excluded because one of the two is not finite.
     pub not_finite: usize,
-    /// Root of the mean squared error, in the picture's unit.
+    /// Root mean square error, in the image's unit.
     pub rmse: f64,
     /// Mean of (error)² / (reference² + ε²), ε = 1 % of the reference's mean magnitude: dimensionless.
     pub relative_mse: f64,
-    /// Relative MSE without the largest thousandth of its terms: what remains when fireflies are set aside.
+    /// Relative MSE without the largest thousandth of its terms, to exclude fireflies.
     pub trimmed_relative_mse: f64,
-    /// Mean error, in the picture's unit.
+    /// Mean error, in the image's unit.
     pub bias: f64,
-    /// Standard error of `bias` from the scatter of the errors, where errors of pixels are independent but for those that may be equal;
-    /// 0 for fewer than two samples.
+    /// Standard error of `bias` from the scatter of the errors, for independent pixel errors except those that may be equal; 0 for
+    /// fewer than two samples.
     pub bias_standard_error: f64,
     /// Largest magnitude of an error.
     pub max_abs: f64,
 }
 
-/// ε of the relative error, as a share of the reference's mean magnitude.
+/// ε of the relative error, as a fraction of the reference's mean magnitude.
 const RELATIVE_FLOOR: f64 = 0.01;
-/// Share of the largest terms that the trimmed error leaves out.
+/// Fraction of the largest terms that the trimmed error excludes.
 const TRIMMED_SHARE: f64 = 0.001;
 
 impl ErrorSummary {
-    /// The same where errors of `alike` pixels may be equal: the bound of as many times fewer independent ones, for the bias.
+    /// Returns the same with a larger `bias_standard_error`, for errors that may be equal in groups of `alike` pixels: the bound
+    /// for that many times fewer independent errors.
     #[must_use]
     pub fn shared_by(self, alike: u32) -> Self {
         Self { bias_standard_error: self.bias_standard_error * f64::from(alike.max(1)).sqrt(), ..self }
     }
 
-    /// The errors of `picture` against `reference`. `None` where their lengths differ or no sample is finite in both.
+    /// The errors of `picture` against `reference`. `None` if their lengths differ or no sample is finite in both.
     #[must_use]
     pub fn of(picture: &[f32], reference: &[f32]) -> Option<Self> {
         if picture.len() != reference.len() {
@@ -71,7 +72,7 @@ impl ErrorSummary {
     }
 }
 
-/// (error)² / (reference² + ε²); where reference and ε are zero, 0 for no error and infinity for any.
+/// (error)² / (reference² + ε²); if reference and ε are zero, 0 for no error and infinity otherwise.
 fn relative_squares(pairs: &[(f64, f64)]) -> Vec<f64> {
     let floor = RELATIVE_FLOOR * Moments::of(pairs.iter().map(|p| p.1.abs())).mean();
     let term = |(e, r): &(f64, f64)| if *e == 0.0 { 0.0 } else { e * e / (r * r + floor * floor) };
@@ -107,7 +108,7 @@ mod tests {
         let scale = |v: &[f32]| v.iter().map(|x| x * 1024.0).collect::<Vec<_>>();
         let scaled = ErrorSummary::of(&scale(&picture), &scale(&reference)).expect("samples");
         assert!((one.relative_mse / scaled.relative_mse - 1.0).abs() < 1e-12);
-        // 25 % off everywhere: a quarter, but for ε = 1 % of the mean, which is 3 times the smallest reference.
+        // 25 % off everywhere: a quarter, except for ε = 1 % of the mean, which is 3 times the smallest reference.
         assert!((one.trimmed_relative_mse - 0.25).abs() < 0.25 * 0.001, "{}", one.trimmed_relative_mse);
         assert!(one.relative_mse > 1e6);
     }

@@ -1,16 +1,17 @@
 //! Mean, variance and median of numbers, and the variance of replicates.
 //!
-//! Mean and honest variance of randomised quasi-Monte Carlo.
+//! Mean and unbiased variance of randomised quasi-Monte Carlo:
 //!
-//! R independently scrambled replicates give R independent, unbiased means. Their mean is the estimate; their scatter,
+//! R independently scrambled replicates give R independent, unbiased means. Their mean is the estimate; their sample variance,
 //! divided by R, is its variance, with R − 1 degrees of freedom (Owen 1997). The samples *within* a replicate are not
-//! independent: s²/n over them overstates the variance by orders of magnitude and feeds no test.
+//! independent: s²/n over them overstates the variance by orders of magnitude and is not used in tests.
 
 use crate::student;
 
 /// Count, mean and sum of squared deviations, updated number by number (Welford 1962) and joined (Chan et al. 1979).
 ///
-/// Of 10⁹ numbers neither drifts: what rounding takes from a step is added to the next (Kahan 1965). A NaN among the numbers makes mean and variance NaN: nothing is passed over.
+/// With Kahan summation (1965) neither drifts over 10⁹ numbers: the rounding error of a step is added to the next. A NaN among
+/// the numbers makes mean and variance NaN.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
     count: u64,
@@ -18,7 +19,7 @@ pub struct Moments {
     squares: Sum,
 }
 
-/// A sum, and by how much rounding made it too large.
+/// A sum and its rounding error (positive if the sum is too large).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Sum {
     rounded: f64,
@@ -53,7 +54,7 @@ impl Moments {
         moments
     }
 
-    /// Takes one more number in.
+    /// Adds a number.
     pub fn push(&mut self, value: f64) {
         self.count += 1;
         let before = value - self.mean.total();
@@ -74,26 +75,26 @@ impl Moments {
         Self { count, mean: Sum::of(self.mean() + difference * share), squares: Sum::of(squares) }
     }
 
-    /// How many numbers there were.
+    /// Number of values.
     #[must_use]
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    /// Their mean; 0 where there were none.
+    /// Mean; 0 if there are no values.
     #[must_use]
     pub fn mean(&self) -> f64 {
         self.mean.total()
     }
 
-    /// Unbiased variance of the numbers; `None` where fewer than two.
+    /// Unbiased variance of the values; `None` for fewer than two.
     #[must_use]
     pub fn variance(&self) -> Option<f64> {
         (self.count >= 2).then(|| self.squares.total() / (self.count - 1) as f64)
     }
 
-    /// Variance of the mean **where the numbers are independent**; `None` where fewer than two. For numbers of one
-    /// scrambled sequence it is an upper bound only: see [`self`].
+    /// Variance of the mean **of independent values**; `None` for fewer than two. For values of one scrambled sequence it is only
+    /// an upper bound: see [`self`].
     #[must_use]
     pub fn variance_of_mean(&self) -> Option<f64> {
         self.variance().map(|v| v / self.count as f64)
@@ -112,7 +113,7 @@ pub struct ReplicateEstimate {
 }
 
 impl ReplicateEstimate {
-    /// The estimate of replicates of equal size. `None` where fewer than two.
+    /// The estimate from replicates of equal size. `None` for fewer than two.
     #[must_use]
     pub fn of(replicate_means: &[f64]) -> Option<Self> {
         let moments = Moments::of(replicate_means.iter().copied());
@@ -127,14 +128,14 @@ impl ReplicateEstimate {
         self.variance_of_mean.sqrt()
     }
 
-    /// Half the width of the confidence interval about the mean that holds the truth with probability `confidence`
+    /// Half the width of the confidence interval about the mean that contains the true value with probability `confidence`
     /// (Student's t).
     #[must_use]
     pub fn half_width(&self, confidence: f64) -> f64 {
         student::critical(1.0 - confidence, f64::from(self.degrees_of_freedom)) * self.standard_error()
     }
 
-    /// Two-sided p-value of the hypothesis that the truth is `value`. With a variance of zero it is 1 or 0.
+    /// Two-sided p-value of the hypothesis that the true value is `value`. With a variance of zero it is 1 or 0.
     #[must_use]
     pub fn p_of(&self, value: f64) -> f64 {
         let difference = (self.mean - value).abs();
@@ -145,7 +146,7 @@ impl ReplicateEstimate {
     }
 }
 
-/// The upper median: the middle number, of an even count the larger of the two in the middle; `None` of nothing.
+/// The upper median: the middle number, or for an even count the larger of the two in the middle; `None` for no values.
 #[must_use]
 pub fn upper_median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut sorted: Vec<f64> = values.into_iter().collect();

@@ -24,10 +24,10 @@ pub fn two_sided_p(z: f64) -> f64 {
     erfc(z.abs() * FRAC_1_SQRT_2)
 }
 
-/// The value below which a share `p` of the distribution lies: ∓∞ at 0 and 1, NaN outside.
+/// Quantile: the value with a fraction `p` of the distribution below it; ∓∞ at 0 and 1, NaN outside.
 ///
-/// Halley's iteration on [`cdf`] from the two-constant start of Abramowitz and Stegun 26.2.22. Relative error below
-/// 1e-12 for `p` from 1e-300 to 1/2; above 1/2 it is that of 1 − p.
+/// Halley's iteration on [`cdf`] from the two-constant start of Abramowitz and Stegun 26.2.22. Relative error below 1e-12 for `p`
+/// from 1e-300 to 1/2; above 1/2 it is that of 1 − p.
 #[must_use]
 pub fn quantile(p: f64) -> f64 {
     match p {

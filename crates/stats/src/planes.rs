@@ -1,94 +1,94 @@
-//! Do two estimated pictures differ?
+//! Test whether two estimated images differ.
 //!
-//! Each picture brings, a pixel, a mean and the variance of that mean from R independent replicates. Replicates are few,
-//! so single variances are poor; runs of k neighbouring pixels are therefore pooled until at least
-//! [`POOLED_DEGREES_OF_FREEDOM`] are nominally there, k = ⌈30/(min R − 1)⌉:
+//! Each image provides per pixel a mean and the variance of that mean from R independent replicates. As replicates are few,
+//! single variances are inaccurate. Runs of k neighbouring pixels are therefore pooled to at least [`POOLED_DEGREES_OF_FREEDOM`]
+//! nominal degrees of freedom, k = ⌈30/(min R − 1)⌉:
 //!
 //! t = (Σ aᵢ − Σ bᵢ) / √(Σ uᵢ + Σ vᵢ),   ν = (Σ uᵢ + Σ vᵢ)² / (Σ uᵢ²/(R_a − 1) + Σ vᵢ²/(R_b − 1))
 //!
-//! (Welch 1947, Satterthwaite 1946). Each t is judged by Student's distribution of its own ν, the family by Šidák.
+//! (Welch 1947, Satterthwaite 1946). Each t is compared with Student's distribution of its own ν, the family by Šidák.
 //!
-//! **Rounding.** Means are stored as `f32`: a difference up to `ROUNDING` times the larger mean is no difference, and is
-//! taken off before the test. **Zero variance.** Where both variances of a pixel are zero the means must agree within
-//! that rounding, else the pictures differ outright; such a pixel is no random test. A picture known exactly (a closed
-//! form) has variances of zero and any number of replicates. **Not finite.** Every value that is not finite, and every
-//! negative variance, is counted and makes the verdict *different*.
+//! **Rounding.** Means are stored as `f32`: a difference up to `ROUNDING` times the larger mean counts as zero, and is subtracted
+//! before the test. **Zero variance.** If both variances of a pixel are zero, the means must agree within that rounding,
+//! otherwise the images differ; such a pixel is not a random test. An exactly known image (a closed form) has variances of zero
+//! and any number of replicates. **Not finite.** Every value that is not finite, and every negative variance, is counted and
+//! makes the verdict *different*.
 //!
-//! **Errors that are alike.** Where paths of m pixels shared what they found, the errors of these pixels may be equal. The
-//! variance of a sum over k pixels is then taken as min(k, m) times as large, and its degrees of freedom as that many times
-//! fewer: the bound for errors that are equal, too wide for errors that are not.
+//! **Correlated errors.** If paths of m pixels were shared (path reuse), the errors of these pixels may be equal. The variance of
+//! a sum over k pixels is then multiplied by min(k, m), and its degrees of freedom are divided by the same number: the bound for
+//! equal errors, too wide for errors that differ.
 //!
-//! Left out: replicate means that are not normal. With very few samples a replicate the distribution is skewed and the
-//! test is too strict; that shows as failures of both signs' extremes, and is cured by more samples.
+//! Limitations: replicate means that are not normally distributed. With very few samples per replicate the distribution is skewed
+//! and the test is too strict. The symptom is failures at both extremes; the remedy is more samples.
 
 use crate::{chi_square, student};
 
-/// Runs of pixels are pooled until they nominally have this many degrees of freedom.
+/// Nominal degrees of freedom to which runs of pixels are pooled.
 pub const POOLED_DEGREES_OF_FREEDOM: u32 = 30;
 
-/// Relative difference of two `f32` means that is rounding and nothing else: each is rounded by 2⁻²⁴ when stored, and
-/// may carry as much again from its last operation.
+/// Relative difference of two `f32` means due to rounding alone: each is rounded by 2⁻²⁴ when stored, and may carry as much again
+/// from its last operation.
 pub const ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 
-/// A picture of one quantity: a mean a pixel, the variance of that mean, and the number of replicates it came from.
+/// An image of one quantity: per pixel a mean and the variance of that mean, and the number of replicates.
 #[derive(Clone, Copy, Debug)]
 pub struct EstimatedPlane<'a> {
     /// Means, row by row.
     pub mean: &'a [f32],
     /// Variances of the means.
     pub variance_of_mean: &'a [f32],
-    /// Replicates behind each variance; at least 2 where any variance is positive.
+    /// Replicates for each variance; at least 2 if any variance is positive.
     pub replicates: u32,
-    /// How many pixels may have equal errors; 1 where every pixel has its own.
+    /// Number of pixels that may have equal errors; 1 if all are independent.
     pub alike: u32,
 }
 
-/// The judgement of a comparison.
+/// Verdict of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// No difference is proven at the significance asked for.
+    /// No difference at the requested significance.
     Agree,
-    /// The pictures differ.
+    /// The images differ.
     Differ,
 }
 
-/// The outcome of a comparison of two pictures.
+/// Result of a comparison of two images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneTest {
-    /// The largest difference in units of its standard error; infinite where a pixel without variance differs.
+    /// The largest difference in units of its standard error; infinite if a pixel without variance differs.
     pub max_abs_z: f64,
-    /// The first pixel of the run that has it.
+    /// The first pixel of the run with the largest difference.
     pub worst_pixel: usize,
-    /// How many runs exceed the corrected level, and pixels without variance differ.
+    /// Number of runs that exceed the corrected level, plus pixels without variance that differ.
     pub exceeding: usize,
-    /// How many random tests were made.
+    /// Number of random tests.
     pub tests: usize,
     /// Pixels in a run.
     pub pooled_pixels: usize,
     /// Pixels with a value that is not finite, or a negative variance.
     pub not_finite: usize,
-    /// Probability that a family of tests of equal pictures has one as extreme as the worst here.
+    /// Probability that a family of tests of equal images has one as extreme as the worst here.
     pub p: f64,
-    /// The judgement.
+    /// Verdict.
     pub verdict: Verdict,
 }
 
-/// Why two pictures cannot be compared.
+/// Reason why two images cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlaneTestError {
-    /// The slices (means and variances of one picture, then of the other) do not have the same length.
+    /// The slices (means and variances of one image, then of the other) do not have the same length.
     #[error("two pictures of equal size are needed, but means and variances of one are {} and {}, of the other {} and {} samples long",
         .0[0], .0[1], .0[2], .0[3])]
     Lengths([usize; 4]),
-    /// A picture has variances but fewer than two replicates.
+    /// An image has variances but fewer than two replicates.
     #[error("a variance needs at least 2 replicates, but the picture states {0}: render it with more replicates")]
     Replicates(u32),
 }
 
-/// Tests whether `a` and `b` are estimates of the same picture; wrong with probability `significance` where they are.
+/// Tests whether `a` and `b` are estimates of the same image; the verdict is wrong with probability `significance` if they are.
 ///
 /// # Errors
-/// Where the sizes differ, or a picture has variances without two replicates.
+/// If the sizes differ, or an image has variances without two replicates.
 pub fn compare(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, significance: f64) -> Result<PlaneTest, PlaneTestError> {
     let lengths = [a.mean.len(), a.variance_of_mean.len(), b.mean.len(), b.variance_of_mean.len()];
     if lengths.iter().any(|l| *l != lengths[0]) {
@@ -101,7 +101,7 @@ pub fn compare(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, significance: f64
     Ok(judge(&runs, [a.alike, b.alike], pooled_pixels, significance))
 }
 
-/// R − 1 where the picture has variances, `None` where it is exact.
+/// R − 1 if the image has variances, `None` if it is exact.
 fn degrees_of_freedom(plane: &EstimatedPlane<'_>) -> Result<Option<u32>, PlaneTestError> {
     let exact = plane.variance_of_mean.iter().all(|v| *v == 0.0);
     match plane.replicates {
@@ -117,9 +117,9 @@ struct Run {
     first_pixel: usize,
     difference: f64,
     rounding: f64,
-    /// Of each picture: Σ u.
+    /// Σ u of each image.
     variance: [f64; 2],
-    /// Of each picture: Σ u²/ν, the denominator of Satterthwaite's degrees of freedom.
+    /// Σ u²/ν of each image, the denominator of Satterthwaite's degrees of freedom.
     spread: [f64; 2],
     certain_differences: usize,
     not_finite: usize,
@@ -146,7 +146,7 @@ impl Run {
         }
     }
 
-    /// All runs together: where a picture is a little off everywhere, the sum of its pixels tells it.
+    /// The sum of all runs, which reveals an image that is slightly off everywhere.
     fn whole(runs: &[Self]) -> Self {
         let sum = |of: &dyn Fn(&Self) -> f64| runs.iter().map(of).sum();
         Self {
@@ -158,14 +158,13 @@ impl Run {
         }
     }
 
-    /// |t| and its two-sided p, where so many pixels of each picture have equal errors; `None` where the run holds no
-    /// random test.
+    /// |t| and its two-sided p, where this many pixels of each image have equal errors; `None` if the run contains no random test.
     fn test(&self, alike: [f64; 2]) -> Option<(f64, f64)> {
         let variance = self.variance[0] * alike[0] + self.variance[1] * alike[1];
         if variance == 0.0 {
             return None;
         }
-        // m equal errors: m² times the variance of one, with the freedom of one.
+        // m equal errors: m² times the variance of one, with the degrees of freedom of one.
         let cubed = alike.map(|m| m * m * m);
         let spread = self.spread[0] * cubed[0] + self.spread[1] * cubed[1];
         let z = (self.difference.abs() - self.rounding).max(0.0) / variance.sqrt();
@@ -220,7 +219,7 @@ mod tests {
     use crate::normal;
     use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 
-    /// An estimate of `truth` a pixel from `replicates` normal replicate means of the standard deviation given.
+    /// An estimate of `truth` per pixel from `replicates` normal replicate means with the given standard deviation.
     fn estimate(seed: u64, truth: &[f64], sigma: f64, replicates: u32) -> (Vec<f32>, Vec<f32>) {
         let pixel = |(x, truth): (usize, &f64)| {
             let mut stream = NoiseStream::new(seed, 0, 0, 0, Pixel { x: x as u32, y: 0 }, NoiseDraw::Read);
@@ -271,7 +270,7 @@ mod tests {
 
     #[test]
     fn a_shift_too_small_for_any_run_is_found_in_the_whole() {
-        // Half a standard error a pixel: 0.5 √1000 = 16 standard errors of the sum.
+        // Half a standard error per pixel: 0.5 √1000 = 16 standard errors of the sum.
         let (truth, shifted) = (vec![10.0; 1000], vec![10.0 + 0.5 / 8.0_f64.sqrt(); 1000]);
         let (a, b) = (estimate(1, &truth, 1.0, 8), estimate(2, &shifted, 1.0, 8));
         let test = compare(&plane(&a, 8), &plane(&b, 8), 1e-3).expect("sizes");

@@ -1,19 +1,19 @@
 //! The gamma function, the error function, and the incomplete gamma and beta functions, of real arguments.
 //!
-//! Series, continued fractions and the asymptotic expansion of the NIST Digital Library of Mathematical Functions
-//! (DLMF); the continued fractions are evaluated by Lentz's method. Accuracies are stated a function and tested against
-//! values of multiple-precision arithmetic.
+//! Series, continued fractions and the asymptotic expansion of the NIST Digital Library of Mathematical Functions (DLMF); the
+//! continued fractions are evaluated by Lentz's method. Accuracies are stated per function and tested against values of
+//! multiple-precision arithmetic.
 
 use core::f64::consts::PI;
 
 use etendue_core::maths::f64::{exp, ln, ln_1p};
 
-/// Below this a continued fraction's denominator is moved away from zero (Lentz).
+/// Minimum magnitude of a continued fraction's denominator, to avoid zero (Lentz).
 const TINY: f64 = 1e-300;
 
 /// ln Γ(x) for x > 0; NaN elsewhere. Absolute error below 4e-15 · max(1, |ln Γ|).
 ///
-/// Stirling's series (DLMF 5.11.1) where x ≥ 10, reached by the recurrence Γ(x + 1) = x Γ(x).
+/// Stirling's series (DLMF 5.11.1) for x ≥ 10, reached by the recurrence Γ(x + 1) = x Γ(x).
 #[must_use]
 pub fn ln_gamma(x: f64) -> f64 {
     if x.is_nan() || x <= 0.0 {
@@ -49,7 +49,7 @@ pub fn erf(x: f64) -> f64 {
     gamma_p(0.5, x * x).copysign(x)
 }
 
-/// The complementary error function 1 − erf x. Relative error below 1e-13 where it exceeds 1e-300.
+/// The complementary error function 1 − erf x. Relative error below 1e-13 for results above 1e-300.
 #[must_use]
 pub fn erfc(x: f64) -> f64 {
     if x < 0.0 { 1.0 + gamma_p(0.5, x * x) } else { gamma_q(0.5, x * x) }
@@ -68,7 +68,7 @@ pub fn gamma_q(a: f64, x: f64) -> f64 {
     incomplete_gamma(a, x).1
 }
 
-/// (P, Q): the smaller one is computed where the series or the fraction converges fast, the other is its complement.
+/// (P, Q): the smaller one is computed with the series or the fraction, whichever converges fast; the other is its complement.
 fn incomplete_gamma(a: f64, x: f64) -> (f64, f64) {
     if a.is_nan() || x.is_nan() || a <= 0.0 || x < 0.0 {
         return (f64::NAN, f64::NAN);
@@ -163,7 +163,7 @@ fn beta_fraction(a: f64, b: f64, x: f64) -> f64 {
     value
 }
 
-/// How many steps a fraction may take: it needs a few times √a.
+/// Maximum number of steps of a fraction: it needs a few times √a.
 fn fraction_limit(a: f64) -> u32 {
     (500.0 + 20.0 * a.sqrt()) as u32
 }

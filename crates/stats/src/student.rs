@@ -9,7 +9,7 @@ pub fn cdf(t: f64, degrees_of_freedom: f64) -> f64 {
     if t < 0.0 { tail } else { 1.0 - tail }
 }
 
-/// Probability of a value farther from zero than |t|: I(ν/(ν + t²); ν/2, 1/2). An infinite `t` has none.
+/// Probability of a value farther from zero than |t|: I(ν/(ν + t²); ν/2, 1/2). For an infinite `t` it is 0.
 #[must_use]
 pub fn two_sided_p(t: f64, degrees_of_freedom: f64) -> f64 {
     if degrees_of_freedom == f64::INFINITY {
@@ -20,7 +20,7 @@ pub fn two_sided_p(t: f64, degrees_of_freedom: f64) -> f64 {
     }
     let (nu, square) = (degrees_of_freedom, t * t);
     if square < nu {
-        // I_x(a, b) = 1 − I_{1−x}(b, a): the small argument keeps its digits.
+        // I_x(a, b) = 1 − I_{1−x}(b, a): a small argument keeps its precision.
         1.0 - beta_i(0.5, 0.5 * nu, square / (nu + square))
     } else {
         beta_i(0.5 * nu, 0.5, nu / (nu + square))
@@ -60,7 +60,7 @@ mod tests {
     #[test]
     fn one_and_two_degrees_have_closed_forms() {
         for t in [0.1, 0.7, 1.0, 3.0, 40.0, 1e4] {
-            // Cauchy's tail loses digits as 1 − 2/π·atan t; the other way round it is atan(1/t).
+            // 1 − 2/π·atan t loses digits in Cauchy's tail; the equivalent atan(1/t) does not.
             assert!((two_sided_p(t, 1.0) / (2.0 / PI * atan(1.0 / t)) - 1.0).abs() < 1e-12, "{t}");
             let root = (2.0 + t * t).sqrt();
             assert!((two_sided_p(t, 2.0) / (2.0 / (root * (root + t))) - 1.0).abs() < 1e-12, "{t}");

@@ -1,6 +1,4 @@
-//! Irradiance from uniform lights and behind a round pupil: closed forms, and the sums that prove them.
-//!
-//! Irradiance behind a round pupil, from closed forms and from sums over its area.
+//! Irradiance from uniform lights and behind a round pupil: closed forms, and numerical sums that verify them.
 //!
 //! Lengths are in units of the distance from the sensor to the pupil. A uniform radiance of 1 is seen through the pupil.
 
@@ -9,17 +7,17 @@ use core::f64::consts::PI;
 use etendue_core::maths::f64::{acos, sin_cos};
 use glam::DVec3;
 
-/// Irradiance at `point` on a surface of unit `normal` from a sphere of uniform radiance 1 that stands wholly above the
-/// surface: π (r/d)² cos θ.
+/// Irradiance at `point` on a surface of unit `normal` from a sphere of uniform radiance 1 that is entirely above the surface: π
+/// (r/d)² cos θ.
 #[must_use]
 pub fn sphere(point: DVec3, normal: DVec3, centre: DVec3, radius: f64) -> f64 {
     let to_centre = centre - point;
     PI * radius * radius * to_centre.dot(normal) / (to_centre.length_squared() * to_centre.length())
 }
 
-/// Irradiance of a surface that a disc of `radius` and uniform radiance 1 faces, parallel to it, at the `height` of the
-/// disc and at `aside` from its axis: π/2 (1 − (a² + h² − r²)/√((a² + h² + r²)² − 4 r² a²)) (Hottel and Sarofim 1967); on
-/// the axis π r²/(r² + h²).
+/// Irradiance of a surface below a parallel disc of `radius` and uniform radiance 1, at the distance `height` from its plane and
+/// `aside` from its axis: π/2 (1 − (a² + h² − r²)/√((a² + h² + r²)² − 4 r² a²)) (Hottel and Sarofim 1967); on the axis π r²/(r² +
+/// h²).
 #[must_use]
 pub fn disc(height: f64, aside: f64, radius: f64) -> f64 {
     let (h2, a2, r2) = (height * height, aside * aside, radius * radius);
@@ -27,8 +25,8 @@ pub fn disc(height: f64, aside: f64, radius: f64) -> f64 {
     0.5 * PI * (1.0 - (sum - 2.0 * r2) / (sum * sum - 4.0 * r2 * a2).sqrt())
 }
 
-/// Irradiance at `point` on a surface of unit `normal` from a polygon of uniform radiance 1 that stands wholly above the
-/// surface: ½ |Σ βᵢ n·(Rᵢ × Rᵢ₊₁)/|Rᵢ × Rᵢ₊₁||, βᵢ the angle between corners (Lambert 1760).
+/// Irradiance at `point` on a surface of unit `normal` from a polygon of uniform radiance 1 that is entirely above the surface: ½
+/// |Σ βᵢ n·(Rᵢ × Rᵢ₊₁)/|Rᵢ × Rᵢ₊₁||, βᵢ the angle between corners (Lambert 1760).
 #[must_use]
 pub fn polygon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     let rays: Vec<DVec3> = corners.iter().map(|c| (*c - point).normalize()).collect();
@@ -39,8 +37,8 @@ pub fn polygon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     0.5 * (0..rays.len()).map(edge).sum::<f64>().abs()
 }
 
-/// Irradiance at `point` from a parallelogram of uniform radiance 1, as the sum of cos θ cos θ′/d² dA over n² patches:
-/// the proof of [`polygon`].
+/// Irradiance at `point` from a parallelogram of uniform radiance 1, as the sum of cos θ cos θ′/d² dA over n² patches: verifies
+/// [`polygon`].
 #[must_use]
 pub fn parallelogram_by_sum(point: DVec3, normal: DVec3, corner: DVec3, sides: [DVec3; 2], n: usize) -> f64 {
     let area = sides[0].cross(sides[1]);
@@ -62,8 +60,8 @@ pub fn foote(t: f64, a: f64) -> f64 {
     0.5 * (1.0 - (1.0 + tt - aa) / (sum * sum - 4.0 * tt * aa).sqrt())
 }
 
-/// Irradiance/π behind a disc of radius `a` as the sum of cos² θ/d² over rings and sectors, of the points that `open`
-/// lets through (coordinates in units of `a`, x along the tangent `t`).
+/// Irradiance/π behind a disc of radius `a` as the sum of cos² θ/d² over rings and sectors, over the points that `open` transmits
+/// (coordinates in units of `a`, x along the tangent `t`).
 #[must_use]
 pub fn by_sum(t: f64, a: f64, rings: usize, open: impl Fn([f64; 2]) -> bool) -> f64 {
     let sectors = 4 * rings;
@@ -78,7 +76,7 @@ pub fn by_sum(t: f64, a: f64, rings: usize, open: impl Fn([f64; 2]) -> bool) -> 
             sum += 1.0 / (squared * squared);
         }
     }
-    // dA = π a²/n, and the result is a share of π.
+    // dA = π a²/n, and the result is a fraction of π.
     sum * a * a / (rings * sectors) as f64
 }
 
@@ -96,10 +94,10 @@ pub fn lens_area(r: f64, s: f64, d: f64) -> f64 {
     rr * acos((dd + rr - ss) / (2.0 * d * r)) + ss * acos((dd + ss - rr) / (2.0 * d * s)) - 0.5 * kite
 }
 
-/// Simpson's rule on `intervals` (even) equal parts: exact for cubics.
+/// Simpson's rule with `intervals` (even) equal parts: exact for cubics.
 ///
 /// # Panics
-/// Where the number of intervals is odd or zero.
+/// If the number of intervals is odd or zero.
 #[must_use]
 pub fn simpson(low: f64, high: f64, intervals: usize, f: impl Fn(f64) -> f64) -> f64 {
     assert!(intervals > 0 && intervals.is_multiple_of(2), "Simpson's rule needs pairs of intervals");
@@ -138,8 +136,8 @@ mod tests {
         };
         let corners: Vec<DVec3> = (0..SIDES).map(corner).collect();
         for aside in [0.0, 0.5, 3.0] {
-            // The polygon lacks 2 π²/(3 n²) of the area, and the arc cosines of close corners lose some digits: 1e-6 in
-            // all is far below what a wrong sign or square would do.
+            // The polygon lacks 2 π²/(3 n²) of the area, and the arc cosines of close corners lose some digits: 1e-6 in all is far
+            // below the effect of a wrong sign or square.
             let sum = polygon(DVec3::X * aside, DVec3::Z, &corners);
             assert!((disc(height, aside, radius) / sum - 1.0).abs() < 1e-6, "{aside}: {sum}");
         }
@@ -167,7 +165,7 @@ mod tests {
         for (s, d) in [(1.0, 0.4), (0.7, 0.9), (1.5, 1.1), (0.2, 0.3), (1.0, 2.5)] {
             let (tiny, n) = (1e-6, 1000);
             let open = by_sum(0.0, tiny, n, |[x, y]| (x - d) * (x - d) + y * y <= s * s) / (tiny * tiny);
-            // Points cut at the rim: of the order of 1/n.
+            // Points clipped at the edge: of the order of 1/n.
             assert!((lens_area(1.0, s, d) / PI - open).abs() < 1e-3, "{s} {d}: {open}");
         }
     }
@@ -178,7 +176,7 @@ mod tests {
             let (a, (sin, cos)) = (0.5 / n, sin_cos(degrees.to_radians()));
             foote(sin / cos, a) / (foote(0.0, a) * cos * cos * cos * cos) - 1.0
         };
-        // Against on-axis × cos⁴, told to two digits: +2.5 % at f/2 and 20°, +1.3 % at f/4 and 30°.
+        // Relative to on-axis × cos⁴, to two digits: +2.5 % at f/2 and 20°, +1.3 % at f/4 and 30°.
         assert!((excess(2.0, 20.0) - 0.025).abs() < 5e-4, "{}", excess(2.0, 20.0));
         assert!((excess(4.0, 30.0) - 0.013).abs() < 5e-4, "{}", excess(4.0, 30.0));
     }

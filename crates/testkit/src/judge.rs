@@ -1,14 +1,14 @@
-//! Is an estimated picture what a closed form says?
+//! Comparison of an estimated image with a closed form.
 
 use etendue_stats::{EstimatedPlane, PlaneTest, Verdict, planes, student};
 
-/// Wrong alarms that a test with a fixed seed may have had before its seed was fixed: one in a thousand.
+/// Probability of a false alarm of a test before its seed was fixed: one in a thousand.
 pub const SIGNIFICANCE: f64 = 1e-3;
 
 /// Compares an estimate with exact values, pixel by pixel, pooled and corrected for the number of tests.
 ///
-/// A deviation up to `allowance` (absolute) is the model's own and is taken off before the test; the test asks whether
-/// what remains can be chance. Estimates without a variance (of constant integrands) must agree within the allowance.
+/// A deviation up to `allowance` (absolute) is attributed to the model and subtracted before the test; the test checks that the
+/// remainder is consistent with chance. Estimates without a variance (of constant integrands) must agree within the allowance.
 ///
 /// # Errors
 /// A sentence with the worst deviation.
@@ -33,7 +33,7 @@ pub fn against_truth(
     Err(format!("worst at sample {i}: {} for {}, {test:?}", estimate.mean[i], truth[i]))
 }
 
-/// Mean of a plane and the standard error of that mean, pixels being independent.
+/// Mean of a plane and the standard error of that mean, for independent pixels.
 #[must_use]
 pub fn mean_and_error(estimate: EstimatedPlane<'_>) -> (f64, f64) {
     let n = estimate.mean.len() as f64;
@@ -41,7 +41,7 @@ pub fn mean_and_error(estimate: EstimatedPlane<'_>) -> (f64, f64) {
     (sum(estimate.mean) / n, sum(estimate.variance_of_mean).sqrt() / n)
 }
 
-/// Whether `mean` is `truth` within an allowance and the confidence interval of [`SIGNIFICANCE`] for `freedom` degrees of
+/// True if `mean` is `truth` within an allowance and the confidence interval of [`SIGNIFICANCE`] for `freedom` degrees of
 /// freedom.
 #[must_use]
 pub fn is_near((mean, error): (f64, f64), truth: f64, allowance: f64, freedom: f64) -> bool {

@@ -1,13 +1,13 @@
 //! Brute-force and conservation oracles for tests.
 //!
-//! | module | answers |
+//! | module | content |
 //! | --- | --- |
-//! | [`judge`] | is an estimated picture what a closed form says? |
-//! | [`form_factor`] | irradiance from spheres and polygons, and behind a round, perhaps clipped, pupil; integrals by plain sums |
-//! | [`page`] | docs/extremes.md: what stands in it, and whether it holds |
-//! | [`skip`] | tests whose files are missing, counted |
+//! | [`judge`] | comparison of an estimated image with a closed form |
+//! | [`form_factor`] | irradiance from spheres and polygons, and behind a round, optionally clipped, pupil; integrals by direct sums |
+//! | [`page`] | docs/extremes.md: its content and checks |
+//! | [`skip`] | count of tests whose files are missing |
 //!
-//! Nothing here shares code with what it judges, but for the vocabulary and the elementary functions of `core`.
+//! Nothing here shares code with the tested crates, except the vocabulary and the elementary functions of `core`.
 
 pub mod form_factor;
 pub mod judge;

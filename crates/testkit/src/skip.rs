@@ -1,14 +1,14 @@
-//! Tests that need files which may be missing: they pass, say so, and are counted.
+//! Tests that need files which may be missing: they pass, report it, and are counted.
 
 use std::{io::Write as _, path::Path};
 
-/// The variable that names the file to which a skipped test adds a line; CI counts and prints them.
+/// Environment variable with the name of the file to which a skipped test adds a line; CI counts and prints them.
 const LIST: &str = "ETENDUE_SKIPPED";
 
-/// Whether all files or folders are there. Where one is not, the test is skipped: it is said on stderr and in the list that CI prints.
+/// True if all files or folders exist. Otherwise the test is skipped, which is reported on stderr and in the list that CI prints.
 ///
 /// # Panics
-/// Where the list cannot be written.
+/// If the list cannot be written.
 #[must_use]
 pub fn all_here(test: &str, needed: &[&Path]) -> bool {
     let Some(missing) = needed.iter().find(|path| !path.exists()) else { return true };
@@ -16,13 +16,13 @@ pub fn all_here(test: &str, needed: &[&Path]) -> bool {
     false
 }
 
-/// Says on stderr and in the list that CI prints that a test is skipped, and why.
+/// Reports on stderr and in the list that CI prints that a test is skipped, and the reason.
 ///
 /// # Panics
-/// Where the list cannot be written.
+/// If the list cannot be written.
 pub fn skipped(test: &str, why: &str) {
     let line = format!("skipped: {test}: {why}\n");
-    // Cargo shows what a test prints when asked (--nocapture).
+    // Cargo shows the output of a test on request (--nocapture).
     std::io::stderr().write_all(line.as_bytes()).expect("stderr");
     if let Some(list) = std::env::var_os(LIST) {
         let file = std::fs::OpenOptions::new().append(true).create(true).open(list);

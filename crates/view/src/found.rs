@@ -1,4 +1,4 @@
-//! The files of a result: of each folder, and of each frame where their names have its number.
+//! The files of a result: by folder, and by frame if their names contain its number.
 
 use std::path::{Path, PathBuf};
 use std::{ffi::OsStr, fs, ops::Range};
@@ -8,24 +8,24 @@ use etendue::{Error, ErrorCode};
 /// A file that may have layers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct FoundFile {
-    /// The folder within the result, `/` between folders: a camera's name, mostly; empty for the result's own.
+    /// Folder within the result, with `/` between folders: usually a camera's name; empty for the result's own folder.
     pub(crate) place: String,
-    /// The file's name.
+    /// File name.
     pub(crate) name: String,
-    /// The name without frame and ending.
+    /// File name without frame and ending.
     pub(crate) stem: String,
-    /// The number in the name: `None` where the file serves all frames.
+    /// Frame number in the name; `None` if the file applies to all frames.
     pub(crate) frame: Option<u32>,
     pub(crate) path: PathBuf,
 }
 
-/// Endings of files that have layers.
+/// Endings of files with layers.
 const ENDINGS: [&str; 9] = ["exr", "png", "tif", "tiff", "dng", "jpg", "jpeg", "pfm", "flo"];
-/// Files that a page shows at most.
+/// Maximum number of files on a page.
 const MAX_FILES: usize = 4_000;
-/// Folders within folders at most.
+/// Maximum depth of nested folders.
 const MAX_DEPTH: usize = 8;
-/// The order in which files of a folder are listed; others follow by name.
+/// Order in which files of a folder are listed; others follow by name.
 const ORDER: [&str; 10] = [
     "picture",
     "raw",
@@ -39,10 +39,10 @@ const ORDER: [&str; 10] = [
     "boxes",
 ];
 
-/// The files of `folder`, sorted by place, kind and frame; those of other frames than `frames` are left out.
+/// Returns the files of `folder`, sorted by place, kind and frame, without those of frames outside `frames`.
 ///
 /// # Errors
-/// Where it is no folder, cannot be read, or has no file or too many.
+/// If it is not a folder, cannot be read, or has no file or too many.
 pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<FoundFile>, Error> {
     let refuse = |why: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", folder.display()));
     if !folder.is_dir() {
@@ -80,7 +80,7 @@ fn search(folder: &Path, place: &str, depth: usize, files: &mut Vec<FoundFile>) 
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let (path, kind) = (entry.path(), entry.file_type().map_err(unreadable)?);
-        // What has no name in UTF-8 is no file of this program.
+        // Names that are not UTF-8 are not files of this program.
         let Ok(name) = entry.file_name().into_string() else { continue };
         if name.starts_with('.') {
             continue;
@@ -107,7 +107,7 @@ fn found(place: &str, name: String, path: PathBuf) -> Option<FoundFile> {
     has_layers.then_some(FoundFile { place: place.to_owned(), stem, frame, name, path })
 }
 
-/// A frame's number as files have it.
+/// Parses a frame number in a file name.
 fn frame(text: &str) -> Option<u32> {
     let is_number = text.len() >= 4 && text.bytes().all(|digit| digit.is_ascii_digit());
     text.parse().ok().filter(|_| is_number)

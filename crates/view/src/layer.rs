@@ -1,4 +1,4 @@
-//! A layer of a result: planes of numbers, and how they are to be looked at.
+//! A layer of a result: planes of numbers, and their display.
 
 use serde_json::{Map, Value, json};
 
@@ -9,11 +9,11 @@ pub(crate) enum Samples {
     Bytes(Vec<u8>),
     /// Whole numbers of 16 bits.
     Words(Vec<u16>),
-    /// Identities and counts.
+    /// Identifiers and counts.
     Whole(Vec<u32>),
-    /// Numbers that are kept as they are.
+    /// Numbers stored exactly.
     Exact(Vec<f32>),
-    /// Numbers that are kept to 11 binary digits.
+    /// Numbers rounded to 11 binary digits.
     Rounded(Vec<f32>),
 }
 
@@ -38,16 +38,14 @@ impl Samples {
     }
 }
 
-/// What the numbers of a plane are to the others.
+/// Relation of a plane to the others of its layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Values.
     Value,
-    /// The standard error of the value plane at the same place among those.
+    /// The standard error of the value plane with the same index.
     Error,
 }
 
-/// A plane.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct NamedPlane {
     pub(crate) name: String,
@@ -61,7 +59,7 @@ impl NamedPlane {
     }
 }
 
-/// An identity that a plane holds.
+/// An identifier in a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Name {
     pub(crate) id: u32,
@@ -69,42 +67,41 @@ pub(crate) struct Name {
     pub(crate) colour: [u8; 3],
 }
 
-/// How a layer is looked at.
+/// Display of a layer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// A picture for display: numbers up to `full`, encoded as said.
+    /// An image for display: numbers up to `full`, with this encoding.
     Picture { full: f64, encoding: String },
-    /// Digital numbers of a sensor; channels of the filters of a tile, where it is known.
+    /// Digital numbers of a sensor; with the filters of a tile, if known.
     Raw { black: f64, white: f64, filters: Option<(usize, Vec<String>)> },
-    /// Band means about these wavelengths, and what each band adds to linear sRGB.
+    /// Band means at these wavelengths, and the contribution of each band to linear sRGB.
     Spectrum { centres_nm: Vec<f64>, width_nm: f64, weights: Vec<[f64; 3]> },
     /// Linear red, green and blue.
     Colour,
-    /// Lengths, by their logarithm.
+    /// Lengths, on a logarithmic scale.
     Length,
-    /// Identities.
+    /// Identifiers.
     Identity { names: Vec<Name> },
-    /// Vectors of the image.
+    /// Vectors in the image.
     Flow,
     /// Vectors in space; unit vectors or others.
     Vector { is_unit: bool },
-    /// What one number is made of, a plane a part.
+    /// Components of one number, one plane each.
     Parts,
-    /// One number a pixel.
+    /// One number per pixel.
     Number,
-    /// Boxes of objects, which are drawn over pictures of their size.
+    /// Boxes of objects, drawn over images of the same size.
     Boxes { objects: Vec<Value> },
 }
 
-/// A layer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Layer {
-    /// Its name within the file.
+    /// Name within the file.
     pub(crate) name: String,
     pub(crate) kind: Kind,
-    /// The unit of its values; empty for a ratio or a name.
+    /// Unit of its values; empty for a ratio or a name.
     pub(crate) unit: String,
-    /// What its numbers mean, where that is not plain.
+    /// Meaning of its numbers, if it is not obvious.
     pub(crate) meaning: String,
     /// Columns and rows.
     pub(crate) size: (usize, usize),
@@ -112,24 +109,24 @@ pub(crate) struct Layer {
 }
 
 impl Layer {
-    /// Bytes of a pixel on the page.
+    /// Bytes per pixel on the page.
     pub(crate) fn pixel_bytes(&self) -> usize {
         self.planes.iter().map(|plane| plane.samples.width()).sum()
     }
 
-    /// Whether a pixel of a smaller layer has the mean of several; otherwise it has one of theirs.
+    /// True if a pixel of a downsampled layer is the mean of several; otherwise it is one of them.
     pub(crate) fn has_means(&self) -> bool {
         self.kind.has_means() && !self.planes.iter().any(|plane| matches!(plane.samples, Samples::Whole(_)))
     }
 }
 
 impl Kind {
-    /// Whether the mean over pixels is a value of the same kind; otherwise one pixel stands for several.
+    /// True if the mean over pixels is a value of the same kind; otherwise one pixel represents several.
     pub(crate) fn has_means(&self) -> bool {
         matches!(self, Self::Picture { .. } | Self::Spectrum { .. } | Self::Colour | Self::Parts | Self::Number)
     }
 
-    /// The kind as the page's script knows it; `thinned`: one pixel stands for several.
+    /// The kind in the form that the page's script reads; `thinned`: one pixel represents several.
     pub(crate) fn to_json(&self, thinned: bool) -> Map<String, Value> {
         let said = match self {
             Self::Picture { full, encoding } => json!({ "kind": "picture", "full": full, "encoding": encoding }),

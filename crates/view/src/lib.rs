@@ -1,4 +1,4 @@
-//! A page for looking: every layer of a result, as HTML that a browser opens from the file system.
+//! Viewer page: every layer of a result, as HTML that a browser opens from the file system.
 //!
 //! ```no_run
 //! use etendue::{Existing, Unobserved};
@@ -16,11 +16,11 @@
 //! | --- | --- |
 //! | the files of a result, by camera and frame | `found` |
 //! | a file's layers, by the readers of `etendue-io` | `read` |
-//! | fewer pixels where a layer is larger than a limit | `bin` |
-//! | numbers as text that the page unpacks, with the precision that is stated there | `pack` |
+//! | downsampling of a layer larger than a limit | `bin` |
+//! | numbers as text that the page unpacks, with the precision stated there | `pack` |
 //! | the page: `page/view.html` with its style and scripts | `page` |
 //!
-//! The page has no server, loads nothing from a network, and its bytes depend on the files alone (docs/decisions/viewer.md).
+//! The page has no server, loads nothing from a network, and its bytes depend only on the files (docs/decisions/viewer.md).
 
 mod found;
 mod layer;

@@ -1,14 +1,14 @@
 //! Planes as text that the page's script unpacks (`page/chunks.js`).
 //!
-//! One plane after the other; of each the first (lowest) bytes of all its numbers, then the second, and so on, as equal bytes stand together that
-//! way; all that by DEFLATE in the zlib format (RFC 1950), and in base64. Numbers are kept as they are, but for those of spectra: these are
-//! divided by a power of two, by which the largest of the plane's layer is below 2¹⁵, and rounded to half floats: to 2⁻¹¹ of the value down to
-//! 2⁻²⁸ of that largest one, and to 2⁻³⁹ of it below.
+//! Planes follow one another. For each, the first (lowest) bytes of all its numbers come first, then the second, and so on, which
+//! groups equal bytes. The whole is compressed with DEFLATE in the zlib format (RFC 1950) and encoded in base64. Numbers are
+//! stored exactly, except those of spectra: these are divided by a power of two, which brings the largest of the plane's layer
+//! below 2¹⁵, and rounded to half floats: to 2⁻¹¹ of the value down to 2⁻²⁸ of that largest one, and to 2⁻³⁹ of it below.
 //!
-//! Fewer pixels: blocks of a whole number of columns and rows become one.
+//! Downsampling: blocks of a whole number of columns and rows become one pixel.
 //!
-//! Of light and other numbers a block has the mean of what is finite in it, and its standard error as if the pixels' errors were independent.
-//! Of raws, lengths, identities, flow and vectors, which have no mean that is one of them, its middle pixel stands for it.
+//! For light and other numbers, a block is the mean of its finite pixels, with its standard error as for independent pixel
+//! errors. Raws, lengths, identifiers, flow and vectors have no meaningful mean: the middle pixel represents the block.
 
 use std::io::Write as _;
 
@@ -19,9 +19,9 @@ use half::f16;
 use crate::layer::{Layer, NamedPlane, Role, Samples};
 use crate::page::encoded;
 
-/// Planes as the page has them.
+/// Planes in the form of the page.
 pub(crate) struct Packed {
-    /// How each plane is kept: its type and the factor of its numbers.
+    /// Encoding of each plane: its type and the factor of its numbers.
     pub(crate) types: Vec<(&'static str, f64)>,
     /// All of them in base64.
     pub(crate) text: String,
@@ -74,19 +74,19 @@ fn side_by_side<const N: usize>(numbers: impl Iterator<Item = [u8; N]> + Clone) 
     (0..N).flat_map(|place| numbers.clone().map(move |bytes| bytes[place])).collect()
 }
 
-/// The least factor by which a layer takes at most so many bytes.
+/// The smallest factor by which a layer takes at most this many bytes.
 pub(crate) fn factor(layer: &Layer, max_bytes: usize) -> usize {
     let (width, height) = layer.size;
     let bytes = |step: usize| width.div_ceil(step) * height.div_ceil(step) * layer.pixel_bytes();
     (1..).find(|step| bytes(*step) <= max_bytes || *step >= width.max(height)).unwrap_or(1)
 }
 
-/// The columns and rows of a layer by blocks of `step`².
+/// Columns and rows of a layer in blocks of `step`².
 pub(crate) fn size(layer: &Layer, step: usize) -> (usize, usize) {
     (layer.size.0.div_ceil(step), layer.size.1.div_ceil(step))
 }
 
-/// The planes of a layer by blocks of `step`².
+/// The planes of a layer in blocks of `step`².
 pub(crate) fn planes(layer: &Layer, step: usize) -> Vec<NamedPlane> {
     if step == 1 {
         return layer.planes.clone();
@@ -109,7 +109,7 @@ struct Blocks {
 }
 
 impl Blocks {
-    /// Of each block the places of its pixels.
+    /// Pixel indices of each block.
     fn each(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
         let ((width, height), step) = (self.size, self.step);
         (0..height).step_by(step).flat_map(move |y| {
@@ -120,7 +120,7 @@ impl Blocks {
         })
     }
 
-    /// Of each block the place of its middle.
+    /// Index of the middle pixel of each block.
     fn middles(&self) -> impl Iterator<Item = usize> {
         let ((width, height), step) = (self.size, self.step);
         let middle = move |from: usize, end: usize| (from + (from + step).min(end)) / 2;
@@ -172,7 +172,7 @@ impl Blocks {
     }
 }
 
-/// The mean of what is finite; the last of the numbers where none is.
+/// The mean of the finite numbers; the last of the numbers if none is finite.
 fn mean_of_finite(numbers: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut count, mut last) = (0.0, 0.0, f64::NAN);
     for number in numbers {
@@ -210,7 +210,7 @@ pub(crate) mod tests {
         characters.chunks(4).flat_map(group).collect()
     }
 
-    /// The numbers of all planes, by their types.
+    /// The numbers of all planes, by type.
     pub(crate) fn unpacked(text: &str, types: &[(&str, f64)], pixels: usize) -> Vec<Vec<f64>> {
         let mut bytes = Vec::new();
         ZlibDecoder::new(&decoded(text)[..]).read_to_end(&mut bytes).expect("deflated");
@@ -265,7 +265,7 @@ pub(crate) mod tests {
                 assert!((found - f64::from(*value)).abs() <= f64::from(*value) / 2048.0, "{found} for {value}");
             }
         }
-        // 2⁻²⁸ of the largest and less: half floats without their leading digit.
+        // 2⁻²⁸ of the largest and less: subnormal half floats.
         let least = 1.0 / (1_u64 << 39) as f64;
         let small = again(Samples::Rounded(vec![1.0, 1e-9, 1e-11, 0.0, f32::NAN, f32::NEG_INFINITY]));
         assert!((small[1] - 1e-9).abs() < least && (small[2] - 1e-11).abs() < least, "{small:?}");
@@ -288,7 +288,7 @@ pub(crate) mod tests {
         let Samples::Exact(means) = &means.samples else { panic!("exact") };
         assert_eq!(means[..5], [(0.0 + 5.0 + 6.0) / 3.0, 5.0, 6.5, 10.5, 12.5]);
         assert!(means[5].is_nan());
-        // Of two errors of 3 the mean has √18 / 2.
+        // The mean of two errors of 3 has √18 / 2.
         let of_two = 4.5_f64.sqrt() as f32;
         assert_eq!(errors.samples, Samples::Exact(vec![1.5, 1.5, of_two, of_two, of_two, 3.0]));
     }

@@ -1,6 +1,6 @@
 //! The page: a folder of `index.html` and `data`, or one file with the data in its scripts.
 //!
-//! Bytes as text (RFC 4648, section 4).
+//! Base64 encoding (RFC 4648, section 4).
 
 use std::path::{Path, PathBuf};
 use std::{fmt::Write as _, fs, io::Read as _};
@@ -24,16 +24,16 @@ const START: &str = include_str!("../page/start.js");
 const INDEX: &str = "index.html";
 const DATA: &str = "data";
 
-/// A page that is being written.
+/// A page during writing.
 pub(crate) enum Page {
-    /// Chunks are scripts beside the page, which loads them when they are shown.
+    /// Chunks are scripts next to the page, which loads them when they are shown.
     Folder(OutputFolder, Vec<String>),
     /// Chunks are within the page.
     File(PathBuf, Existing, String),
 }
 
 impl Page {
-    /// Opens a folder, or a file where the name ends in `.html`; refuses at once what is there and may not be replaced.
+    /// Opens a folder, or a file if the name ends in `.html`; refuses immediately a path that exists and may not be replaced.
     pub(crate) fn open(path: &Path, existing: Existing) -> Result<Self, Error> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
             if existing == Existing::Refuse && path.symlink_metadata().is_ok() {
@@ -65,14 +65,14 @@ impl Page {
         Ok(())
     }
 
-    /// Writes the page, and answers with its name.
+    /// Writes the page and returns its path.
     pub(crate) fn finish(self, title: &str, facts: &Value) -> Result<PathBuf, Error> {
         match self {
             Self::Folder(mut folder, names) => {
                 folder.write(INDEX, html(title, facts, "").as_bytes()).map_err(Error::run)?;
                 let index = folder.path().join(INDEX);
                 let idle = idle(&folder.path().join(DATA), &names);
-                // A page that was here before may have had more layers.
+                // An earlier page here may have had more layers.
                 folder.remove(idle.iter().map(String::as_str)).map_err(Error::run)?;
                 folder.commit().map_err(Error::run)?;
                 Ok(index)
@@ -85,14 +85,14 @@ impl Page {
     }
 }
 
-/// Whether the page in a folder is one that this program made.
+/// True if the page in a folder was made by this program.
 pub(crate) fn is_ours(folder: &Path) -> bool {
     let mut head = Vec::new();
     let read = fs::File::open(folder.join(INDEX)).and_then(|file| file.take(1024).read_to_end(&mut head));
     read.is_ok() && String::from_utf8_lossy(&head).contains(PAGE_GENERATOR)
 }
 
-/// Chunks of an earlier page of the folder that this one has not.
+/// Chunks of an earlier page in the folder that this one does not have.
 fn idle(data: &Path, names: &[String]) -> Vec<String> {
     let entries = fs::read_dir(data).into_iter().flatten().flatten();
     let there = entries.filter_map(|entry| entry.file_name().into_string().ok());
@@ -112,14 +112,14 @@ fn html(title: &str, facts: &Value, chunks: &str) -> String {
     html_page(title, STYLE, &body)
 }
 
-/// JSON as a script may contain it, whatever names it holds.
+/// Escapes JSON for a script, whatever names it contains.
 fn in_script(value: &Value) -> String {
     value.to_string().replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }
 
 const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// The text of bytes, with padding.
+/// Encodes bytes in base64, with padding.
 pub(crate) fn encoded(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {

@@ -1,4 +1,4 @@
-//! What stands on a page is what stands in the files.
+//! The content of a page agrees with the files.
 
 use crate::pack::tests::unpacked;
 use crate::{ViewRequest, view};
@@ -27,7 +27,7 @@ fn lengths() -> Vec<f32> {
     (0..PIXELS).map(|i| if i == 5 { f32::INFINITY } else { 1.0 + i as f32 / 7.0 }).collect()
 }
 
-/// A picture whose blue is 3, 6, 9 …
+/// An image with blue values 3, 6, 9 …
 fn picture((width, height): (usize, usize)) -> Vec<u8> {
     let rgb = (1..=width * height).map(|i| [1, 2, 3].map(|c| (c * i) as u8)).collect();
     Preview { width, height, rgb }.to_png().expect("encoded")
@@ -59,7 +59,7 @@ fn result(folder: &Path, gain: f32) -> PathBuf {
     folder.to_path_buf()
 }
 
-/// What the script of a page is given.
+/// The data of a page's script.
 fn facts(page: &Path) -> Value {
     let html = fs::read_to_string(page).expect("a page");
     let line = html.lines().find_map(|line| line.strip_prefix("const PAGE = ")).expect("facts");
@@ -71,7 +71,7 @@ fn layer<'a>(facts: &'a Value, result: usize, name: &str) -> &'a Value {
     layers.find(|layer| layer["name"] == name && layer["result"] == result).unwrap_or_else(|| panic!("no layer {name}"))
 }
 
-/// The numbers of a layer: from its script, or from within the page.
+/// The numbers of a layer: from its script, or from the page itself.
 fn planes(page: &Path, layer: &Value) -> Vec<Vec<f64>> {
     let id = layer["chunk"].as_str().expect("a chunk");
     let beside = page.with_file_name("data").join(format!("{id}.js"));
@@ -182,7 +182,7 @@ fn layers_that_are_too_large_have_fewer_pixels_alike_in_both_results() {
     for result in [0, 1] {
         let layer = layer(&facts, result, "n");
         assert_eq!([&layer["step"], &layer["width"], &layer["height"], &layer["columns"]], [2, 500, 300, 1000]);
-        // Of columns 2 and 3 the mean; statistics are those of the file.
+        // The mean of columns 2 and 3; statistics are those of the file.
         assert_eq!(planes(&page, layer)[0][1], [2.5, 5.0][result]);
         assert_eq!(layer["planes"][0]["max"], [999.0, 1998.0][result]);
     }

@@ -1,4 +1,4 @@
-//! The files of two results, those of the same camera, frame and name together.
+//! Pairing of the files of two results by camera, frame and name.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -6,13 +6,13 @@ use crate::found::FoundFile;
 
 /// A file of the first result, of the second, or of both.
 pub(crate) struct FilePair {
-    /// The camera under which the page has it.
+    /// Camera name on the page.
     pub(crate) place: String,
     pub(crate) files: [Option<FoundFile>; 2],
 }
 
-/// Pairs files, in the order of the first result's; those of the second alone follow. Where each result has one camera these are shown beside each other,
-/// whatever their names.
+/// Pairs files, in the order of the first result's; those only in the second follow. If each result has one camera, these are
+/// paired whatever their names.
 pub(crate) fn paired(first: Vec<FoundFile>, second: Vec<FoundFile>) -> Vec<FilePair> {
     let places = |files: &[FoundFile]| files.iter().map(|file| file.place.clone()).collect::<BTreeSet<_>>();
     let (of_first, of_second) = (places(&first), places(&second));

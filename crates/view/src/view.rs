@@ -15,11 +15,12 @@ use crate::pairs::{FilePair, paired};
 use crate::read::{self, FileLayers, SideCar};
 use crate::request::ViewRequest;
 
-/// Writes the page of a result: into the folder `page`, as the one file `page` where that ends in `.html`, or into the folder `view` of the result,
-/// where an earlier page is replaced. Answers with the file to open. One file of a result, and the one beside it, are in memory at a time.
+/// Writes the page of a result: into the folder `page`, as the single file `page` if that ends in `.html`, or into the folder
+/// `view` of the result, where it replaces an earlier page. Returns the file to open. Only one file of each result is in memory
+/// at a time.
 ///
 /// # Errors
-/// Where a folder is no result, a file of it is damaged, or layers that stand beside each other differ in size; nothing is written then. Where the page
+/// If a folder is not a result, a file of it is damaged, or compared layers differ in size; nothing is written then. If the page
 /// cannot be written, or the observer cancels.
 pub fn view(
     request: &ViewRequest,
@@ -82,7 +83,7 @@ struct Build<'a> {
     page: Page,
     layers: Vec<Value>,
     files: Vec<BTreeMap<String, String>>,
-    /// Layers that have fewer pixels than their file.
+    /// Layers with fewer pixels than their file.
     binned: usize,
 }
 
@@ -112,7 +113,7 @@ impl Build<'_> {
         Ok(())
     }
 
-    /// By how much layers have fewer pixels: alike in both results.
+    /// Downsampling factors of layers: equal in both results.
     fn steps(&self, both: &[(usize, &FoundFile, FileLayers)]) -> BTreeMap<String, usize> {
         let mut steps = BTreeMap::new();
         for layer in both.iter().flat_map(|(_, _, read)| &read.layers) {
@@ -151,7 +152,7 @@ impl Build<'_> {
     }
 }
 
-/// Where a layer stands on the page.
+/// Position of a layer on the page.
 struct Stand<'a> {
     result: usize,
     place: &'a str,
@@ -192,7 +193,7 @@ impl Stand<'_> {
     }
 }
 
-/// A plane: how it is kept, and the statistics of all its numbers in the file.
+/// A plane: its encoding, and the statistics of all its numbers in the file.
 fn plane_json(plane: &NamedPlane, (kept, scale): (&'static str, f64)) -> Map<String, Value> {
     let of = ChannelReport::of(&plane.name, kept, plane.samples.numbers());
     let mut said = json!({ "name": plane.name, "type": kept });
@@ -212,7 +213,7 @@ fn plane_json(plane: &NamedPlane, (kept, scale): (&'static str, f64)) -> Map<Str
     said
 }
 
-/// Layers that stand beside each other have the same size.
+/// Checks that compared layers have the same size.
 fn same_sizes((a, of_a): (&FoundFile, &[Layer]), (b, of_b): (&FoundFile, &[Layer])) -> Result<(), Error> {
     for layer in of_b {
         let Some(other) = of_a.iter().find(|other| other.name == layer.name) else { continue };

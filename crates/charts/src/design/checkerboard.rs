@@ -7,13 +7,13 @@ use crate::drawing::{Drawing, Feature, Kind};
 use crate::shape::{Cell, Fill, Lattice};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
-/// How much of what is wholly seen the board takes.
+/// Size of the board relative to the fully visible rectangle.
 const ROOM: f64 = 0.92;
 
-/// A checkerboard; `size` counts squares. Default: 12 columns of squares over the width that is wholly seen.
+/// A checkerboard; `size` counts squares. Default: 12 columns of squares over the fully visible width.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Checkerboard {
-    /// How many squares, and how large.
+    /// Number and size of the squares.
     pub size: GridSize,
 }
 
@@ -38,7 +38,7 @@ impl Checkerboard {
     }
 }
 
-/// The size of a lattice of figures; what is left open follows from the room there is.
+/// Size of a lattice of figures; omitted values follow from the available space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GridSize {
     /// Columns.
@@ -57,11 +57,11 @@ pub(super) struct Grid {
     pub(super) pitch_mm: f64,
 }
 
-/// More columns or rows than this are taken for a slip.
+/// Maximum columns or rows; more are taken for a typing error.
 const MOST: u32 = 500;
 
 impl GridSize {
-    /// The grid in a room (mm): as many of `columns` as the pitch allows, or the pitch that `columns` allow.
+    /// The grid in a space (mm): as many of `columns` as the pitch allows, or the pitch that `columns` allow.
     pub(super) fn in_room(self, room_mm: DVec2, columns: u32, least: u32) -> Result<Grid, ChartError> {
         let checked = |option, count: Option<u32>| match count {
             Some(n) if !(least..=MOST).contains(&n) => {
@@ -79,7 +79,7 @@ impl GridSize {
             (None, None, Some(y)) => room_mm.y / f64::from(y),
             (None, x, None) => room_mm.x / f64::from(x.unwrap_or(columns)),
         };
-        // Rounding shall not take the last column away.
+        // Rounding must not remove the last column.
         let fit = |room: f64| (room / pitch_mm * (1.0 + 1e-9)).floor().min(f64::from(MOST)) as u32;
         let count = |given: Option<u32>, room: f64| given.unwrap_or_else(|| fit(room));
         let (columns, rows) = (count(given_columns, room_mm.x), count(given_rows, room_mm.y));

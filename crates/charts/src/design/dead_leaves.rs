@@ -1,8 +1,9 @@
-//! Dead leaves: discs upon discs, their radii by the power law r⁻³ between limits, their greys even, so that the picture has
-//! the statistics of natural scenes at every scale (after Lee, Mumford and Huang 2001; ISO 19567-2). Texture loss.
+//! Dead leaves: overlapping discs with radii by the power law r⁻³ between limits and uniformly distributed greys, so that the
+//! image has the statistics of natural scenes at every scale (after Lee, Mumford and Huang 2001; ISO 19567-2). Measures texture
+//! loss.
 //!
-//! The leaves are laid from the top down: a texel takes the first leaf that covers it. The texture has some texels a pixel
-//! each way; its numbers are reflectances.
+//! The leaves are placed from the top down: a texel takes the first leaf that covers it. The texture has several texels per pixel
+//! in each direction; its numbers are reflectances.
 
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::DVec2;
@@ -14,23 +15,23 @@ use crate::ink::{Ink, Paint};
 use crate::shape::{Cell, Fill, Lattice, rectangle};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
-/// Side over the height that is wholly seen.
+/// Side relative to the fully visible height.
 const REACH: f64 = 0.8;
-/// Texels of a pixel, each way.
+/// Texels per pixel, in each direction.
 const TEXELS: f64 = 4.0;
-/// Largest side of a texture.
+/// Maximum side of a texture, texels.
 const MAX_TEXELS: f64 = 6000.0;
-/// Radius of the smallest leaf that a texel's middle can be expected to see, texels.
+/// Radius of the smallest leaf that the centre of a texel can be expected to sample, texels.
 const MIN_RADIUS: f64 = 0.5;
-/// Darkest and lightest leaf.
+/// Reflectance of the darkest and the lightest leaf.
 const GREYS: (f64, f64) = (0.1, 0.7);
 
 /// A chart of dead leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeadLeaves {
-    /// Radius of the smallest leaves, pixels of the picture's middle.
+    /// Radius of the smallest leaves, in pixels at the image centre.
     pub smallest_px: f64,
-    /// Radius of the largest leaves over the chart's side.
+    /// Radius of the largest leaves relative to the chart's side.
     pub largest_ratio: f64,
 }
 
@@ -80,14 +81,14 @@ impl DeadLeaves {
     }
 }
 
-/// A square of leaves, and how many were laid; radii in texels.
+/// A square of leaves, and the number of leaves placed; radii in texels.
 pub(super) fn leaves(side: usize, smallest: f64, largest: f64, seed: u64) -> (Vec<u16>, u64) {
     let mut random = NoiseStream::new(seed, 0, 0, 0, Pixel { x: 0, y: 0 }, NoiseDraw::Shot);
     let mut values = vec![None::<u16>; side * side];
     let (mut open, mut laid) = (values.len(), 0);
     let [small, large] = [smallest, largest].map(|r| 1.0 / (r * r));
     while open > 0 {
-        // Density r⁻³: 1/r² is even between its limits.
+        // Density r⁻³: 1/r² is uniform between its limits.
         let radius = 1.0 / (small - random.random::<f64>() * (small - large)).sqrt();
         let mut place = || random.random_range(-largest..side as f64 + largest);
         let centre = DVec2::new(place(), place());
@@ -98,9 +99,9 @@ pub(super) fn leaves(side: usize, smallest: f64, largest: f64, seed: u64) -> (Ve
     (values.into_iter().map(|v| v.expect("all are covered")).collect(), laid)
 }
 
-/// Gives a leaf's grey to the texels under it that have none yet; how many these are.
+/// Assigns a leaf's grey to the unassigned texels under it; returns their number.
 fn lay(values: &mut [Option<u16>], side: usize, centre: DVec2, radius: f64, grey: u16) -> usize {
-    // Texels by their middles.
+    // Texels by their centres.
     let range = |middle: f64, reach: f64| {
         let first = (middle - reach - 0.5).ceil().max(0.0) as usize;
         let end = (middle + reach + 0.5).floor().clamp(0.0, side as f64) as usize;
@@ -130,7 +131,8 @@ mod tests {
         assert!(laid > 100 && greys.iter().all(|g| (0.0999..0.7001).contains(g)));
         assert_eq!(leaves(200, 2.0, 40.0, 7).0, values);
         assert_ne!(leaves(200, 2.0, 40.0, 8).0, values);
-        // A texel's neighbour is another leaf's for about one in 2 ⟨r⟩/⟨r²⟩ · 2/π: far from never, far from always.
+        // A texel and its neighbour show different leaves with a probability of about 2 ⟨r⟩/⟨r²⟩ · 2/π: far from never, far from
+        // always.
         let changes = values.windows(2).filter(|w| w[0] != w[1]).count();
         assert!((1000..16_000).contains(&changes), "{changes}");
     }

@@ -1,5 +1,5 @@
 //! Depth wedge: on the left a staircase of panels from near to far, on the right one slanted plane back from far to near, all
-//! with texture, before a wall. Depth by stereo, focus or a network; the ground truth's depth is the truth.
+//! textured, in front of a wall. Measures depth by stereo, focus or a network; the depth of the ground truth is the reference.
 
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
@@ -13,15 +13,15 @@ use crate::ink::{Ink, Paint};
 use crate::shape::{Sheet, rectangle};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
-/// Side of the texture, texels; it is mirrored from tile to tile.
+/// Side of the texture, texels; tiles are mirrored.
 const SIDE: usize = 1024;
-/// Pixels that a tile covers, each way: wider than a step, so that nothing repeats along a row of it.
+/// Pixels per tile, in each direction: wider than a step, so that nothing repeats along a row of it.
 const TILE_PX: f64 = 512.0;
 /// Radii of its leaves, texels.
 const RADII: [f64; 2] = [2.0, 120.0];
-/// The wall's distance over that of the farthest panel.
+/// Distance of the wall relative to that of the farthest panel.
 const WALL: f64 = 1.25;
-/// How far a panel reaches behind the one before it, as a share of its width.
+/// Overlap of a panel behind the nearer one, as a fraction of its width.
 const BEHIND: f64 = 0.05;
 
 /// A staircase and a slanted plane.
@@ -29,7 +29,7 @@ const BEHIND: f64 = 0.05;
 pub struct DepthWedge {
     /// Steps of the staircase.
     pub steps: u32,
-    /// Distance of the farthest panel over that of the nearest, which stands at the chart's distance.
+    /// Distance of the farthest panel relative to that of the nearest, which is at the chart's distance.
     pub far_ratio: f64,
 }
 
@@ -41,7 +41,7 @@ impl DepthWedge {
         if !(self.far_ratio > 1.0 && self.far_ratio <= 1000.0) {
             return Err(ChartError::option("far_ratio", self.far_ratio, "expected a ratio above 1 and up to 1000"));
         }
-        // Half of the field over the distance: a point at tangent t and distance d lies d t from the axis.
+        // Half of the field relative to the distance: a point at tangent t and distance d is d t from the axis.
         let tangent = seen.outer_mm * BLEED / (2e3 * seen.distance_m);
         let distances_m = self.distances_m(seen.distance_m);
         let mut panels = vec![wall(seen.distance_m * self.far_ratio * WALL, tangent)];
@@ -60,13 +60,13 @@ impl DepthWedge {
         Ok(drawing)
     }
 
-    /// Distances in equal ratios, the near first.
+    /// Distances in equal ratios, nearest first.
     fn distances_m(&self, near_m: f64) -> Vec<f64> {
         let at = |i: u32| near_m * exp(ln(self.far_ratio) * f64::from(i) / f64::from(self.steps - 1));
         (0..self.steps).map(at).collect()
     }
 
-    /// A texture of its own scale on each panel: alike in the picture, whatever the distance.
+    /// Paints each panel with a texture of its own scale, which has the same size in the image at every distance.
     fn paint(&self, drawing: &mut Drawing, seen: &Footprint, seed: u64) {
         let (values, _) = leaves(SIDE, RADII[0], RADII[1], seed);
         let mean = values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len() as f64 / 65_535.0;
@@ -75,7 +75,7 @@ impl DepthWedge {
             let nearest_m = panel.position_m.x.min(panel.world_m(DVec2::new(panel.sheet.size_mm.x / 2.0, 0.0)).x);
             let tile = DVec2::splat(TILE_PX * seen.pixel_mm * nearest_m / seen.distance_m);
             let (name, file) = (format!("{}-texture", panel.name), "leaves.png".to_owned());
-            // Every panel begins elsewhere in the picture: neighbours do not look alike.
+            // Every panel starts at another place of the texture, so that neighbours differ.
             let corner = -panel.sheet.size_mm / 2.0 - tile * DVec2::new(random.random(), random.random());
             let place_mm = (corner, corner + tile);
             let values = values.clone();
@@ -93,7 +93,7 @@ fn wall(distance_m: f64, tangent: DVec2) -> Panel {
     Panel::facing("wall", Sheet::new(2e3 * distance_m * tangent), distance_m)
 }
 
-/// A step that is seen between two tangents.
+/// A step that is visible between two tangents.
 fn step(i: usize, distance_m: f64, from: f64, to: f64, upright: f64) -> Panel {
     let size = 1e3 * distance_m * DVec2::new(to - from, 2.0 * upright);
     let mut panel = Panel::facing(format!("step-{:02}", i + 1), Sheet::new(size), distance_m);
@@ -101,7 +101,7 @@ fn step(i: usize, distance_m: f64, from: f64, to: f64, upright: f64) -> Panel {
     panel
 }
 
-/// The plane from the middle of the picture, far away, to its right edge, near.
+/// The plane from the image centre, far away, to its right edge, near.
 fn slant(far_m: f64, near_m: f64, tangent: DVec2) -> Panel {
     let (start, end) = (DVec3::new(far_m, 0.0, 0.0), DVec3::new(near_m, -near_m * tangent.x, 0.0));
     let along = (end - start).normalize();

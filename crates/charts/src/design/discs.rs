@@ -1,4 +1,4 @@
-//! Black discs in the cells of a square lattice on white: what dots and circles are made of.
+//! Black discs in the cells of a square lattice on white: shared by dots and circles.
 
 use core::f64::consts::FRAC_PI_4;
 
@@ -9,11 +9,11 @@ use crate::drawing::{Drawing, Feature, Kind};
 use crate::shape::{Cell, Figure, Fill, Lattice, disc};
 use crate::{ink::Ink, light::Panel, ray_camera::Footprint};
 
-/// Corners of a disc: its outline leaves the circle by 2e-4 of its radius.
+/// Corners of a disc: its outline departs from the circle by 2e-4 of its radius.
 const CORNERS: usize = 128;
 
-/// Discs of a diameter (a share of the distance between cells) in those cells of a grid that `here` names by column and row; the
-/// white goes on beyond the picture's edge.
+/// Discs of a diameter (a fraction of the distance between cells) in the cells of a grid that `here` selects by column and row;
+/// the white extends beyond the edge of the image.
 pub(super) fn draw(seen: &Footprint, grid: &Grid, share: f64, here: impl Fn(usize, usize) -> bool) -> Drawing {
     let lattice = Lattice::framed(grid.columns, grid.rows, DVec2::splat(grid.pitch_mm), seen.outer_mm * BLEED);
     let radius_mm = share * grid.pitch_mm / 2.0;

@@ -1,14 +1,14 @@
 //! Dots: black discs in a square lattice on white, over all of the field and beyond its edge (ISO 17850, ISO 19084, the paper's
-//! figure 10). Focal length, distortion, chromatic displacement.
+//! figure 10). Measures focal length, distortion, chromatic displacement.
 //!
-//! Three dots are left out beside the middle, as marks of orientation: one, one three columns to its right, and one two rows below it. A picture in which the longer leg
-//! does not lie to the right of the shorter one as the chart has it is mirrored, however it is turned and wherever its centre lies. Charts of fewer than [`MIN_MARKED`]
-//! dots, or of rows and columns too few, have none: each dot counts there.
+//! Three dots near the centre are left out as orientation marks: one, one three columns to its right, and one two rows below it.
+//! In a mirrored image the longer leg is on the other side of the shorter one, at any rotation and any position of the centre.
+//! Charts of fewer than [`MIN_MARKED`] dots, or of too few rows and columns, have no marks: each dot counts there.
 //!
-//! Circles to calibrate with, all of them in view: a square lattice, or a staggered one (every other row shifted by half of
-//! the distance) that shows which side is up.
+//! Circles for calibration, all of them in view: a square lattice, or a staggered one (every other row shifted by half the
+//! distance) that shows which side is up.
 //!
-//! Points: small lamps in the dark, far below a pixel in size or of a size that is known. Point-spread function, coma, chromatic
+//! Points: small lamps in the dark, far below a pixel in size or of a known size. Measures point-spread function, coma, chromatic
 //! displacement.
 
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -21,19 +21,19 @@ use crate::ink::{Ink, Paint};
 use crate::shape::{Cell, Figure, Fill, Lattice, disc};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
-/// The least number of dots of a chart with marks.
+/// Minimum number of dots of a chart with marks.
 const MIN_MARKED: usize = 150;
-/// Columns and rows from the first mark to the chart's middle, and from it to the other two.
+/// Columns and rows from the first mark to the chart's centre, and from it to the other two.
 const FIRST: [usize; 2] = [4, 3];
 const LEGS: [usize; 2] = [3, 2];
 
 /// A chart of dots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dots {
-    /// How many and how far apart. Default: 33 columns over the width that is seen, fewer where their steps would be less than
-    /// 24 px of the picture's middle: a mosaic's colours see every other pixel.
+    /// Number and spacing. Default: 33 columns over the visible width, fewer if their steps would be less than 24 px at the image
+    /// centre: each colour of a mosaic has every other pixel.
     pub size: GridSize,
-    /// Diameter over the distance between centres, 0.05 … 0.9.
+    /// Diameter relative to the distance between centres, 0.05 … 0.9.
     pub dot_ratio: f64,
 }
 
@@ -54,7 +54,7 @@ impl Dots {
     }
 }
 
-/// Column and row, from 0, of the dots that are left out.
+/// Column and row, from 0, of the omitted dots.
 fn marks(columns: usize, rows: usize) -> Vec<[usize; 2]> {
     let middle = [columns / 2, rows / 2];
     // Each mark has dots on its four sides.
@@ -66,28 +66,29 @@ fn marks(columns: usize, rows: usize) -> Vec<[usize; 2]> {
     vec![[x, y], [x + LEGS[0], y], [x, y + LEGS[1]]]
 }
 
-/// Columns over a picture's width, px: steps of 24 px that leave six at least, whose steps are 12 px at least.
+/// Columns for an image width in px: steps of 24 px if these leave six columns; otherwise six columns, with steps of 12 px or
+/// more.
 fn usual_columns(width_px: f64) -> u32 {
     const MOST: f64 = 33.0;
     const FEW: f64 = 6.0;
     const STEP_PX: f64 = 24.0;
     const MIN_STEP_PX: f64 = 12.0;
-    // Rounding shall not take the last column away.
+    // Rounding must not remove the last column.
     let fit = |step: f64| (width_px / step * (1.0 + 1e-9)).floor();
     fit(STEP_PX).max(fit(MIN_STEP_PX).min(FEW)).clamp(3.0, MOST) as u32
 }
 
-/// How much of what is wholly seen the lattice takes.
+/// Size of the lattice relative to the fully visible rectangle.
 const ROOM: f64 = 0.92;
-/// Diameter over the side of a circle's cell.
+/// Diameter relative to the side of a circle's cell.
 const DOT_SHARE: f64 = 0.6;
 
 /// A lattice of circles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circles {
-    /// How many, and how far apart (in a staggered lattice: the cells, of which every other one holds a circle).
+    /// Number and spacing (for a staggered lattice: of the cells, of which every other one contains a circle).
     pub size: GridSize,
-    /// Whether the lattice is staggered.
+    /// True for a staggered lattice.
     pub asymmetric: bool,
 }
 
@@ -109,9 +110,9 @@ const CORNERS: usize = 16;
 /// Small lamps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Points {
-    /// How many and how far apart. Default: 15 columns over what is wholly seen.
+    /// Number and spacing. Default: 15 columns over the fully visible width.
     pub size: GridSize,
-    /// Diameter of a lamp, pixels of the picture's middle.
+    /// Diameter of a lamp, in pixels at the image centre.
     pub diameter_px: f64,
 }
 
@@ -133,7 +134,7 @@ impl Points {
             features.push(Feature { radius_mm: Some(radius), ..lamp });
             Cell::Figure(Figure::one(centre, disc(centre, radius, CORNERS, FRAC_PI_4), 1), Fill::Ink(0))
         });
-        // A pixel that holds a whole lamp is as bright as if the light of the chart filled it.
+        // A pixel that contains a whole lamp is as bright as if the light of the chart filled it.
         let share = 1.0 / (PI * self.diameter_px * self.diameter_px / 4.0).min(1.0);
         let inks = vec![Ink::new("dark", Paint::Glow(0.0)), Ink::new("lamp", Paint::Glow(share))];
         let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);

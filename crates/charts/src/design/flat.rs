@@ -1,10 +1,10 @@
-//! Even fields: a white sheet in even light (ISO 17957, EMVA 1288), and a panel that shines by itself in the dark, the paper's
-//! retro-lighting chart. Vignetting, shading, tone curve, photon transfer.
+//! Flat fields: a white sheet in uniform light (ISO 17957, EMVA 1288), and a self-luminous panel in the dark, the paper's
+//! retro-lighting chart. Measures vignetting, shading, tone curve, photon transfer.
 //!
-//! Flare: a white field with light traps, holes with a deep black box behind (ISO 18844). Veiling glare.
+//! Flare: a white field with light traps, holes with a deep black box behind (ISO 18844). Measures veiling glare.
 //!
-//! What a trap shows is not black: of reflectance R inside, opening radius r and depth h its bottom has about R r²/(r² + h²) of
-//! the field's luminance, its walls more towards the opening.
+//! A trap is not perfectly black. With reflectance R inside, opening radius r and depth h, its bottom has about R r²/(r² + h²) of
+//! the field's luminance; its walls have more towards the opening.
 
 use glam::DVec2;
 
@@ -17,11 +17,11 @@ use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 /// A white sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatField {
-    /// Its reflectance.
+    /// Reflectance.
     pub reflectance: f64,
 }
 
-/// A panel that shines by itself.
+/// A self-luminous panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Backlit;
 
@@ -44,24 +44,24 @@ fn even(seen: &Footprint, ink: Ink) -> Drawing {
     let sheet = Sheet::plain(2.0 * half, 0);
     let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), vec![ink]);
     drawing.patches.push(patch);
-    // Samples of the spectrum and of the pupil leave about 0.1 % in a pixel.
+    // Sampling of the spectrum and of the pupil leaves about 0.1 % in a pixel.
     drawing.spp = 256;
     drawing
 }
 
 /// Corners of a hole.
 const CORNERS: usize = 64;
-/// Depth of a trap over the diameter of its opening.
+/// Depth of a trap relative to the diameter of its opening.
 const DEPTH: f64 = 3.0;
-/// Reflectance of its inside.
+/// Reflectance inside a trap.
 const INSIDE: f64 = 0.01;
 
 /// A white field with light traps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flare {
-    /// How many traps and how far apart. Default: 5 columns over what is wholly seen.
+    /// Number and spacing of the traps. Default: 5 columns over the fully visible width.
     pub size: GridSize,
-    /// Diameter of an opening over the distance between middles.
+    /// Diameter of an opening relative to the distance between centres.
     pub trap_ratio: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Lamps in pulses: columns of frequencies, rows of duties, equally bright while they are on, each with a phase of its own, in the dark
-//! (LED flicker; IEEE P2020).
+//! Pulsed lamps in the dark: columns of frequencies, rows of duty cycles, equally bright while on, each with its own phase (LED
+//! flicker; IEEE P2020).
 
 use etendue_core::random::number_of_name;
 use serde_json::json;
@@ -9,16 +9,16 @@ use super::{GridSize, option::BLACK};
 use crate::ink::{Ink, Paint};
 use crate::{drawing::Drawing, error::ChartError, light::Panel, ray_camera::Footprint};
 
-/// Lamps in pulses.
+/// Pulsed lamps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LedFlicker {
     /// Frequencies of the columns, Hz.
     pub frequencies_hz: Vec<f64>,
-    /// Duties of the rows.
+    /// Duty cycles of the rows.
     pub duty_cycles: Vec<f64>,
 }
 
-/// Most columns or rows.
+/// Maximum columns or rows.
 const MOST: usize = 32;
 
 impl LedFlicker {
@@ -42,7 +42,7 @@ impl LedFlicker {
             })
             .collect();
         let paint = |(name, frequency_hz, duty, delay_s): &(String, f64, f64, f64)| {
-            // On, each is as bright as the light: its mean is the duty.
+            // While on, each is as bright as the light: its mean is the duty cycle.
             let pulses = Paint::Pulses { share: *duty, frequency_hz: *frequency_hz, duty: *duty, delay_s: *delay_s };
             Ink::new(name.clone(), pulses)
         };

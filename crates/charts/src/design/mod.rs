@@ -2,8 +2,8 @@
 //!
 //! # Contract
 //!
-//! A design holds the options of its chart; what is left open follows from what the camera sees. [`Chart::draw`] answers
-//! with sheets that partition their planes, inks, features and patches; nothing is drawn at random but by the seed.
+//! A design holds the options of its chart; omitted values follow from the camera's view. [`Chart::draw`] returns sheets that
+//! partition their planes, inks, features and patches; random choices depend on the seed only.
 
 mod checkerboard;
 mod dead_leaves;
@@ -32,7 +32,7 @@ pub use siemens_star::SiemensStar;
 pub use slanted_edges::SlantedEdges;
 pub use slanted_star::SlantedStar;
 
-/// The closed list of charts: what each shows, its design, its name.
+/// The closed list of charts: description, design and name of each.
 macro_rules! charts {
     ($($(#[$about:meta])* $Design:ident $name:literal,)*) => {
         /// A chart: the closed list.
@@ -45,7 +45,7 @@ macro_rules! charts {
             /// The names of all charts.
             pub const NAMES: &[&str] = &[$($name),*];
 
-            /// Its name on the command line and in its truth.
+            /// Name on the command line and in its ground truth.
             #[must_use]
             pub fn name(&self) -> &'static str {
                 match self {
@@ -53,10 +53,10 @@ macro_rules! charts {
                 }
             }
 
-            /// Draws it for what a camera sees.
+            /// Draws the chart for a camera's view.
             ///
             /// # Errors
-            /// Where a size or number is one that the chart cannot have.
+            /// If a size or number is not valid for the chart.
             pub fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
                 match self {
                     $(Self::$Design(chart) => chart.draw(seen, seed),)*
@@ -66,7 +66,7 @@ macro_rules! charts {
 
         $(
             impl $Design {
-                /// The chart's name on the command line and in its truth.
+                /// Name of the chart on the command line and in its ground truth.
                 pub const NAME: &str = $name;
             }
 
@@ -84,11 +84,11 @@ charts! {
     Dots "dots",
     /// A checkerboard.
     Checkerboard "checkerboard",
-    /// Circles to calibrate with, in a square or a staggered lattice.
+    /// Circles for calibration, in a square or a staggered lattice.
     Circles "circles",
-    /// An even white sheet in even light.
+    /// A uniform white sheet in uniform light.
     FlatField "flat-field",
-    /// An even panel that shines by itself.
+    /// A uniform self-luminous panel.
     Backlit "backlit",
     /// Squares with slanted edges over the field.
     SlantedEdges "slanted-edges",
@@ -96,17 +96,17 @@ charts! {
     SlantedStar "slanted-star",
     /// A star of many cycles.
     SiemensStar "siemens-star",
-    /// Discs upon discs.
+    /// Overlapping discs.
     DeadLeaves "dead-leaves",
     /// Grey steps around a ring.
     OecfSteps "oecf-steps",
     /// 24 measured colours.
     ColorChecker "colorchecker",
-    /// Shining greys over decades.
+    /// Self-luminous greys over decades.
     ContrastPatches "contrast-patches",
     /// White with light traps.
     Flare "flare",
-    /// Lamps of several frequencies and duties.
+    /// Lamps of several frequencies and duty cycles.
     LedFlicker "led-flicker",
     /// Small lamps in the dark.
     Points "points",

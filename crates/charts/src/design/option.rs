@@ -1,8 +1,8 @@
-//! Ranges of options that several charts share, and what all sheets have: bleed, white and black.
+//! Ranges of options that several charts share, and common properties of sheets: bleed, white and black.
 
 use crate::error::ChartError;
 
-/// How far sheets reach beyond what the camera sees, as a share of it: blur and glare look there too.
+/// Size of sheets relative to the camera's view: blur and glare reach beyond it.
 pub(super) const BLEED: f64 = 1.15;
 
 /// Reflectance of white paper.
@@ -17,13 +17,13 @@ pub(super) fn share(option: &'static str, value: f64) -> Result<f64, ChartError>
     legal.then_some(value).ok_or_else(|| ChartError::option(option, value, "expected a share, 0 … 1"))
 }
 
-/// An angle that edges are turned by, degrees, in radians.
+/// An angle by which edges are rotated, degrees, in radians.
 pub(super) fn angle(degrees: f64) -> Result<f64, ChartError> {
     let legal = (-45.0..=45.0).contains(&degrees);
     legal.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle_deg", degrees, "expected -45 … 45"))
 }
 
-/// Whether an edge at an angle to rows or columns can be measured: `measure sfr` expects 2° to 43° to the nearer of both.
+/// True if an edge at an angle to rows or columns can be measured: `measure sfr` expects 2° to 43° to the nearer of both.
 pub(super) fn is_measurable(degrees: f64) -> bool {
     let to_axis = (degrees - 90.0 * (degrees / 90.0).round()).abs();
     // Angles of a star's edges are sums of rounded numbers.

@@ -1,8 +1,8 @@
-//! Patches in rows and columns: the ColorChecker with its measured spectra, and grey patches that shine by themselves over
-//! several decades, for contrast detection probability (CDP; IEEE P2020).
+//! Patches in rows and columns: the ColorChecker with its measured spectra, and self-luminous grey patches over several decades,
+//! for contrast detection probability (CDP; IEEE P2020).
 //!
-//! Grey steps around a ring, all at the same distance from the middle, densities in equal steps (ISO 14524). Opto-electronic
-//! conversion function, dynamic range.
+//! Grey steps in a ring, all at the same distance from the centre, with densities in equal steps (ISO 14524). Measures
+//! opto-electronic conversion function, dynamic range.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -17,21 +17,21 @@ use crate::ink::{Ink, Paint};
 use crate::shape::{Cell, Figure, Fill, Lattice, Sheet, Zone, disc};
 use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
-/// How much of what is wholly seen the patches take.
+/// Size of the patches' field relative to the fully visible rectangle.
 pub(super) const ROOM: f64 = 0.92;
-/// Side of a patch over the distance between middles.
+/// Side of a patch relative to the distance between centres.
 pub(super) const SIDE: f64 = 0.86;
 /// Reflectance of the frame between colours.
 const FRAME: f64 = 0.04;
 
-/// The ColorChecker: 24 patches by the mean of measured spectra.
+/// The ColorChecker: 24 patches with the mean of measured spectra.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ColorChecker;
 
-/// Shining grey patches, luminances in equal ratios.
+/// Self-luminous grey patches, luminances in equal ratios.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContrastPatches {
-    /// How many. Default: 6 columns.
+    /// Number. Default: 6 columns.
     pub size: GridSize,
     /// Decades from the brightest to the darkest.
     pub decades: f64,
@@ -82,7 +82,7 @@ impl ContrastPatches {
     }
 }
 
-/// Patches row by row from the top left, the inks from the second on, on a ground of the first.
+/// Patches row by row from the top left, with the inks from the second on, on a ground of the first.
 pub(super) fn rows(columns: usize, rows: usize, pitch_mm: f64, seen: &Footprint, inks: &[Ink]) -> (Sheet, Vec<Patch>) {
     let lines = |count: usize, edge: f64| -> Vec<f64> {
         let first = -pitch_mm * (count as f64 - 1.0) / 2.0;
@@ -108,21 +108,21 @@ pub(super) fn rows(columns: usize, rows: usize, pitch_mm: f64, seen: &Footprint,
 /// Edges of a step's arc, and of the gap after it.
 const ARC: usize = 20;
 const GAP: usize = 5;
-/// Radii of the ring over half the height that is wholly seen.
+/// Radii of the ring relative to half the fully visible height.
 const RADII: [f64; 2] = [0.55, 0.92];
 /// Density of the lightest step.
 const LIGHTEST: f64 = 0.05;
-/// Density of the ground, that of 18 %.
+/// Density of the ground: 18 % reflectance.
 const GROUND: f64 = 0.745;
 
 /// Grey steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OecfSteps {
-    /// How many.
+    /// Number of steps.
     pub steps: u32,
-    /// Density of the darkest.
+    /// Density of the darkest step.
     pub density: f64,
-    /// Whether the chart shines by itself, as transparencies on a light box do.
+    /// True for a self-luminous chart, such as a transparency on a light box.
     pub backlit: bool,
 }
 

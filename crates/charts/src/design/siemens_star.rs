@@ -1,8 +1,8 @@
-//! Siemens star: luminance over the angle about a centre, by a cosine (ISO 12233, s-SFR) or in black and white. Modulation
-//! over spatial frequency: c cycles have the frequency c / 2πr at the radius r.
+//! Siemens star: luminance as a function of the angle about a centre, by a cosine (ISO 12233, s-SFR) or in black and white.
+//! Measures modulation over spatial frequency: c cycles have the frequency c / 2πr at the radius r.
 //!
-//! The cosine is a staircase of sectors: R(φ) = R₀ (1 + m v(φ)), v = cos at the middle of each of n steps a cycle, over
-//! sin(π/n)/(π/n), so that its fundamental is the cosine itself; what is left are the harmonics n ± 1 and their multiples.
+//! The cosine is a staircase of sectors: R(φ) = R₀ (1 + m v(φ)), v = cos at the middle of each of n steps per cycle, divided by
+//! sin(π/n)/(π/n), so that its fundamental is the cosine itself; the remainder are the harmonics n ± 1 and their multiples.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,13 +15,13 @@ use crate::drawing::{Drawing, Feature, Kind, Patch};
 use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
-/// Steps of a cycle.
+/// Steps per cycle.
 const STEPS: usize = 24;
-/// Diameter over the height that is wholly seen.
+/// Diameter relative to the fully visible height.
 const REACH: f64 = 0.92;
-/// Inner radius over the outer.
+/// Inner radius relative to the outer.
 const INNER: f64 = 0.05;
-/// Mean reflectance, and by which share of it the cosine goes up and down.
+/// Mean reflectance, and relative amplitude of the cosine.
 const MEAN: f64 = 0.4;
 const MODULATION: f64 = 0.8;
 
@@ -30,7 +30,7 @@ const MODULATION: f64 = 0.8;
 pub struct SiemensStar {
     /// Cycles around.
     pub cycles: u32,
-    /// In black and white instead of a cosine.
+    /// True for black and white instead of a cosine.
     pub binary: bool,
 }
 
@@ -41,7 +41,7 @@ impl SiemensStar {
         }
         let outer = REACH * seen.inner_mm.min_element() / 2.0;
         let corners = STEPS * self.cycles as usize;
-        // The first crest lies to the right, in the middle of its half cycle.
+        // The first maximum is to the right, in the middle of its half cycle.
         let start = -TAU / (4.0 * f64::from(self.cycles));
         let [within, around] = [INNER * outer, outer].map(|radius| disc(DVec2::ZERO, radius, corners, start));
         let patch = |name: &str, outline: &Vec<DVec2>| Patch {
@@ -73,18 +73,18 @@ impl SiemensStar {
         Ok(drawing)
     }
 
-    /// The ground, then the levels of half a cycle from trough to crest; or dark and light.
+    /// The ground, then the levels of half a cycle from minimum to maximum; or dark and light.
     fn inks(&self) -> Vec<Ink> {
         let level = |(i, v): (usize, f64)| Ink::grey(format!("level-{:02}", i + 1), MEAN * (1.0 + MODULATION * v));
         let levels = if self.binary { vec![-1.0, 1.0] } else { staircase() };
         std::iter::once(Ink::grey("mean", MEAN)).chain(levels.into_iter().enumerate().map(level)).collect()
     }
 
-    /// The ink of each sector, the first at the rise before the first crest.
+    /// The ink of each sector, the first at the rise before the first maximum.
     fn fills(&self, corners: usize) -> Vec<Fill> {
         let half = STEPS / 2;
         let level = |i: usize| {
-            // Steps from the trough: a quarter of a cycle before the start.
+            // Steps from the minimum: a quarter of a cycle before the start.
             let step = (i + half / 2) % STEPS;
             let from_trough = if step < half { step } else { STEPS - 1 - step };
             1 + if self.binary { usize::from(from_trough >= half / 2) } else { from_trough }
@@ -93,7 +93,7 @@ impl SiemensStar {
     }
 }
 
-/// The levels of half a cycle, −1 … 1, from trough to crest.
+/// The levels of half a cycle, −1 … 1, from minimum to maximum.
 fn staircase() -> Vec<f64> {
     let step = TAU / STEPS as f64;
     let smoothed = sin(step / 2.0) / (step / 2.0);

@@ -1,5 +1,5 @@
-//! Slanted edges over the field: dark squares, turned by a small angle, each with two edges near the upright and two near the
-//! level (ISO 12233). Spatial frequency response by place and direction.
+//! Slanted edges over the field: dark squares, rotated by a small angle, each with two near-vertical and two near-horizontal
+//! edges (ISO 12233). Measures spatial frequency response by position and direction.
 
 use glam::DVec2;
 
@@ -8,7 +8,7 @@ use crate::drawing::{Drawing, Feature, Patch};
 use crate::shape::{Cell, Figure, Fill, Lattice, rectangle, turned};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
-/// Side of a square over the distance between centres.
+/// Side of a square relative to the distance between centres.
 const SIDE: f64 = 0.55;
 /// Reflectance of the ground.
 const LIGHT: f64 = 0.72;
@@ -16,11 +16,11 @@ const LIGHT: f64 = 0.72;
 /// Slanted squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlantedEdges {
-    /// How many squares and how far apart. Default: 5 columns over what is wholly seen.
+    /// Number and spacing of the squares. Default: 5 columns over the fully visible width.
     pub size: GridSize,
-    /// By how much the squares are turned clockwise, degrees.
+    /// Clockwise rotation of the squares, degrees.
     pub angle_deg: f64,
-    /// Luminance of the ground over the squares'.
+    /// Luminance of the ground relative to the squares'.
     pub contrast: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Slanted stars: dark and light wedges about a centre, turned so that no edge is upright or level; after the star of ISO
-//! 12233:2023. Spatial frequency response in many directions, radial and tangential, at several places.
+//! Slanted stars: dark and light wedges around a centre, rotated so that no edge is vertical or horizontal; after the star of ISO
+//! 12233:2023. Measures spatial frequency response in many directions, radial and tangential, at several positions.
 
 use glam::DVec2;
 use serde_json::json;
@@ -9,9 +9,9 @@ use crate::drawing::{Drawing, Feature, Kind};
 use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
 use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
-/// Outer radius over the distance between centres.
+/// Outer radius relative to the distance between centres.
 const OUTER: f64 = 0.46;
-/// Inner radius over the outer one.
+/// Inner radius relative to the outer one.
 const INNER: f64 = 0.12;
 /// Reflectance of the light wedges and of the ground.
 const LIGHT: f64 = 0.72;
@@ -19,13 +19,13 @@ const LIGHT: f64 = 0.72;
 /// Slanted stars.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlantedStar {
-    /// How many stars and how far apart. Default: 3 columns over what is wholly seen.
+    /// Number and spacing of the stars. Default: 3 columns over the fully visible width.
     pub size: GridSize,
     /// Dark wedges.
     pub spokes: u32,
-    /// Direction of the first edge from the level, clockwise, degrees.
+    /// Direction of the first edge from the horizontal, clockwise, degrees.
     pub angle_deg: f64,
-    /// Luminance of light over dark.
+    /// Luminance of light relative to dark.
     pub contrast: f64,
 }
 
@@ -53,7 +53,7 @@ impl SlantedStar {
             let (centre, index) = (lattice.middle(column, row), [column - 1, row - 1]);
             let [within, around] = [INNER * outer, outer].map(|radius| disc(centre, radius, corners, turn));
             features.push(Feature::at(Kind::Centre, index, centre));
-            // Even corners begin a dark wedge: walked outwards it lies on the right (clockwise); odd ones end it.
+            // Even corners begin a dark wedge, which is on the right of the outward direction (clockwise); odd ones end it.
             features.extend((0..corners).map(|i| match i % 2 {
                 0 => Feature::edge(index, within[i], around[i]),
                 _ => Feature::edge(index, around[i], within[i]),
@@ -76,7 +76,7 @@ impl SlantedStar {
         Ok(drawing)
     }
 
-    /// Directions of the edges that lie too near to rows, columns or diagonals, 0 … 360°.
+    /// Directions of the edges that are too near to rows, columns or diagonals, 0 … 360°.
     fn unmeasurable_deg(&self) -> Vec<f64> {
         let edges = 2 * self.spokes;
         let direction = |i: u32| (self.angle_deg + 360.0 * f64::from(i) / f64::from(edges)).rem_euclid(360.0);

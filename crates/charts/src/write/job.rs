@@ -1,4 +1,4 @@
-//! A drawing as files: what is asked for, files in memory, the print of a texture, the job and its cameras.
+//! A drawing as files: the request, files in memory, the print of a texture, the job and its cameras.
 
 use etendue_core::Integrator;
 use etendue_scene::record::{Output, Pose, Render};
@@ -17,43 +17,43 @@ pub struct Request<'a> {
     pub chart: &'a Chart,
     /// Its drawing.
     pub drawing: &'a Drawing,
-    /// What the camera sees of its plane.
+    /// The camera's view of its plane.
     pub seen: Footprint,
     /// The camera's rays.
     pub ray_camera: &'a RayCamera<'a>,
-    /// What the camera makes of light; `None` without electronics.
+    /// The camera's response to light; `None` without electronics.
     pub meter: Option<&'a Meter<'a>>,
     /// The light.
     pub light: &'a Light,
     /// The cameras of the job.
     pub stations: &'a [CameraStation],
-    /// The camera file that the job's cameras build on, as a path from the chart's folder.
+    /// Camera file that the job's cameras extend, as a path from the chart's folder.
     pub camera: &'a str,
-    /// Keys that are taken out of it.
+    /// Keys to remove from it.
     pub remove: &'a [&'a str],
-    /// The specimen that all cameras of a series share, where the camera file does not say one.
+    /// Unit that all cameras of a series share (fixed patterns), if the camera file does not state one.
     pub specimen: Option<u64>,
     /// The seed.
     pub seed: u64,
-    /// Changes `key=value` of the job's keys that are applied after the chart is drawn.
+    /// Changes `key=value` to the job's keys, applied after the chart is drawn.
     pub changes: &'a [String],
 }
 
-/// What a file holds.
+/// Contents of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Contents {
     /// Text.
     Text(String),
-    /// A grey picture of 16 bits: columns, rows, values row by row.
+    /// A grey 16-bit image: columns, rows, values row by row.
     Grey16(usize, usize, Vec<u16>),
 }
 
-/// A file and its name below the chart's folder.
+/// A file and its name in the chart's folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartFile {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What it holds.
+    /// Contents.
     pub contents: Contents,
 }
 
@@ -64,7 +64,7 @@ pub(super) fn print_of(texture: &Texture) -> ChartFile {
     ChartFile { name: print_name(texture), contents: Contents::Grey16(texture.width, texture.height, values) }
 }
 
-/// The file's name of a texture for the print.
+/// File name of a texture for the print.
 pub(super) fn print_name(texture: &Texture) -> String {
     format!("{}-print.png", texture.name)
 }
@@ -73,7 +73,7 @@ pub(super) fn print_name(texture: &Texture) -> String {
 pub(super) fn job(request: &Request<'_>) -> String {
     let series = request.stations.iter().any(|station| station.exposure_s.is_some());
     let cameras: Vec<_> = request.stations.iter().map(|station| camera_entry(station, series)).collect();
-    // Level "direct": flat sheets light nothing but the camera. Boxes behind holes do.
+    // Level "direct": flat sheets light nothing except the camera. Boxes behind holes do.
     let integrator = if request.drawing.cavities.is_empty() { Integrator::Direct } else { Integrator::Path };
     let samples = SampleKeys {
         spp: Some(u64::from(request.drawing.spp).into()),
@@ -88,7 +88,7 @@ pub(super) fn job(request: &Request<'_>) -> String {
     File::new(job).head(about).to_string()
 }
 
-/// A station as a camera of the job; in a series, whose views are the same, without ground truth.
+/// A station as a camera of the job; in a series, whose views are equal, without ground truth.
 fn camera_entry(station: &CameraStation, series: bool) -> Table {
     let [position_m, target_m, up] = [station.position_m, station.target_m, station.up].map(|v| v.to_array());
     let pose = Pose::looking_at(position_m, target_m, up);
@@ -100,7 +100,7 @@ fn camera_entry(station: &CameraStation, series: bool) -> Table {
     }
 }
 
-/// The camera file of a station. A dark frame has that of the exposure before it.
+/// The camera file of a station. A dark frame uses that of the exposure before it.
 #[must_use]
 pub fn camera_file(station: &CameraStation) -> String {
     match station.exposure_s {
@@ -109,7 +109,7 @@ pub fn camera_file(station: &CameraStation) -> String {
     }
 }
 
-/// The camera of a station: the caller's, and what differs.
+/// The camera of a station: the caller's, with the differences.
 pub(super) fn camera(request: &Request<'_>, station: &CameraStation) -> String {
     let mut camera = Table::new().with("base", request.camera);
     if !request.remove.is_empty() {

@@ -1,4 +1,4 @@
-//! A drawing as files: meshes, scene, cameras, job, truth, print.
+//! A drawing as files: meshes, scene, cameras, job, ground truth, print.
 
 mod job;
 mod obj;

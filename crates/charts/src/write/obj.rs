@@ -1,4 +1,5 @@
-//! A panel's mesh, Wavefront OBJ, and its print, SVG. Of the mesh: metres, axes of the world about the panel's middle, one `usemtl` an ink.
+//! A panel's mesh, Wavefront OBJ, and its print, SVG. The mesh is in metres, with the axes of the world about the panel's centre,
+//! one `usemtl` per ink.
 
 use std::{collections::BTreeMap, fmt::Write as _};
 
@@ -36,13 +37,13 @@ struct Mesh {
 }
 
 impl Mesh {
-    /// A piece of the sheet. As seen from its front, faces turn anticlockwise.
+    /// Adds a piece of the sheet. Seen from its front, faces turn anticlockwise.
     fn piece(&mut self, panel: &Panel, outline: &[DVec2]) {
         let corners: Vec<usize> = outline.iter().rev().map(|point| self.corner(panel, *point, 0.0)).collect();
         self.face(&corners);
     }
 
-    /// A box behind a hole, seen from inside: its walls and its bottom.
+    /// Adds a box behind a hole, seen from inside: its walls and its bottom.
     fn cavity(&mut self, panel: &Panel, cavity: &Cavity) {
         let rim: Vec<usize> = cavity.opening_mm.iter().map(|p| self.corner(panel, *p, 0.0)).collect();
         let deep: Vec<usize> = cavity.opening_mm.iter().map(|p| self.corner(panel, *p, cavity.depth_mm)).collect();
@@ -65,7 +66,7 @@ impl Mesh {
         self.faces.push('\n');
     }
 
-    /// The number of a corner, `behind_mm` behind the sheet's plane.
+    /// Returns the number of a corner, `behind_mm` behind the sheet's plane.
     fn corner(&mut self, panel: &Panel, point_mm: DVec2, behind_mm: f64) -> usize {
         // Adding zero makes −0 and 0 the same corner.
         let key = [point_mm.x + 0.0, point_mm.y + 0.0, behind_mm].map(f64::to_bits);
@@ -73,7 +74,7 @@ impl Mesh {
         let number = *self.known.entry(key).or_insert(next);
         if number == next {
             let at = panel.local_m(point_mm) + panel.rotation.z_axis * (behind_mm / 1e3);
-            // Meshes are kept in 32 bits. Adding zero takes the sign from zeros.
+            // Meshes are stored in 32 bits. Adding zero removes the sign of zeros.
             let [x, y, z] = at.as_vec3().to_array().map(|v| v + 0.0);
             let _ = writeln!(self.points, "v {x} {y} {z}");
             if self.textured {
@@ -85,8 +86,8 @@ impl Mesh {
     }
 }
 
-/// The first sheet as SVG in sRGB. Its first ink covers all of it and the others lie on it, each as one path: where pieces
-/// of an ink meet there is no seam.
+/// The first sheet as SVG in sRGB. Its first ink covers all of it and the others are on top, each as one path: no seams between
+/// pieces of one ink.
 pub(super) fn svg(drawing: &Drawing) -> String {
     let sheet = &drawing.panels[0].sheet;
     let DVec2 { x: w, y: h } = sheet.size_mm;
@@ -128,7 +129,7 @@ fn path(text: &mut String, sheet: &Sheet, fill: Fill, colour: &str) {
     }
 }
 
-/// A texture over all of the sheet, shown where its ink is; textured pieces are rectangles.
+/// A texture over the whole sheet, visible where its ink is; textured pieces are rectangles.
 fn pictures(text: &mut String, sheet: &Sheet, ink: usize, file: &str) {
     for piece in sheet.pieces.iter().filter(|piece| piece.fill == Fill::Ink(ink)) {
         let (low, high) = crate::shape::bounds(&piece.outline);

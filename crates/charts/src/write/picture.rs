@@ -1,4 +1,4 @@
-//! The print as pixels: each pixel the mean of what the pieces cover of it.
+//! The print as pixels: each pixel is the mean of the pieces that cover it.
 
 use etendue_core::{Plane, quantity::Display};
 use etendue_spectra::colour::encode;
@@ -7,14 +7,14 @@ use glam::DVec2;
 use crate::shape::{Fill, area, bounds};
 use crate::{drawing::Drawing, error::ChartError, ink::Paint};
 
-/// More pixels than this are taken for a slip.
+/// Maximum number of pixels; more are taken for a typing error.
 const MAX_PX: f64 = 2e8;
 const MM_PER_INCH: f64 = 25.4;
 
-/// The first sheet, sRGB-encoded, at `dpi` pixels an inch. Coverage is exact; colours are mixed in linear light.
+/// The first sheet, sRGB-encoded, at `dpi` pixels per inch. Coverage is exact; colours are mixed in linear light.
 ///
 /// # Errors
-/// Where the chart is no flat sheet, or that makes no picture of reasonable size.
+/// If the chart is not one flat sheet, or the image size is not reasonable.
 pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError> {
     if !drawing.is_flat() {
         return Err(ChartError::option("png", dpi, "this chart stands in space and has no print; leave `png` out"));
@@ -58,7 +58,7 @@ pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError
     Ok(Plane::from_samples(width, height, encoded).expect("one sample a pixel"))
 }
 
-/// Gives `take` each pixel that a convex outline (px) touches, and the share of it that it covers.
+/// Calls `take` with each pixel that a convex outline (px) touches, and the fraction of it that it covers.
 fn cover(outline: &[DVec2], width: usize, height: usize, mut take: impl FnMut(usize, usize, f64)) {
     let (low, high) = bounds(outline);
     for y in cells(low.y, high.y, height) {
@@ -80,13 +80,13 @@ fn cells(low: f64, high: f64, count: usize) -> std::ops::Range<usize> {
     (low.max(0.0) as usize)..(high.ceil().max(0.0) as usize).min(count)
 }
 
-/// What of a convex outline lies from `start` to `start` + 1 along an axis.
+/// Part of a convex outline from `start` to `start` + 1 along an axis.
 fn between(outline: &[DVec2], axis: DVec2, start: f64) -> Vec<DVec2> {
     let above = cut(outline, |p| p.dot(axis) - start);
     cut(&above, |p| start + 1.0 - p.dot(axis))
 }
 
-/// What of a convex outline lies where `side` is positive (Sutherland and Hodgman 1974).
+/// Part of a convex outline where `side` is positive (Sutherland and Hodgman 1974).
 fn cut(outline: &[DVec2], side: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
     let mut kept = Vec::with_capacity(outline.len() + 1);
     for (i, a) in outline.iter().enumerate() {

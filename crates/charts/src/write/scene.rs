@@ -1,4 +1,4 @@
-//! The scene: inks as materials, even light from everywhere or none.
+//! The scene: inks as materials, uniform light from all directions or none.
 
 use etendue_core::ExactTime;
 use etendue_scene::record::light::modulation::{PwmModulation, Recurring};
@@ -54,15 +54,15 @@ fn object(panel: &Panel, drawing: &Drawing) -> Object {
     Object { materials, ..Object::new(panel.name.as_str(), Body::Mesh(panel.name.as_str().into()), transform) }
 }
 
-/// How often a picture stands along a sheet's u and v, and where in the picture the sheet's lower left corner lies.
+/// Number of repetitions of an image along a sheet's u and v, and position of the sheet's lower left corner in the image.
 fn mapping(size_mm: DVec2, low: DVec2, high: DVec2) -> ([f64; 2], [f64; 2]) {
     let scale = size_mm / (high - low);
-    // The sheet's left and lower edges, from the picture's left and lower ones; y runs down.
+    // The sheet's left and lower edges relative to the image's; y points down.
     let corner = DVec2::new(-size_mm.x / 2.0 - low.x, high.y - size_mm.y / 2.0);
     (scale.to_array(), (corner / (high - low)).to_array())
 }
 
-/// A share of the light.
+/// Emission of a fraction of the light.
 fn emission(light: &Light, share: f64) -> Emission {
     let level = Level::Luminance((share * light.luminance_cd_m2()).into());
     Emission { colour: Some(LightColour::Illuminant(light.name().into())), ..Emission::new(level) }
@@ -90,7 +90,7 @@ fn glowing(name: &str, emission: SurfaceEmission) -> Material {
     Material { emission: Some(emission), ..Material::new(name, Surface::Emitter(Emitter::default())) }
 }
 
-/// The names of the inks that a panel shows, each as itself.
+/// The names of the inks that a panel shows, mapped to themselves.
 fn shown<'a>(drawing: &'a Drawing, panel: &Panel) -> impl Iterator<Item = &'a str> {
     let number = drawing.panels.iter().position(|p| p.name == panel.name);
     let is_shown = |i: &usize| {
@@ -114,7 +114,7 @@ fn spectrum_file(ink: &Ink) -> String {
     format!("{}.csv", ink.name)
 }
 
-/// Every nanometre that the table covers; its end values hold beyond.
+/// One row per nanometre that the table covers; its end values apply beyond.
 fn csv(reflectance: &Spectrum) -> String {
     let (first, last) = reflectance.covered_nm();
     let rows = (first.ceil() as u32..=last.floor() as u32).map(|nm| format!("{nm},{}\n", reflectance.at(nm as f32)));

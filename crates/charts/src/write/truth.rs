@@ -1,4 +1,4 @@
-//! What is true of a chart: sizes, light, features, patches, and where each camera sees them.
+//! Ground truth of a chart: sizes, light, features, patches, and their positions in each camera's image.
 
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ use crate::ink::{Ink, Paint};
 use crate::shape::{centroid, disc};
 use crate::{camera_station::CameraStation, light::Panel, ray_camera::RasterRay};
 
-/// Points of a dot's outline at which its image is followed.
+/// Points of a dot's outline that are projected.
 const OUTLINE: usize = 32;
 
 /// `truth.json`.
@@ -65,10 +65,10 @@ pub(super) fn truth(request: &Request<'_>) -> String {
     text
 }
 
-/// How deep tables and lists are broken into lines.
+/// Depth to which tables and lists are broken into lines.
 const BROKEN: usize = 3;
 
-/// JSON for people: a line for each entry of what holds tables or long lists, to a depth.
+/// Readable JSON: one line for each entry of a value that contains tables or long lists, to a depth.
 fn lay_out(value: &Value, depth: usize, text: &mut String) {
     let indent = "  ".repeat(depth + 1);
     let mut list = |open: char, close: char, entries: Vec<(String, &Value)>| {
@@ -150,7 +150,7 @@ fn patch(patch: &Patch, request: &Request<'_>) -> Value {
     })
 }
 
-/// Each camera's pose and exposure, and where it sees what. Cameras of one pose share what they see.
+/// Pose, exposure and feature positions of each camera. Cameras of one pose share the positions.
 fn cameras(request: &Request<'_>) -> Vec<Value> {
     let starts = request.ray_camera.starts();
     let mut told: Vec<(CameraPose, Map<String, Value>)> = Vec::new();
@@ -192,7 +192,7 @@ fn camera(request: &Request<'_>, station: &CameraStation, pose: &CameraPose) -> 
     facts
 }
 
-/// A camera in its place.
+/// A camera with its pose.
 struct View<'a> {
     request: &'a Request<'a>,
     starts: &'a [(DVec2, RasterRay)],
@@ -232,7 +232,7 @@ impl View<'_> {
         self.project(panel, point_mm).map_or(Value::Null, |at| json!(at.to_array()))
     }
 
-    /// The centroid of a disc's image; null where it is not wholly seen.
+    /// The centroid of a disc's image; null if it is not fully visible.
     fn centroid(&self, feature: &Feature) -> Value {
         let panel = &self.request.drawing.panels[feature.panel];
         let Some(radius) = feature.radius_mm else { return Value::Null };

@@ -1,4 +1,4 @@
-//! The files of every chart: descriptions that parse, and a truth that a pinhole's closed form gives too.
+//! The files of every chart: descriptions that parse, and a ground truth that agrees with a pinhole's closed form.
 
 use etendue_charts::design::{
     Backlit, Checkerboard, ColorChecker, DeadLeaves, DepthWedge, Dots, Flare, GridSize, SlantedEdges,
@@ -14,7 +14,7 @@ use std::path::Path;
 
 const SIZE: DVec2 = DVec2::new(640.0, 480.0);
 const FOCAL_PX: f64 = 700.0;
-/// The centre of a pinhole before the pupil that the rays are told from.
+/// The centre of a pinhole in front of the pupil from which the rays are measured.
 const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 4\nf_number = 4\n[sensor]\nwidth_px = \
                       640\nheight_px = 480\npixel_pitch_um = 6\nexposure_s = 0.01\ncfa = \"mono\"\nquantum_efficiency = \
                       0.5\nfull_well_e = 20000\nread_noise_e = 5\ndark_current_e_s = 0\ngain_dn_per_e = 0.2\nblack_level_dn \

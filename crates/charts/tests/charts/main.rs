@@ -1,4 +1,4 @@
-//! Charts as they are written to files.
+//! Charts as written to files.
 
 mod files;
 mod partition;

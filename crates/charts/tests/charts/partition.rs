@@ -1,5 +1,5 @@
-//! Sheets are partitions: what the pieces cover adds up to the sheet, no point is covered twice, and no corner lies within
-//! another piece's edge.
+//! Sheets are partitions: the areas of the pieces add up to the sheet, no point is covered twice, and no corner is within another
+//! piece's edge.
 
 use etendue_charts::design::{
     Backlit, Checkerboard, Circles, ColorChecker, ContrastPatches, DeadLeaves, DepthWedge, Dots, Flare, FlatField,
@@ -68,7 +68,7 @@ fn areas_add_up() {
     }
 }
 
-/// By how much a point lies inside a convex outline: its least distance from an edge, negative outside.
+/// Depth of a point inside a convex outline: its minimum distance from an edge, negative outside.
 fn depth(outline: &[DVec2], point: DVec2) -> f64 {
     let next = outline.iter().cycle().skip(1);
     let inside = |(a, b): (&DVec2, &DVec2)| (*b - *a).normalize().perp_dot(point - *a);

@@ -1,4 +1,4 @@
-//! The file over which a new camera file is laid, and whether the two together are a camera.
+//! The base camera file that a new camera file extends, and the check that the two together are a valid camera.
 
 use std::path::Path;
 
@@ -8,15 +8,15 @@ use etendue_scene::{Overrides, load_camera, record::Camera};
 
 use super::camera::Found;
 
-/// The camera of a base.
+/// Reads the camera of a base file.
 ///
 /// # Errors
-/// Where it cannot be read.
+/// If it cannot be read.
 pub(super) fn open(file: &Path) -> Result<Camera, Error> {
     load_camera(file, &read_text, &Overrides::default()).map_err(|faults| Error::inputs(faults.list()))
 }
 
-/// Refuses a base with a key whose effect what was measured holds already.
+/// Refuses a base with a key whose effect is already contained in the measured values.
 pub(super) fn refuse_what_is_measured(file: &Path, base: &Camera, found: &Found) -> Result<(), Error> {
     let sensor = &base.sensor;
     let mut twice = Vec::new();
@@ -49,10 +49,10 @@ pub(super) fn refuse_what_is_measured(file: &Path, base: &Camera, found: &Found)
     if told.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::Contradiction, told)) }
 }
 
-/// Refuses numbers that are no camera.
+/// Refuses numbers that do not form a valid camera.
 ///
 /// # Errors
-/// What the camera file would be refused for.
+/// If the camera file would be refused.
 pub(super) fn check(file: &Path, text: &str) -> Result<(), Error> {
     let read = |path: &Path| if path == file { Ok(text.to_owned()) } else { read_text(path) };
     load_camera(file, &read, &Overrides::default()).map(drop).map_err(|faults| {

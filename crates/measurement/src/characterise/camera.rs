@@ -1,5 +1,5 @@
-//! The camera file of what was found: keys with their standard uncertainties beside them. Keys that a camera file must have and that nothing tells are
-//! stand-ins, which say that they are, or are left to a base.
+//! The camera file of the results: keys with their standard uncertainties. Required keys that no measurement determines are
+//! placeholders, marked as such, or are left to a base file.
 
 use etendue_core::maths::f64::{hypot, log10};
 use etendue_pipeline::stated_projection;
@@ -13,7 +13,7 @@ use super::{
 use crate::measure::views::Found as Geometry;
 use crate::report::{Estimate, with_uncertainty};
 
-/// Stand-ins.
+/// Placeholder.
 const F_NUMBER: f64 = 4.0;
 const FIELD_OF_VIEW_DEG: f64 = 60.0;
 const EXPOSURE_S: f64 = 0.01;
@@ -23,7 +23,7 @@ const FULL_WELL_E: f64 = 10_000.0;
 const STAND_IN: &str = "a stand-in: not measured";
 const TAKEN: &str = "a setting, not measured";
 
-/// All that was found.
+/// All results.
 #[derive(Default)]
 pub(super) struct Found {
     pub(super) electronics: Option<Electronics>,
@@ -31,27 +31,27 @@ pub(super) struct Found {
     pub(super) geometry: Option<Geometry>,
     pub(super) spread: Option<Spread>,
     pub(super) colour: Option<Colour>,
-    /// Of the pictures of the lens, s.
+    /// Exposure time of the lens images, s.
     pub(super) exposure_s: Option<f64>,
 }
 
-/// A camera file, and what in it is a stand-in.
+/// A camera file, and which of its values are placeholders.
 pub(super) struct CameraFile {
     pub(super) text: String,
     pub(super) stand_ins: Vec<String>,
 }
 
-/// Keys as they are gathered, with comments.
+/// Keys as they are collected, with comments.
 struct Draft<'a> {
     laboratory: &'a Laboratory,
     found: &'a Found,
-    /// Whether what is not known is another file's.
+    /// True if a base file supplies what is not known.
     based: bool,
     comments: Vec<(String, String)>,
     stand_ins: Vec<String>,
 }
 
-/// The camera file; `base` is the file over which it is laid, `picture` the name of the picture of a point's light.
+/// Returns the camera file; `base` is the file that it extends, `picture` the name of the image of the point spread.
 pub(super) fn camera_file(
     laboratory: &Laboratory,
     found: &Found,
@@ -79,7 +79,7 @@ pub(super) fn camera_file(
     CameraFile { text: file.to_string(), stand_ins: draft.stand_ins }
 }
 
-/// A number to a hundredth of its standard uncertainty.
+/// Rounds a number to a hundredth of its standard uncertainty.
 fn rounded(e: Estimate) -> f64 {
     let (value, u) = (e.value, e.standard_uncertainty);
     if !(u > 0.0 && u.is_finite()) {
@@ -94,13 +94,13 @@ impl Draft<'_> {
         self.comments.push((key.to_owned(), comment.into()));
     }
 
-    /// A measured number that cannot be below 0.
+    /// Writes a measured number that cannot be negative.
     fn measured(&mut self, table: &mut Table, section: &str, key: &str, e: Estimate) {
         table.put(key, rounded(Estimate::new(e.value.max(0.0), e.standard_uncertainty)));
         self.beside(&format!("{section}.{key}"), format!("± {:.1e}", e.standard_uncertainty));
     }
 
-    /// A number that is measured, or is a stand-in where no base has it.
+    /// Writes a measured number, or a placeholder if no base has it.
     fn or_stand_in(&mut self, table: &mut Table, section: &str, key: &str, e: Option<Estimate>, stand_in: f64) {
         match e {
             Some(e) => self.measured(table, section, key, e),
@@ -108,7 +108,7 @@ impl Draft<'_> {
         }
     }
 
-    /// A setting of the camera, or a stand-in for it.
+    /// Writes a setting of the camera, or a placeholder for it.
     fn setting(&mut self, table: &mut Table, section: &str, key: &str, known: Option<f64>, stand_in: f64) {
         match known {
             Some(known) => {
@@ -147,11 +147,11 @@ impl Draft<'_> {
                 self.stand_ins.push("lens.projection".to_owned());
             }
         }
-        // A lens of another type is the base's.
+        // The base states a lens of another type.
         if found.geometry.is_none() && self.based {
             return None;
         }
-        // The lens is stated anew, and so is its f-number.
+        // The lens is stated again, and so is its f-number.
         let based = std::mem::replace(&mut self.based, false);
         self.setting(&mut lens, "lens", "f_number", self.laboratory.camera.f_number, F_NUMBER);
         self.based = based;
@@ -167,7 +167,7 @@ impl Draft<'_> {
         Some(lens)
     }
 
-    /// Radii, mm, and ratios, as far as the corner that is farthest from the principal point.
+    /// Radii, mm, and ratios, out to the corner farthest from the principal point.
     fn illumination(&self, fall_off: &FallOff) -> [Vec<f64>; 2] {
         let (mut radii, mut ratios) = (fall_off.radius_mm.clone(), fall_off.ratio.clone());
         let Some(geometry) = &self.found.geometry else { return [radii, ratios] };
@@ -274,7 +274,7 @@ impl Draft<'_> {
         }
     }
 
-    /// What neighbours exchange: of a mosaic, of light that its green pixels' neighbours see.
+    /// Crosstalk between neighbours; for a mosaic, that of the neighbours of green pixels.
     fn crosstalk(&mut self, sensor: &mut Table) {
         let Some(spread) = self.found.spread else { return };
         let exchange = |blur: Option<etendue_metrology::sfr::Blur>| blur.map(|blur| blur.exchange);
@@ -289,7 +289,7 @@ impl Draft<'_> {
         sensor.put("crosstalk", table);
     }
 
-    /// Light of the pixels beside and below the first green one over its own.
+    /// Light of the pixels to the right of and below the first green one, relative to its own.
     fn neighbours_over_green(&self) -> [f64; 2] {
         let camera = &self.laboratory.camera;
         let (Some(cfa), Some(colour)) = (camera.cfa.as_ref().filter(|_| camera.is_mosaic()), &self.found.colour) else {
@@ -318,7 +318,7 @@ impl Draft<'_> {
             isp.put("colour_matrix", matrix.map(list).to_vec());
             self.beside("isp.colour_matrix", format!("± {}", matrix.map(doubts).join("; ")));
         }
-        // They belong to spectral responsivities, which only a base has.
+        // These keys belong to spectral responsivities, which only a base has.
         self.based.then_some(isp)
     }
 }

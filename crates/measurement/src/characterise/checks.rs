@@ -1,4 +1,4 @@
-//! What no measurement can be made of: pictures of several cameras, copies, flats that are saturated.
+//! Input that no measurement can use: images of several cameras, copies, saturated flat fields.
 
 use std::collections::BTreeMap;
 
@@ -6,9 +6,9 @@ use etendue_io::failure::{Error, ErrorCode};
 
 use super::{parameter::Kind, shot::Shot};
 
-/// A frame of even light with more saturated pixels tells nothing but where saturation lies.
+/// Maximum fraction of saturated pixels in a flat field; above it the frame determines the saturation level only.
 const SATURATED: f64 = 0.01;
-/// Faults of one kind that are told one by one.
+/// Errors of one kind that are reported individually.
 const TOLD: usize = 5;
 
 pub(super) fn check(shots: &[Shot]) -> Result<(), Error> {
@@ -16,7 +16,7 @@ pub(super) fn check(shots: &[Shot]) -> Result<(), Error> {
     if faults.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::NotMeasurable, faults)) }
 }
 
-/// The first few, and how many there are more.
+/// The first few, and the number of the others.
 fn shortened(mut faults: Vec<String>, what: &str) -> Vec<String> {
     let more = faults.len().saturating_sub(TOLD);
     faults.truncate(TOLD);
@@ -26,7 +26,7 @@ fn shortened(mut faults: Vec<String>, what: &str) -> Vec<String> {
     faults
 }
 
-/// A fact of a picture that is the same in all pictures of a camera, in words; `None` where it is not known.
+/// A property that all images of one camera share, as text; `None` if it is not known.
 type Fact = fn(&Shot) -> Option<String>;
 
 const OF_CAMERA: [(&str, Fact); 6] = [
@@ -38,7 +38,7 @@ const OF_CAMERA: [(&str, Fact); 6] = [
     ("bits of the converter", |shot| shot.side_car.bits.map(|bits| bits.to_string())),
 ];
 
-/// Facts that raw pictures share: of one gain, and of numbers of one kind.
+/// Properties that raw images share: one gain, and one number format.
 const OF_RAW: [(&str, Fact); 4] = [
     ("sensitivity (ISO)", |shot| shot.exif.iso.map(|iso| iso.to_string())),
     ("largest number", |shot| Some(shot.full_scale.map_or("none (floats)".to_owned(), |full| full.to_string()))),
@@ -57,7 +57,7 @@ fn mixed(shots: &[Shot]) -> Vec<String> {
     shortened([of(&all, &OF_CAMERA), of(&raw, &OF_RAW)].concat(), "pictures differ from the others")
 }
 
-/// Pictures in which a fact is another than in most.
+/// Images in which a property differs from that of most images.
 fn differing(shots: &[&Shot], name: &str, fact: Fact) -> Vec<String> {
     let mut counts: BTreeMap<String, (usize, &Shot)> = BTreeMap::new();
     for &shot in shots {
@@ -96,7 +96,7 @@ fn copies(shots: &[Shot]) -> Vec<String> {
     shortened(faults, "copies")
 }
 
-/// Even light in which fewer than three exposure times are not saturated, or none is.
+/// Flat fields with fewer than three unsaturated exposure times, or none.
 fn saturated(shots: &[Shot]) -> Vec<String> {
     let of = |kind: Kind, least: usize| -> Option<String> {
         let frames: Vec<&Shot> = shots.iter().filter(|shot| shot.kind == kind).collect();

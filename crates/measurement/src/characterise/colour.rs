@@ -1,4 +1,4 @@
-//! White balance and colour matrix: from a ColorChecker and from an evenly lit white in the same light.
+//! White balance and colour matrix: from a ColorChecker and a uniformly lit white in the same light.
 
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::colour::{ColourProcessing, colour_processing, white_balance};
@@ -14,12 +14,12 @@ use crate::measure::{ColourRequest, PictureInput, Selection, SignalLevels, Truth
 use crate::report::Estimate;
 
 const WHAT: &str = "colour matrix";
-/// The part of the field's picture, along each side, that is taken for its middle.
+/// Fraction of the flat-field image, along each side, that is used as its centre.
 const MIDDLE: f64 = 0.2;
-/// Light of a chromaticity farther from D65's is another.
+/// Maximum chromaticity difference from D65; a light farther away is treated as another light.
 const OTHER_LIGHT: f64 = 0.005;
 
-/// What is known of colours.
+/// Colour results.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Colour {
     pub(super) white_balance: [Estimate; 3],
@@ -90,7 +90,7 @@ fn selection(laboratory: &Laboratory, shot: &Shot) -> Selection {
     Selection { cfa: laboratory.camera.told_cfa.clone().filter(|_| shot.is_raw()), ..Selection::default() }
 }
 
-/// Red, green and blue in the field's middle, less the reading of no light.
+/// Red, green and blue in the centre of the flat field, less the black level.
 fn white(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Shot) -> Result<[Estimate; 3], Error> {
     if !shot.is_raw() {
         let told = "is a developed picture, whose white balance is its development's: give the raw";

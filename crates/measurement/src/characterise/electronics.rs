@@ -1,4 +1,4 @@
-//! Gain, noise, dark current, fixed patterns and pixels of another kind: from frames without light and with even light.
+//! Gain, noise, dark current, fixed patterns and defective pixels: from frames without light and with uniform illumination.
 
 use etendue_core::observer::Observer;
 use etendue_io::emva_descriptor::DescribedLevel;
@@ -13,21 +13,21 @@ use super::{folder::Laboratory, shot::Shot};
 use crate::measure::ptc::{self, Found, Group, PtcRequest};
 use crate::{measure::Selection, report::Estimate};
 
-/// Pixels at the border have fewer neighbours to exchange light with.
+/// Border, px: pixels there have fewer neighbours to exchange light with.
 const BORDER: usize = 2;
-/// Photons where their number is not known: any unit of light does.
+/// Photons per second where their number is not known: any unit of light serves.
 const ANY_LIGHT_PER_S: f64 = 1e6;
 const WHAT: &str = "gain, noise, dark current, capacity, DSNU, PRNU, defective pixels";
 
-/// What is known of the sensor.
+/// Sensor results.
 #[derive(Clone, Debug)]
 pub(super) struct Electronics {
     pub(super) figures: Figures,
-    /// With what of it is this specimen's.
+    /// Its uncertainty includes the variation between units.
     pub(super) black_level_dn: Estimate,
-    /// Of pixels that are not hot.
+    /// Excludes hot pixels.
     pub(super) dark_current_e_s: Option<Estimate>,
-    /// Whether light went as far as saturation.
+    /// True if the light reached saturation.
     pub(super) saturated: bool,
     pub(super) patterns: Option<Nonuniformity>,
     pub(super) hot: Option<Outliers>,
@@ -90,7 +90,7 @@ pub(super) fn measure(
     Ok(Some(electronics))
 }
 
-/// The pixels that are measured: green ones of a mosaic, without the border.
+/// The pixels to measure: green ones of a mosaic, without the border.
 fn selection(laboratory: &Laboratory, shots: &[&Shot]) -> Selection {
     let region = shots.first().map(|shot| {
         let [x, y, width, height] = shot.picture_px;
@@ -100,7 +100,7 @@ fn selection(laboratory: &Laboratory, shots: &[&Shot]) -> Selection {
     Selection { channel: camera.channel(), cfa: camera.told_cfa.clone(), region, ..Selection::default() }
 }
 
-/// Frames by their exposure time.
+/// Groups frames by exposure time.
 fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Error> {
     let mut levels: Vec<DescribedLevel> = Vec::new();
     for shot in shots {
@@ -144,7 +144,7 @@ fn outliers(laboratory: &Laboratory, groups: &[Group], found: &Found) -> (Option
     (hot, found.fixed.as_ref().map(|fixed| dead_pixels(&fixed.dark, &fixed.bright)))
 }
 
-/// Fixed patterns of the pixels that are neither hot nor dead: those have keys of their own.
+/// Fixed patterns of the pixels that are neither hot nor dead: those have their own keys.
 fn patterns(found: &Found, hot: &Option<Outliers>, dead: &Option<Outliers>) -> Result<Option<Nonuniformity>, Error> {
     let Some(fixed) = &found.fixed else { return Ok(None) };
     let places: Vec<[usize; 2]> =
@@ -157,14 +157,15 @@ fn patterns(found: &Found, hot: &Option<Outliers>, dead: &Option<Outliers>) -> R
     nonuniformity(&dark.map_err(refused)?, &bright.map_err(refused)?, gain, &found.data).map(Some).map_err(refused)
 }
 
-/// The mean dark current without what hot pixels add. Which pixels a specimen has, of all that are like it, is in the uncertainty.
+/// Returns the mean dark current without the contribution of hot pixels. The uncertainty includes the sampling of pixels of this
+/// unit (variation between units).
 fn cool(mean: Estimate, hot: Option<&Outliers>, pixels: usize) -> Estimate {
     let Some(hot) = hot else { return mean };
     let (u, specimen) = (mean.standard_uncertainty, hot.spread_e_s / (pixels as f64).sqrt());
     Estimate::new(mean.value - hot.added_e_s, (u * u + specimen * specimen).sqrt())
 }
 
-/// The mean without light. Which pixels, rows and columns a specimen has, of all that are like it, is in the uncertainty.
+/// Returns the mean without light. The uncertainty includes the variation of pixels, rows and columns between units.
 fn black_level(figures: &Figures, patterns: Option<&Nonuniformity>, [columns, rows]: [usize; 2]) -> Estimate {
     let mean = figures.dark_level_dn;
     let Some(Nonuniformity { dsnu_dn, .. }) = patterns else { return mean };
@@ -174,7 +175,8 @@ fn black_level(figures: &Figures, patterns: Option<&Nonuniformity>, [columns, ro
     Estimate::new(mean.value, (u * u + specimen).sqrt())
 }
 
-/// Quantum efficiency of each channel: that of the measured one times how much brighter the channel is in the brightest frames that are not saturated.
+/// Quantum efficiency of each channel: that of the measured channel times the channel's relative signal in the brightest
+/// unsaturated frames.
 fn efficiency(selection: &Selection, flat: &[&Shot], found: &Found) -> Result<Vec<(&'static str, Estimate)>, Error> {
     let own = found.figures.quantum_efficiency;
     if selection.channel.is_none() {

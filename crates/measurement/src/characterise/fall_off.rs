@@ -1,4 +1,4 @@
-//! Fall-off of light over the field: from an evenly lit surface through the lens.
+//! Relative illumination over the field: from a uniformly lit surface through the lens.
 
 use etendue_io::failure::Error;
 
@@ -9,7 +9,7 @@ use crate::measure::{FlatFieldRequest, PictureInput, Selection, SignalLevels, Vi
 
 const WHAT: &str = "fall-off of light over the field";
 
-/// Relative illumination as a camera file states it, with the standard uncertainty of the corner's.
+/// Relative illumination as a camera file states it, with the standard uncertainty at the corner.
 #[derive(Clone, Debug)]
 pub(super) struct FallOff {
     pub(super) radius_mm: Vec<f64>,
@@ -51,7 +51,7 @@ pub(super) fn measure(
     Ok(Some(FallOff { radius_mm, ratio, corner_u: shading.corner.standard_uncertainty }))
 }
 
-/// The brightest that is not saturated; the first of those.
+/// Returns the brightest unsaturated image; the first of equal ones.
 pub(super) fn brightest<'a>(shots: &[&'a Shot]) -> Option<&'a Shot> {
     let most = |best: &'a Shot, next: &&'a Shot| match next.exposure_s > best.exposure_s && next.saturated == 0.0 {
         true => *next,
@@ -61,7 +61,7 @@ pub(super) fn brightest<'a>(shots: &[&'a Shot]) -> Option<&'a Shot> {
     Some(shots.iter().fold(good, most))
 }
 
-/// The reading without light at a picture's exposure, where frames without light tell it.
+/// Reading without light at an image's exposure, if frames without light determine it.
 pub(super) fn black_dn(shot: &Shot, electronics: Option<&Electronics>) -> Option<f64> {
     let f = electronics.filter(|_| shot.is_raw())?.figures;
     let current = f.dark_current_mean_e_per_s.map_or(0.0, |current| current.value);

@@ -1,4 +1,4 @@
-//! A laboratory folder: its pictures by kind, and what is stated of them.
+//! A laboratory folder: its images by kind, and the facts stated about them.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicUsize;
@@ -12,26 +12,26 @@ use rayon::prelude::*;
 use super::{checks, identity, parameter::Kind, shot::Shot};
 use crate::measure::pictures::Pictures;
 
-/// The file that states what pictures do not.
+/// The file that states what the images do not.
 const FILE: &str = "laboratory.toml";
 const TRUTH: &str = "truth.json";
-/// Pictures by their names' ends; what is in them is told by their first bytes.
+/// File name endings of images; the format follows from their first bytes.
 const ENDINGS: [&str; 8] = ["png", "tif", "tiff", "dng", "jpg", "jpeg", "exr", "pfm"];
-/// Folders within folders.
+/// Maximum depth of nested folders.
 const DEEPEST: usize = 6;
 
-/// A laboratory's pictures.
+/// Images of a laboratory folder.
 pub(super) struct Laboratory {
     pub(super) root: PathBuf,
     pub(super) stated: record::Laboratory,
-    /// In the order of their names.
+    /// Sorted by name.
     shots: Vec<Shot>,
-    /// Of the camera.
+    /// Facts about the camera.
     pub(super) camera: identity::Camera,
 }
 
 impl Laboratory {
-    /// Reads all pictures and checks that they are of one camera, and usable.
+    /// Reads all images and checks that they come from one camera and are usable.
     pub(super) fn open(root: &Path, observer: &dyn Observer) -> Result<Self, Error> {
         if !root.is_dir() {
             return Err(Error::coded(
@@ -69,32 +69,32 @@ impl Laboratory {
         Ok(Self { root: root.to_path_buf(), stated, shots, camera })
     }
 
-    /// The pictures of a kind: raw ones where there are any, else developed ones.
+    /// Images of a kind: raw ones if there are any, otherwise developed ones.
     pub(super) fn shots(&self, kind: Kind) -> Vec<&Shot> {
         let all: Vec<&Shot> = self.shots.iter().filter(|shot| shot.kind == kind).collect();
         let raw: Vec<&Shot> = all.iter().copied().filter(|shot| shot.is_raw()).collect();
         if raw.is_empty() { all } else { raw }
     }
 
-    /// How many pictures there are.
+    /// Number of images.
     pub(super) fn count(&self) -> usize {
         self.shots.len()
     }
 
-    /// The truth of a kind's chart, where it lies beside the pictures.
+    /// Ground truth of a kind's chart, if stored with the images.
     pub(super) fn truth(&self, kind: Kind) -> Option<PathBuf> {
         Some(self.root.join(kind.folder()).join(TRUTH)).filter(|file| file.is_file())
     }
 }
 
-/// The exposure that the laboratory's file states of a picture's folder, or of one around it.
+/// Exposure that the laboratory file states for an image's folder, or for a folder around it.
 fn exposure_s(root: &Path, stated: &record::Laboratory, file: &Path) -> Option<f64> {
     let within = |folder: &str| file.starts_with(root.join(folder));
     let fit = stated.exposures_s.iter().filter(|(folder, _)| within(&folder.value));
     fit.max_by_key(|(folder, _)| Path::new(&folder.value).components().count()).map(|(_, s)| s.value)
 }
 
-/// Folders that are named are there: a key without effect is a mistake.
+/// Refuses named folders that do not exist: a key without effect is a mistake.
 fn check_stated(root: &Path, file: &Path, stated: &record::Laboratory) -> Result<(), Error> {
     let lost = stated.exposures_s.iter().filter(|(folder, _)| !root.join(&folder.value).is_dir());
     let told = |folder: &str| {
@@ -120,7 +120,7 @@ fn check_stated(root: &Path, file: &Path, stated: &record::Laboratory) -> Result
     if faults.is_empty() { Ok(()) } else { Err(Error::Input(faults)) }
 }
 
-/// All pictures with their kinds, in the order of their names.
+/// All images with their kinds, sorted by name.
 fn files(root: &Path) -> Result<Vec<(Kind, PathBuf)>, Error> {
     let mut found = Vec::new();
     for kind in Kind::ALL {

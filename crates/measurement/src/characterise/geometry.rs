@@ -1,4 +1,4 @@
-//! Projection and distortion: from views of a chart, by the camera model that suits them best.
+//! Projection and distortion: from views of a chart, by the camera model that fits them best.
 
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
@@ -13,7 +13,7 @@ use crate::report::{Cell, Report, Table};
 
 const WHAT: &str = "focal length, principal point, distortion";
 
-/// Models that are tried, the simplest first.
+/// Candidate models, the simplest first.
 const MODELS: [CameraModel; 5] =
     [CameraModel::Pinhole, CameraModel::Radial, CameraModel::Opencv, CameraModel::Opencv5, CameraModel::KannalaBrandt];
 
@@ -86,7 +86,7 @@ fn tell(found: &Found, laboratory: &Laboratory, findings: &mut Findings) {
     }
 }
 
-/// How well each model fits.
+/// Goodness of fit of each model.
 fn models(tried: &[TriedModel]) -> Table {
     let least = tried.iter().filter(|t| t.whole).map(|t| t.information).fold(f64::INFINITY, f64::min);
     let row = |t: &TriedModel| {

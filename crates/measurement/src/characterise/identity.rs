@@ -1,27 +1,27 @@
-//! What is known of the camera by its pictures and by what is stated of them.
+//! Facts about the camera from its images and from the laboratory file.
 
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_scene::record;
 
 use super::shot::Shot;
 
-/// The stand-in for the pitch of pixels, µm, where nothing states it.
+/// Placeholder for the pixel pitch, µm, if nothing states it.
 pub(super) const PITCH_UM: f64 = 5.0;
 
-/// Of the camera.
+/// Facts about the camera.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Camera {
-    /// Maker, model and number, as far as EXIF data say.
+    /// Maker, model and number, as far as EXIF data state them.
     pub(super) name: Option<String>,
     pub(super) size_px: [usize; 2],
     pub(super) pixel_pitch_um: Option<f64>,
     pub(super) bits: Option<u64>,
     pub(super) f_number: Option<f64>,
-    /// Colour filters as a camera file names them; "mono" where side-cars say that there are none.
+    /// Colour filters as a camera file names them; "mono" if side-cars state that there are none.
     pub(super) cfa: Option<String>,
-    /// Filters that raw pictures do not state by themselves, as measurements take them.
+    /// Filters that raw images do not state themselves, in the form that measurements accept.
     pub(super) told_cfa: Option<String>,
-    /// The reading of a saturated pixel, DN, where it is stated.
+    /// Reading of a saturated pixel, DN, if stated.
     pub(super) white_level_dn: Option<f64>,
 }
 
@@ -71,12 +71,12 @@ impl Camera {
         })
     }
 
-    /// Whether pixels have colours.
+    /// True if pixels have colour filters.
     pub(super) fn is_mosaic(&self) -> bool {
         self.cfa.as_ref().is_some_and(|cfa| cfa != "mono")
     }
 
-    /// The channel that stands for the camera: green of a mosaic.
+    /// The channel that represents the camera: green of a mosaic.
     pub(super) fn channel(&self) -> Option<String> {
         self.is_mosaic().then(|| "green".to_owned())
     }

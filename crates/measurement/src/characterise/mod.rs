@@ -1,7 +1,7 @@
-//! A camera from a laboratory folder: dark frames, flats, views of a chart, slanted edges, a ColorChecker, any of them missing.
+//! A camera from a laboratory folder: dark frames, flats, views of a chart, slanted edges, a ColorChecker, each optional.
 //!
-//! The measurements are those of [`measure`](crate::measure), one after the other; what each finds is put into one camera file with its standard uncertainty,
-//! and what could not be known is said with the reason. docs/characterise.md tells how a folder is laid out.
+//! The measurements are those of [`measure`](crate::measure), in sequence. Each result goes into one camera file with its
+//! standard uncertainty; unknown quantities are reported with the reason. docs/characterise.md describes the layout of a folder.
 
 mod base;
 mod camera;
@@ -38,22 +38,23 @@ pub use parameter::{Kind, Parameter, Part, Unknown};
 /// `etendue characterise`
 #[derive(Args, Clone, Debug)]
 pub struct CharacteriseRequest {
-    /// The laboratory folder: folders dark, flat, field, chart, edges and checker with pictures in them, any of them missing, and laboratory.toml where pictures do not say enough
+    /// Laboratory folder: folders dark, flat, field, chart, edges and checker with images, each optional, and laboratory.toml for
+    /// facts that the images do not state
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
-    /// Lay the camera file over this one: what is not measured is its
+    /// Camera file to extend: supplies what is not measured
     #[arg(long, value_name = "CAMERA.toml", value_parser = toml, display_order = 2)]
     pub base: Option<PathBuf>,
 }
 
 impl CharacteriseRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         Self { folder: folder.into(), base: None }
     }
 }
 
-/// What was found of a camera.
+/// Results of the characterisation of a camera.
 pub struct Characterisation {
     laboratory: Laboratory,
     base: Option<PathBuf>,
@@ -61,10 +62,11 @@ pub struct Characterisation {
     found: Found,
 }
 
-/// Measures a camera by the pictures of a laboratory folder. Runs on the caller's thread pool.
+/// Measures a camera from the images of a laboratory folder. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the folder cannot be used: pictures that cannot be read, of several cameras, copies, saturated flats; or where nothing at all can be found.
+/// If the folder cannot be used (unreadable images, images of several cameras, copies, saturated flat fields), or if nothing at
+/// all can be determined.
 pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> Result<Characterisation, Error> {
     let laid_over = request.base.as_deref().map(|file| base::open(file).map(|camera| (file, camera))).transpose()?;
     let laboratory = Laboratory::open(&request.folder, observer)?;
@@ -99,17 +101,17 @@ pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> R
     Ok(Characterisation { laboratory, base: request.base.clone(), findings, found })
 }
 
-/// Refuses names of files that are there and may not be replaced, before anything is measured.
+/// Refuses output files that exist and may not be replaced, before anything is measured.
 ///
 /// # Errors
-/// Where there is one of those that [`Characterisation::save`] would write, or their folder cannot be written.
+/// If a file that [`Characterisation::save`] would write exists, or the folder cannot be written.
 pub fn claim(file: &Path, existing: Existing) -> Result<(), Error> {
     let folder = OutputFolder::open_beside(parent(file), existing).map_err(Error::input)?;
     let names = ENDINGS.map(|ending| format!("{}{ending}", etendue_io::paths::camera_stem(file)));
     folder.claim(names.iter().map(String::as_str)).map_err(Error::input)
 }
 
-/// What is written, behind the stem.
+/// Endings of the output files, after the stem.
 const ENDINGS: [&str; 4] = [".toml", ".json", ".html", "-psf.png"];
 
 fn parent(file: &Path) -> &Path {
@@ -117,37 +119,37 @@ fn parent(file: &Path) -> &Path {
 }
 
 impl Characterisation {
-    /// The numbers that were found.
+    /// The measured parameters.
     #[must_use]
     pub fn parameters(&self) -> &[Parameter] {
         &self.findings.parameters
     }
 
-    /// What could not be known, with the reasons.
+    /// Quantities that could not be determined, with the reasons.
     #[must_use]
     pub fn unknown(&self) -> &[Unknown] {
         &self.findings.unknown
     }
 
-    /// The measurements that were made.
+    /// The measurements.
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.findings.parts
     }
 
-    /// Writes the camera file, and beside it under the same stem the report as a page (`.html`) and as JSON (`.json`), and the picture of a
-    /// point's light that the camera file names, where there is one (`-psf.png`); answers with their paths.
+    /// Writes the camera file and, under the same stem, the report as a page (`.html`) and as JSON (`.json`), and the point-spread
+    /// image that the camera file names, if any (`-psf.png`). Returns their paths.
     ///
     /// # Errors
-    /// Where one is there and may not be replaced, or cannot be written.
+    /// If a file exists and may not be replaced, or cannot be written.
     pub fn save(&self, file: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
         self.save_spelled(file, existing, &str::to_owned)
     }
 
-    /// The same by a front end, which spells the names of arguments that stand in backticks in the texts.
+    /// Same as [`Self::save`], for a front end that spells the names of arguments in backticks in the texts.
     ///
     /// # Errors
-    /// Where one is there and may not be replaced, or cannot be written.
+    /// If a file exists and may not be replaced, or cannot be written.
     pub fn save_spelled(
         &self,
         file: &Path,
@@ -181,7 +183,7 @@ impl Characterisation {
         PointPicture::of(&self.found.spread?, pitch_um)
     }
 
-    /// The report: parameters, what is not known, and every measurement as `etendue measure` prints it.
+    /// The report: parameters, unknown quantities, and every measurement as `etendue measure` prints it.
     fn json(&self, camera: &CameraFile) -> Value {
         let parameter = |p: &Parameter| {
             let mut told = json_estimate(p.value);
@@ -208,7 +210,7 @@ impl Characterisation {
     }
 }
 
-/// A base as the camera file names it.
+/// Path of the base as the camera file states it.
 fn named_from(folder: &Path, base: &Path) -> Result<String, Error> {
     let whole = |path: &Path| {
         path.canonicalize()

@@ -1,4 +1,4 @@
-//! The report as one page that needs nothing beside it: a table of what was found, what is not known, and every measurement with its curves.
+//! The report as one self-contained page: a table of results, unknown quantities, and every measurement with its curves.
 
 use std::fmt::Write as _;
 
@@ -25,7 +25,7 @@ pub(super) fn page(laboratory: &Laboratory, findings: &Findings, camera: &Camera
     html_page(&format!("{name} – characterisation"), REPORT_STYLE, &body)
 }
 
-/// What was looked at.
+/// Summary of the inputs.
 fn head(laboratory: &Laboratory) -> String {
     let [width, height] = laboratory.camera.size_px;
     let count = |kind: &Kind| laboratory.shots(*kind).len();
@@ -44,7 +44,7 @@ fn navigation(findings: &Findings) -> String {
     )
 }
 
-/// Value ± expanded uncertainty (k = 2), to two digits of it.
+/// Value ± expanded uncertainty (k = 2), to two digits of the uncertainty.
 fn expanded(e: Estimate) -> String {
     with_uncertainty(Estimate::new(e.value, 2.0 * e.standard_uncertainty))
 }

@@ -1,45 +1,45 @@
-//! What was found of a camera, number by number, and what was not; the kinds of pictures that it is found from, a folder each.
+//! Parameters of a camera, those that could not be determined, and the kinds of images that they come from, one folder each.
 
 use etendue_io::failure::Error;
 
 use crate::report::{Estimate, Report};
 
-/// A number of the camera.
+/// A parameter of the camera.
 #[derive(Clone, Debug)]
 pub struct Parameter {
-    /// Its name in JSON: that of its key in the camera file, where it has one.
+    /// Name in JSON: that of its key in the camera file, if it has one.
     pub key: String,
-    /// Its name for people.
+    /// Human-readable name.
     pub label: String,
-    /// Its unit; empty where it has none.
+    /// Unit; empty if dimensionless.
     pub unit: &'static str,
-    /// The value with its standard uncertainty.
+    /// Value with its standard uncertainty.
     pub value: Estimate,
-    /// The pictures that tell it.
+    /// Kind of images that determines it.
     pub from: Kind,
 }
 
-/// What could not be known.
+/// A quantity that could not be determined.
 #[derive(Clone, Debug)]
 pub struct Unknown {
-    /// What.
+    /// Name of the quantity.
     pub what: String,
-    /// Why, and what would tell it.
+    /// Reason, and what would determine it.
     pub why: String,
 }
 
-/// A measurement among those that were made.
+/// One measurement of the characterisation.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Its heading.
+    /// Heading.
     pub title: &'static str,
-    /// The pictures that it was made of.
+    /// Kind of images used.
     pub from: Kind,
-    /// What it found.
+    /// Report of the measurement.
     pub report: Report,
 }
 
-/// All that is found, as it grows.
+/// Results, as they are collected.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Findings {
     pub(super) parameters: Vec<Parameter>,
@@ -64,12 +64,12 @@ impl Findings {
         self.parts.push(Part { title, from, report });
     }
 
-    /// What is unknown because its pictures are not there.
+    /// Records a quantity as unknown because its images are missing.
     pub(super) fn missing(&mut self, what: &str, kind: Kind) {
         self.unknown(what, format!("there are no pictures in {}/ ({})", kind.folder(), kind.about()));
     }
 
-    /// The result of a measurement; one that cannot be made leaves what it would have told unknown.
+    /// Returns the result of a measurement; if it failed, records its quantity as unknown.
     pub(super) fn attempt<T>(&mut self, what: &str, made: Result<T, Error>) -> Result<Option<T>, Error> {
         match made {
             Ok(found) => Ok(Some(found)),
@@ -83,14 +83,14 @@ impl Findings {
     }
 }
 
-/// What a folder of pictures shows.
+/// Subject of a folder of images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// No light, two frames or more an exposure time.
+    /// No light, two frames or more per exposure time.
     Dark,
-    /// Even light on the bare sensor, two frames or more an exposure time.
+    /// Uniform illumination on the bare sensor, two frames or more per exposure time.
     Flat,
-    /// An evenly lit surface through the lens.
+    /// A uniformly lit surface through the lens.
     Field,
     /// Views of a plane chart of points.
     Chart,
@@ -101,10 +101,10 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them, in the order in which they are measured.
+    /// All kinds, in the order of measurement.
     pub const ALL: [Self; 6] = [Self::Dark, Self::Flat, Self::Field, Self::Chart, Self::Edges, Self::Checker];
 
-    /// The folder's name.
+    /// Name of the folder.
     #[must_use]
     pub fn folder(self) -> &'static str {
         match self {
@@ -117,7 +117,7 @@ impl Kind {
         }
     }
 
-    /// What it shows, in a few words.
+    /// Short description of the subject.
     #[must_use]
     pub fn about(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! The picture of a point's light that a camera file names: a Gaussian of the variances that edges told.
+//! The point-spread image that a camera file names: a Gaussian with the variances measured from edges.
 
 use etendue_core::maths::f64::exp;
 use etendue_io::{failure::Error, png::encode_grey16};
@@ -6,21 +6,21 @@ use etendue_metrology::sfr::Blur;
 
 use super::spread::{Spread, told};
 
-/// Samples a pixel.
+/// Samples per pixel.
 const FINE: f64 = 8.0;
-/// Standard deviations to either side.
+/// Half extent in standard deviations.
 const REACH: f64 = 4.0;
 
-/// A picture of a point's light.
+/// Image of a point spread.
 pub(super) struct PointPicture {
     /// Variances along rows and along columns, px².
     variances_px2: [f64; 2],
-    /// Distance of its pixels on the sensor, µm.
+    /// Pixel pitch on the sensor, µm.
     pub(super) pitch_um: f64,
 }
 
 impl PointPicture {
-    /// `None` where the spread is not told from none.
+    /// `None` if the spread does not differ significantly from zero.
     pub(super) fn of(spread: &Spread, pixel_pitch_um: f64) -> Option<Self> {
         let variance =
             |blur: Option<Blur>| blur.map(|blur| blur.variance_px2).filter(|v| told(*v)).map_or(0.0, |v| v.value);
@@ -33,7 +33,7 @@ impl PointPicture {
         format!("a Gaussian, standard deviation {x:.3} px along rows and {y:.3} px along columns")
     }
 
-    /// A grey PNG of 16 bits.
+    /// Encodes a 16-bit grey PNG.
     pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
         let [columns, rows] = self.variances_px2.map(profile);
         let value = |y: f64, x: &f64| (f64::from(u16::MAX) * x * y).round() as u16;
@@ -42,7 +42,7 @@ impl PointPicture {
     }
 }
 
-/// A Gaussian at steps of a fine pixel, 1 in the middle; one step where it has no width.
+/// A Gaussian at steps of a fine pixel, 1 in the middle; a single step if the width is zero.
 fn profile(variance_px2: f64) -> Vec<f64> {
     let reach = (REACH * FINE * variance_px2.sqrt()).ceil() as i32;
     let at = |i: i32| f64::from(i) / FINE;
@@ -61,7 +61,7 @@ mod tests {
             let sum: f64 = profile.iter().sum();
             let second: f64 =
                 profile.iter().enumerate().map(|(i, p)| p * (i as f64 - middle) * (i as f64 - middle)).sum();
-            // Four standard deviations hold all but 6e-5 of the light.
+            // Four standard deviations contain all but 6e-5 of the light.
             assert!((second / sum / (FINE * FINE) / variance - 1.0).abs() < 2e-3, "{variance}");
         }
         assert_eq!(profile(0.0), [1.0]);

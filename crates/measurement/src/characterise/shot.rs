@@ -1,4 +1,4 @@
-//! One picture of a laboratory folder, and what is known of it before it is measured.
+//! One image of a laboratory folder, and its properties before measurement.
 
 use std::path::{Path, PathBuf};
 
@@ -10,32 +10,32 @@ use serde_json::Value;
 
 use super::parameter::Kind;
 
-/// A picture.
+/// An image.
 #[derive(Clone, Debug)]
 pub(super) struct Shot {
     pub(super) kind: Kind,
     pub(super) file: PathBuf,
-    /// Columns and rows of the picture, dark ones left out.
+    /// Columns and rows of the image, excluding dark ones.
     pub(super) size_px: [usize; 2],
-    /// The part of the file that is picture: left column, top row, columns, rows.
+    /// Image area within the file: left column, top row, columns, rows.
     pub(super) picture_px: [usize; 4],
     pub(super) channels: usize,
-    /// The largest number that the file can hold; `None` of floats.
+    /// Largest number that the file can hold; `None` for floats.
     pub(super) full_scale: Option<f64>,
-    /// What its side-car states, where it is raw.
+    /// Facts of its side-car, if raw.
     pub(super) raw: Option<RawFacts>,
-    /// Of our side-car beside it.
+    /// Facts of this program's side-car.
     pub(super) side_car: SideCar,
     pub(super) exif: Exif,
     /// Exposure time, s.
     pub(super) exposure_s: Option<f64>,
-    /// Of the numbers; `None` where all of a channel are one value, as black and saturated frames may be.
+    /// Hash of the numbers; `None` if all numbers of a channel are equal, as in black or saturated frames.
     pub(super) mark: Option<ContentHash>,
-    /// Part of the pixels that are saturated, 0 to 1.
+    /// Fraction of saturated pixels, 0 to 1.
     pub(super) saturated: f64,
 }
 
-/// What a side-car of this program states of the camera.
+/// Camera facts from a side-car of this program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct SideCar {
     pub(super) pixel_pitch_um: Option<f64>,
@@ -43,7 +43,7 @@ pub(super) struct SideCar {
     pub(super) f_number: Option<f64>,
 }
 
-/// Pixels of the largest number of a frame are saturated where they are more than this part of it.
+/// Pixels at a frame's maximum count as saturated if they are more than this fraction of it.
 const CLIPPED: f64 = 0.01;
 
 impl Shot {
@@ -73,12 +73,12 @@ impl Shot {
         })
     }
 
-    /// Whether its numbers are those of single pixels.
+    /// True if its numbers are those of single pixels.
     pub(super) fn is_raw(&self) -> bool {
         self.channels == 1
     }
 
-    /// The file's place in the laboratory.
+    /// Path of the file within the laboratory folder.
     pub(super) fn name(&self) -> String {
         self.file.display().to_string()
     }
@@ -104,7 +104,7 @@ impl SideCar {
         })
     }
 
-    /// Of a developed picture, whose frame is listed beside its raw.
+    /// Exposure of a developed image, whose frame is listed with its raw file.
     fn exposure_s(file: &Path) -> Result<Option<f64>, Error> {
         let said = Self::said(file)?;
         Ok(said.and_then(|said| said["frames"][0]["exposure_s"].as_f64()))
@@ -118,7 +118,7 @@ fn mark(photograph: &Photograph) -> Option<ContentHash> {
     differ.then(|| of_bytes(&bytes()))
 }
 
-/// By the level that is stated, or by pixels that share the frame's largest number.
+/// By the stated level, or by pixels that share the frame's maximum.
 fn saturated(photograph: &Photograph, white: Option<f64>) -> f64 {
     let samples = || photograph.channels.iter().filter(|c| c.name != "A").flat_map(|channel| &channel.samples);
     let count = samples().count() as f64;

@@ -1,4 +1,4 @@
-//! Point spread: from slanted edges, what blurs them beyond the pixels' aperture.
+//! Point spread: blur of slanted edges beyond the pixel aperture.
 
 use etendue_io::failure::Error;
 use etendue_metrology::sfr::{Blur, Orientation, Sfr, blur};
@@ -10,10 +10,10 @@ use crate::measure::{PictureInput, Selection, SfrRequest, SignalLevels, TruthInp
 use crate::report::{Estimate, Report};
 
 const WHAT: &str = "point spread";
-/// Of the profile's fine detail, pixels of one colour.
+/// Reach of the profile's fine detail, in pixels of one colour.
 const REACH_PX: f64 = 6.0;
 
-/// Blur along rows (of edges near columns) and along columns.
+/// Blur along rows (from edges near columns) and along columns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spread {
     pub(super) along_rows: Option<Blur>,
@@ -71,7 +71,7 @@ fn request(laboratory: &Laboratory, shot: &Shot) -> SfrRequest {
     }
 }
 
-/// Whether a blur is told from none: two standard uncertainties above 0.
+/// True if a blur differs significantly from zero: more than two standard uncertainties above 0.
 pub(super) fn told(e: Estimate) -> bool {
     e.value > 2.0 * e.standard_uncertainty
 }

@@ -1,20 +1,22 @@
-//! A grey picture of a raw mosaic, without demosaicing.
+//! A grey image of a raw mosaic, without demosaicing.
 //!
-//! The light of a black and white chart gives the pixels under two filters a v + b and a' v + b', with the same v where the same light falls: so each place of
-//! the tile is scaled and shifted until its pixels have the mean and the standard deviation that the four have on average. What is left is the picture that a
-//! sensor without filters would have taken: nothing is interpolated, and no edge moves with its place among the colours, as it does in a mean of unequal
-//! responses or along the patterns that demosaicing draws. Pixels of tiles in which a filter's pixel is saturated do not count.
+//! The light of a black and white chart gives the pixels under two filters a v + b and a' v + b', with the same v where the same
+//! light falls. Each place of the tile is scaled and shifted until its pixels have the average mean and standard deviation of the
+//! four. The result is the image of a sensor without filters: nothing is interpolated, and edge positions do not depend on the
+//! colour of the pixel, unlike with a mean of unequal responses or with the artefacts of demosaicing. Pixels of tiles with a
+//! saturated pixel do not count.
 //!
-//! Left out: light whose colour varies over the picture (coloured surfaces, lateral chromatic aberration) and what saturates under some of the filters only, which leave a pattern of two pixels.
+//! Limitations: light whose colour varies over the image (coloured surfaces, lateral chromatic aberration) and saturation under
+//! only some of the filters leave a pattern with a period of two pixels.
 
 use etendue_metrology::Image;
 
-/// Pixels from one place of a colour to the next, along rows and along columns.
+/// Distance of pixels of one place in the tile, along rows and along columns.
 const PERIOD: usize = 2;
 const PLACES: usize = PERIOD * PERIOD;
 
-/// The picture of a mosaic whose tile is two by two with its colours balanced, in the mosaic's unit: of each pixel a reading. `saturated` is the reading of a
-/// saturated pixel, where one is known. A mosaic of a single row or column has no tiles, and comes back as it is.
+/// The image of a mosaic with a two by two tile and balanced colours, in the mosaic's unit, one reading per pixel. `saturated` is
+/// the reading of a saturated pixel, if known. A mosaic of a single row or column has no tiles and is returned unchanged.
 pub(super) fn balanced_mosaic(mosaic: &Image, saturated: Option<f64>) -> Image {
     let (width, height) = (mosaic.width(), mosaic.height());
     let balance = Balance::of(mosaic, saturated);
@@ -27,7 +29,7 @@ fn place(x: usize, y: usize) -> usize {
     x % PERIOD + PERIOD * (y % PERIOD)
 }
 
-/// Mean and standard deviation of the places of the tile.
+/// Mean and standard deviation of each place of the tile.
 struct Balance {
     mean: [f64; PLACES],
     deviation: [f64; PLACES],
@@ -50,7 +52,7 @@ impl Balance {
     }
 }
 
-/// The readings of the whole tiles, by place.
+/// Readings of the whole tiles, by place.
 fn tiles(mosaic: &Image) -> impl Iterator<Item = [f64; PLACES]> + '_ {
     let (columns, rows) = (mosaic.width() / PERIOD, mosaic.height() / PERIOD);
     let tile = move |x: usize, y: usize| {
@@ -59,7 +61,7 @@ fn tiles(mosaic: &Image) -> impl Iterator<Item = [f64; PLACES]> + '_ {
     (0..rows).flat_map(move |y| (0..columns).map(move |x| tile(x, y)))
 }
 
-/// By place; zero of no tiles.
+/// By place; zero if there are no tiles.
 fn mean(tiles: impl Iterator<Item = [f64; PLACES]>) -> [f64; PLACES] {
     let (mut sum, mut count) = ([0.0; PLACES], 0.0_f64);
     for tile in tiles {
@@ -88,7 +90,7 @@ mod tests {
         picture(light.width(), light.height(), reading)
     }
 
-    /// Squares of 14.5 px whose corners lie `shift` aside, sharp but for the area of the pixels, brighter towards the right.
+    /// Squares of 14.5 px with corners offset by `shift`, blurred only by the area of the pixels, brighter towards the right.
     fn checkerboard(shift: [f64; 2], turn: f64) -> Image {
         const STEPS: usize = 10;
         let square = |x: f64, y: f64| {
@@ -110,7 +112,7 @@ mod tests {
         grid.nodes.iter().map(|node| node.at).collect()
     }
 
-    /// The corners of a sharp chart are where a sensor without filters would see them, wherever they lie among the colours.
+    /// The corners of a sharp chart are where a sensor without filters would see them, whatever the colours of the pixels.
     #[test]
     fn corners_do_not_move_with_their_place_among_the_colours() {
         let mut worst: f64 = 0.0;
@@ -125,7 +127,7 @@ mod tests {
         assert!(worst < 0.005, "{worst} px");
     }
 
-    /// Light whose steps lie alike at all places comes back exactly, up to one scale and one shift.
+    /// Light with equal steps at all places is reproduced exactly, up to one scale and one shift.
     #[test]
     fn of_light_alike_at_all_places_nothing_of_the_filters_is_left() {
         let light = picture(12, 8, |x, y| 0.1 + 0.2 * ((x / 2 + y / 2) % 3) as f32);

@@ -16,16 +16,16 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure cdp`
 #[derive(Args, Clone, Debug)]
 pub struct CdpRequest {
-    /// A picture of grey patches
+    /// Image of grey patches
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// The darker patch of a pair: left column, top row, width, height; once a pair
+    /// Darker patch of a pair: left column, top row, width, height; once per pair
     #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub darker: Vec<[usize; 4]>,
-    /// The brighter patch of a pair, in the same order
+    /// Brighter patch of a pair, in the same order
     #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub brighter: Vec<[usize; 4]>,
-    /// The scene's Weber contrast of a pair: brighter over darker luminance, less 1; in the same order
+    /// Weber contrast of a pair in the scene: brighter over darker luminance, less 1; in the same order
     #[arg(
         long,
         value_name = "K",
@@ -34,16 +34,16 @@ pub struct CdpRequest {
         allow_negative_numbers = true
     )]
     pub contrast: Vec<f64>,
-    /// How much a measured contrast may differ from the scene's, share
+    /// Maximum relative deviation of a measured contrast from the scene's
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
     pub tolerance: f64,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl CdpRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self {
             picture: picture.into(),
@@ -64,14 +64,14 @@ struct Pair {
     darker: [usize; 4],
     brighter: [usize; 4],
     contrast: f64,
-    /// Of the darker one, where it is known.
+    /// Luminance of the darker one, if known.
     luminance_cd_m2: Option<f64>,
 }
 
 /// Contrast detection probability of pairs of patches (IEEE P2020).
 ///
 /// # Errors
-/// Where the picture or its patches cannot be used.
+/// If the image or its patches cannot be used.
 pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     let pairs = pairs(request, &readings)?;
@@ -171,7 +171,7 @@ fn report(found: &[(Pair, ContrastPair)]) -> Report {
     report
 }
 
-/// Over the luminance where it is known, else over the scene's contrast.
+/// Against luminance if known, otherwise against the scene's contrast.
 fn plot(found: &[(Pair, ContrastPair)]) -> Plot {
     let known = found.iter().all(|(pair, _)| pair.luminance_cd_m2.is_some());
     let x = |pair: &Pair| pair.luminance_cd_m2.filter(|_| known).unwrap_or(pair.contrast);

@@ -15,16 +15,16 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure chromatic`
 #[derive(Args, Clone, Debug)]
 pub struct ChromaticRequest {
-    /// A picture in colour of a plane chart that fills the field
+    /// Colour image of a plane chart that fills the field
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// The chart, and which readings show it.
+    /// The chart, and the readings that show it.
     #[command(flatten)]
     pub chart: ChartInput,
 }
 
 impl ChromaticRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(file: impl Into<PathBuf>) -> Self {
         Self { file: file.into(), chart: ChartInput::default() }
     }
@@ -33,7 +33,7 @@ impl ChromaticRequest {
 /// Lateral chromatic displacement of red and blue against green (ISO 19084).
 ///
 /// # Errors
-/// Where the picture is not in colour or shows no chart.
+/// If the image is not in colour or shows no chart.
 pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
     let file = &request.file;
     if request.chart.channel.is_some() {

@@ -19,16 +19,16 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure colour`
 #[derive(Args, Clone, Debug)]
 pub struct ColourRequest {
-    /// A picture of a ColorChecker of 24 patches, in colour
+    /// Colour image of a ColorChecker with 24 patches
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// Middles of the four corner patches, raster coordinates, in the chart's order: dark skin, bluish green, black, white
+    /// Centres of the four corner patches, raster coordinates, in the chart's order: dark skin, bluish green, black, white
     #[arg(long, value_name = "X,Y", num_args = 4, value_parser = corner, required_unless_present = "truth", conflicts_with = "truth")]
     pub corners: Vec<DVec2>,
-    /// Side of the squares that are read, of the distance of patches
+    /// Side of the measured squares, as a fraction of the patch spacing
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, conflicts_with = "truth", allow_negative_numbers = true)]
     pub patch: f64,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
@@ -38,7 +38,7 @@ fn corner(text: &str) -> Result<DVec2, String> {
 }
 
 impl ColourRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self { picture: picture.into(), corners: Vec::new(), patch: 0.5, input: PictureInput::default() }
     }
@@ -50,12 +50,12 @@ const CHART: (usize, usize) = (6, 4);
 /// Colours of a ColorChecker after a fitted matrix, CIEDE2000.
 ///
 /// # Errors
-/// Where the picture is not in colour or its patches cannot be used.
+/// If the image is not in colour or its patches cannot be used.
 pub fn colour(request: &ColourRequest) -> Result<Report, Error> {
     Ok(measured(request)?.0)
 }
 
-/// A chart's patches as a camera sees them.
+/// The patches of a chart in the camera's colours.
 pub(crate) struct Seen {
     pub(crate) patches: Vec<ColourPatch>,
     pub(crate) black: f64,
@@ -65,7 +65,7 @@ pub(crate) struct Seen {
     pub(crate) white_xyz: [f64; 3],
 }
 
-/// The report, and what it was made of.
+/// The report, and its inputs.
 pub(crate) fn measured(request: &ColourRequest) -> Result<(Report, Seen), Error> {
     let Some(colours) = request.input.selection.colours(&request.picture)? else {
         let expected = "expected a picture in colour: channels R, G and B, or a raw mosaic of them";
@@ -90,7 +90,7 @@ pub(crate) fn measured(request: &ColourRequest) -> Result<(Report, Seen), Error>
     Ok((report, Seen { patches, black, full_scale, shared_px, white_xyz }))
 }
 
-/// The patches that a chart's truth places and describes, in its own light.
+/// The patches that a chart's ground truth locates and describes, in its own light.
 fn told(truth: &Truth, picture: &Path, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
     let lists: Vec<Vec<Patch>> = colours.iter().map(|one| Ok(truth.patches(one)?.0)).collect::<Result<_, Error>>()?;
     // Green rises with luminance.
@@ -115,7 +115,7 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
         return Err(Error::argument("corners", "`corners`: expected four of them").with_code(ErrorCode::WrongCount));
     };
     let (columns, rows) = ((CHART.0 - 1) as f64, (CHART.1 - 1) as f64);
-    // Bilinear between the corners: exact where the chart is parallel to the sensor, near it otherwise.
+    // Bilinear between the corners: exact if the chart is parallel to the sensor, otherwise approximate.
     let middle = |i: usize| {
         let (u, v) = ((i % CHART.0) as f64 / columns, (i / CHART.0) as f64 / rows);
         (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v
@@ -176,7 +176,7 @@ fn report(patches: &[ColourPatch], found: &ColourError) -> Report {
     report
 }
 
-/// Redness and yellowness of the patches, as they are and as the matrix gives them.
+/// Red-green and yellow-blue coordinates of the patches: references, and values from the matrix.
 fn plot(found: &ColourError) -> Plot {
     let places = |name: &str, which: usize| {
         Series::new(name, Mark::Points, found.colours.iter().map(move |pair| (pair[which][1], pair[which][2])))

@@ -1,4 +1,4 @@
-//! `measure dark-current`: its growth with temperature.
+//! `measure dark-current`: growth of dark current with temperature.
 
 use std::path::PathBuf;
 
@@ -17,25 +17,25 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure dark-current`
 #[derive(Args, Clone, Debug)]
 pub struct DarkCurrentRequest {
-    /// Descriptors of photon transfer at several temperatures of the sensor in °C, three or more
+    /// Photon-transfer descriptors at several sensor temperatures in °C, three or more
     #[arg(value_name = "CELSIUS:DESCRIPTOR.txt", required = true, value_parser = series)]
     pub series: Vec<(f64, PathBuf)>,
-    /// The temperature that the dark current is told at, °C
+    /// Temperature at which the dark current is reported, °C
     #[arg(long, value_name = "CELSIUS", default_value_t = 25.0, allow_negative_numbers = true)]
     pub reference_c: f64,
-    /// Which part and channel of the pictures.
+    /// Part and channel of the images.
     #[command(flatten)]
     pub selection: Selection,
 }
 
-/// A temperature and its descriptor.
+/// Parses a temperature and its descriptor.
 fn series(text: &str) -> Result<(f64, PathBuf), String> {
     let both = text.split_once(':').and_then(|(celsius, file)| Some((celsius.parse().ok()?, PathBuf::from(file))));
     both.ok_or_else(|| format!("expected CELSIUS:DESCRIPTOR.txt, e.g. 45:warm/list.txt, not '{text}'"))
 }
 
 impl DarkCurrentRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(series: Vec<(f64, PathBuf)>) -> Self {
         Self { series, reference_c: 25.0, selection: Selection::default() }
     }
@@ -49,10 +49,10 @@ fn name(law: Law) -> (&'static str, &'static str) {
     }
 }
 
-/// The dark current's growth with temperature, by three laws.
+/// Growth of dark current with temperature, by three laws.
 ///
 /// # Errors
-/// Where a descriptor cannot be used or there are too few temperatures.
+/// If a descriptor cannot be used or there are too few temperatures.
 pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let mut encodings = Vec::new();
     let current = |(celsius, descriptor): &(f64, PathBuf)| {
@@ -86,7 +86,7 @@ pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Re
     Ok(report)
 }
 
-/// Two measurements that are the same to the last bit.
+/// Returns two measurements that are bit-identical.
 fn copies(currents: &[(f64, Estimate)]) -> Option<[usize; 2]> {
     let pairs = (0..currents.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
     pairs.into_iter().find(|[j, i]| currents[*j].1 == currents[*i].1)

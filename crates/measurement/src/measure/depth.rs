@@ -1,4 +1,4 @@
-//! `measure depth`: how good an estimated depth picture is against the truth.
+//! `measure depth`: accuracy of an estimated depth image against ground truth.
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -16,55 +16,55 @@ use crate::report::{Cell, Report, Table};
 /// The depth channel of this program's ground truth.
 const DEPTH: &str = "depth.Z";
 
-/// Distances from an edge that may count as near, pixels.
+/// Allowed distances from an edge that count as near, pixels.
 const EDGE_PX: RangeInclusive<u32> = 0..=100;
 
 /// `etendue measure depth`
 #[derive(Args, Clone, Debug)]
 pub struct DepthRequest {
-    /// The estimate: one channel of depth (EXR, PFM, TIFF of floats, PNG of 16 bits …; 0, NaN and infinity are missing)
+    /// Estimate: one channel of depth (EXR, PFM, TIFF of floats, PNG of 16 bits …; 0, NaN and infinity are missing)
     #[arg(value_name = "ESTIMATE")]
     pub estimate: PathBuf,
-    /// The truth: a ground-truth EXR, or one channel of depth
+    /// Ground truth: a ground-truth EXR, or one channel of depth
     #[arg(value_name = "TRUTH")]
     pub truth: PathBuf,
-    /// The estimate's channel [default: depth.Z, or the only one]
+    /// Channel of the estimate [default: depth.Z, or the only one]
     #[arg(long, value_name = "NAME")]
     pub estimate_channel: Option<String>,
-    /// The truth's channel [default: depth.Z, or the only one]
+    /// Channel of the ground truth [default: depth.Z, or the only one]
     #[arg(long, value_name = "NAME")]
     pub truth_channel: Option<String>,
-    /// Metres a number of the estimate, e.g. 0.001 for millimetres
+    /// Metres per unit of the estimate, e.g. 0.001 for millimetres
     #[arg(long, value_name = "M", default_value_t = 1.0, allow_negative_numbers = true)]
     pub estimate_unit_m: f64,
-    /// Metres a number of the truth
+    /// Metres per unit of the ground truth
     #[arg(long, value_name = "M", default_value_t = 1.0, allow_negative_numbers = true)]
     pub truth_unit_m: f64,
     /// Limits of the ranges, m, e.g. 0,10,30,100
     #[arg(long, value_name = "M,…", value_delimiter = ',')]
     pub ranges_m: Vec<f64>,
-    /// An outlier is off by more than this share of the depth
+    /// Minimum error of an outlier as a fraction of the depth
     #[arg(long, value_name = "SHARE", default_value_t = 0.05, allow_negative_numbers = true)]
     pub outlier_ratio: f64,
-    /// … and by more than this, m
+    /// … and its minimum error, m
     #[arg(long, value_name = "M", default_value_t = 0.0, allow_negative_numbers = true)]
     pub outlier_least_m: f64,
-    /// A stereo rig's focal length in pixels times its base in metres: tells errors of disparity (D1, EPE) as well
+    /// Focal length in pixels times baseline in metres of a stereo rig: adds disparity errors (D1, EPE)
     #[arg(long, value_name = "PX·M", allow_negative_numbers = true)]
     pub focal_base_px_m: Option<f64>,
-    /// What is done to the estimate first: networks may know depth but for a factor
+    /// Alignment of the estimate before the comparison: networks may estimate depth up to a factor
     #[arg(long, value_enum, default_value_t = DepthAlignment::None)]
     pub align: DepthAlignment,
-    /// A jump of the truth by more than this share of the depth is an edge
+    /// Minimum depth jump of the ground truth at an edge, as a fraction of the depth
     #[arg(long, value_name = "SHARE", default_value_t = 0.1, allow_negative_numbers = true)]
     pub edge_ratio: f64,
-    /// Pixels this near to an edge are told apart
+    /// Distance, px, within which pixels near an edge are reported separately
     #[arg(long, value_name = "PX", default_value_t = 2, value_parser = in_range(EDGE_PX))]
     pub edge_px: u32,
 }
 
 impl DepthRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(estimate: impl Into<PathBuf>, truth: impl Into<PathBuf>) -> Self {
         Self {
             estimate: estimate.into(),
@@ -84,19 +84,19 @@ impl DepthRequest {
     }
 }
 
-/// What is done to an estimate before.
+/// Alignment of an estimate before the comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum DepthAlignment {
     /// Nothing
     None,
-    /// Multiply by the median of truth over estimate
+    /// Multiply by the median of ground truth over estimate
     Median,
 }
 
-/// An estimated depth picture against the truth: bias, error and outliers by range, edges apart.
+/// Errors of an estimated depth image against ground truth: bias, error and outliers by range, with edges reported separately.
 ///
 /// # Errors
-/// Where the pictures cannot be used or differ in size.
+/// If the images cannot be used or differ in size.
 pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
     check_whole("edge_px", request.edge_px, EDGE_PX)?;
     for (field, unit) in [("estimate_unit_m", request.estimate_unit_m), ("truth_unit_m", request.truth_unit_m)] {
@@ -178,7 +178,7 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
     Ok(report)
 }
 
-/// Errors over depth: each range at its middle, one without end at its beginning.
+/// Errors against depth: each range at its middle, an unbounded one at its beginning.
 fn plot(ranges: &[(f64, f64, DepthErrors)]) -> Plot {
     let seen = ranges.iter().filter(|(_, _, errors)| errors.pixels > 0);
     let at = |low: f64, high: f64| if high.is_finite() { 0.5 * (low + high) } else { low };
@@ -216,7 +216,7 @@ fn depth(file: &Path, channel: Option<&str>, unit_m: f64) -> Result<Image, Error
     Ok(Image::from_samples(photograph.width, photograph.height, metres).expect("a photograph's channels fill it"))
 }
 
-/// The named channel's numbers, or depth.Z, or the only one.
+/// Numbers of the named channel, or depth.Z, or the only one.
 fn chosen<'a>(file: &Path, photograph: &'a Photograph, channel: Option<&str>) -> Result<&'a [f32], Error> {
     let named = |name: &str| photograph.channel(name).map(|c| c.samples.as_slice());
     let found = match (channel, &photograph.channels[..]) {

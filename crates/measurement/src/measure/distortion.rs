@@ -1,4 +1,4 @@
-//! `measure distortion`: from one picture of a plane chart.
+//! `measure distortion`: from one image of a plane chart.
 
 use std::path::PathBuf;
 
@@ -17,28 +17,29 @@ use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 /// `etendue measure distortion`
 #[derive(Args, Clone, Debug)]
 pub struct DistortionRequest {
-    /// A picture of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px, y_px)
+    /// Image of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px,
+    /// y_px)
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// The chart, and which readings show it.
+    /// The chart, and the readings that show it.
     #[command(flatten)]
     pub chart: ChartInput,
-    /// The point to which distances are taken, raster coordinates, px [default: the picture's middle]
+    /// Centre of the radial distances, raster coordinates, px [default: the image centre]
     #[arg(long, value_name = "X,Y", value_parser = place)]
     pub centre_px: Option<[f64; 2]>,
 }
 
 impl DistortionRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(file: impl Into<PathBuf>) -> Self {
         Self { file: file.into(), chart: ChartInput::default(), centre_px: None }
     }
 }
 
-/// Distortion from one picture of a plane chart, without a model (ISO 17850).
+/// Distortion from one image of a plane chart, without a model (ISO 17850).
 ///
 /// # Errors
-/// Where the picture shows no chart, or too little of one.
+/// If the image shows no chart, or too little of one.
 pub fn distortion(request: &DistortionRequest) -> Result<Report, Error> {
     let seen = request.chart.seen(&request.file)?;
     let centre = request.centre_px.map(DVec2::from);
@@ -90,7 +91,7 @@ fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     report
 }
 
-/// Where the curve is not what k₁ and k₂ say, by more than twice their joint standard uncertainty.
+/// Describes where the curve departs from k₁ and k₂ by more than twice their joint standard uncertainty.
 fn disagreement(found: &Distortion) -> Option<String> {
     let (point, by_fit, error) = found.largest_difference().filter(|(_, _, error)| *error > 1.0)?;
     let less_one = |e: Estimate| with_uncertainty(percent(Estimate::new(e.value - 1.0, e.standard_uncertainty)));
@@ -103,7 +104,7 @@ fn disagreement(found: &Distortion) -> Option<String> {
     ))
 }
 
-/// The curve's centre, as comparisons tell it from another.
+/// Label of the curve's centre, by which comparisons distinguish curves.
 pub(crate) fn centre_words(centre_px: DVec2) -> String {
     format!("{:.2}, {:.2}", centre_px.x, centre_px.y)
 }
@@ -141,7 +142,7 @@ fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
     report.fact(&format!("{key}_rms_px"), &format!("rms_px, {way}"), "px", fit.rms_px);
 }
 
-/// The largest local geometric distortion (ISO 17850), and where.
+/// The largest local geometric distortion (ISO 17850) and its position.
 fn local(report: &mut Report, found: &Distortion) {
     if let Some(largest) = found.largest {
         report.figure("local_largest_percent", "local geometric distortion, largest", "%", percent(largest.distortion));
@@ -154,7 +155,7 @@ fn percent(share: Estimate) -> Estimate {
     Estimate::new(100.0 * share.value, 100.0 * share.standard_uncertainty)
 }
 
-/// Every point of the chart: where it is seen, where it would be seen without distortion, and the local geometric distortion.
+/// Every point of the chart: observed position, position without distortion, and local geometric distortion.
 fn every_point(found: &Distortion) -> Table {
     let row = |l: &LocalDistortion| {
         let places = [l.at.x, l.at.y, l.ideal.x, l.ideal.y].map(|c| Cell::Number(c, 3));

@@ -1,4 +1,4 @@
-//! From the numbers of a picture to light: as --encoding says, or the side-car, or the file.
+//! Conversion of an image's numbers to light: by --encoding, the side-car, or the file.
 
 use std::path::{Path, PathBuf};
 
@@ -10,11 +10,11 @@ use etendue_isp::ToneCurve;
 use etendue_plan_report::tone_curve::tone_curve;
 use etendue_sensor::hdr::companding::Companding;
 
-/// What the numbers of a picture are.
+/// Encoding of an image's numbers.
 #[derive(Args, Clone, Debug, Default)]
 pub struct EncodingChoice {
-    /// How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0
-    /// and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits]
+    /// Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure
+    /// above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits]
     #[arg(id = "encoding", long, value_name = "linear|srgb|FILE.csv", value_parser = chosen)]
     pub chosen: Option<ChosenEncoding>,
 }
@@ -28,10 +28,10 @@ fn chosen(text: &str) -> Result<ChosenEncoding, String> {
     }
 }
 
-/// A choice of the user's.
+/// Encoding that the user chose.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ChosenEncoding {
-    /// In proportion to light.
+    /// Proportional to light.
     Linear,
     /// The curve of IEC 61966-2-1.
     Srgb,
@@ -39,7 +39,7 @@ pub enum ChosenEncoding {
     Table(PathBuf),
 }
 
-/// Two columns: from light 0 a tone curve's table, otherwise a measured conversion function.
+/// Two columns: a tone curve if the light begins at 0, otherwise a measured conversion function.
 fn table(file: &Path) -> Result<Encoding, Error> {
     let table = read_numbers(file).map_err(Error::input)?;
     if table.columns != 2 {
@@ -53,7 +53,7 @@ fn table(file: &Path) -> Result<Encoding, Error> {
 }
 
 impl EncodingChoice {
-    /// What the user says of the numbers; `None` where nothing.
+    /// Encoding that the user states; `None` if none.
     fn stated(&self) -> Result<Option<Stated>, Error> {
         let encoding = match &self.chosen {
             None => return Ok(None),
@@ -66,7 +66,7 @@ impl EncodingChoice {
         Ok(Some(Stated::new(encoding, "`encoding`")))
     }
 
-    /// A picture whose numbers are to become light.
+    /// Opens an image whose numbers are to be converted to light.
     pub(crate) fn photograph(&self, file: &Path) -> Result<Photograph, Error> {
         let mut photograph = read_photograph(file).map_err(Error::input)?;
         if companding(&photograph).is_some() {
@@ -82,7 +82,7 @@ impl EncodingChoice {
         Ok(photograph)
     }
 
-    /// A picture whose numbers are measured as they are stored, unless the user asks for another curve to be taken off first.
+    /// Opens an image whose numbers are measured as stored, unless the user requests the inversion of another curve.
     pub(crate) fn stored(&self, file: &Path) -> Result<Photograph, Error> {
         let mut photograph = self.photograph(file)?;
         if self.chosen.is_none() && photograph.raw.is_none() {
@@ -91,7 +91,8 @@ impl EncodingChoice {
         Ok(photograph)
     }
 
-    /// A raw picture, whose numbers must be in proportion to charge: one that says otherwise is refused, a guess is not asked.
+    /// Checks a raw image, whose numbers must be proportional to charge. Refuses one that states otherwise; a guessed encoding does
+    /// not count.
     pub(crate) fn raw(&self, file: &Path, mut photograph: Photograph) -> Result<Photograph, Error> {
         let file = file.display();
         if companding(&photograph).is_some() {
@@ -127,13 +128,13 @@ fn companding(photograph: &Photograph) -> Option<Companding> {
     Some(Companding { knees: frame.companding_knees_dn.clone()?, bits: frame.bits })
 }
 
-/// What makes light of numbers.
+/// Conversion from numbers to light.
 pub(crate) enum ToLight {
-    /// Nothing: numbers are in proportion to it.
+    /// None: numbers are proportional to light.
     Stored,
-    /// A tone curve, of numbers over the full scale; light is 0 … 1.
+    /// A tone curve, of numbers relative to the full scale; light is 0 … 1.
     Curve(ToneCurve, f64),
-    /// The lines of a companded raw; light is in its linear numbers.
+    /// The segments of a companded raw; light is in its linear numbers.
     Companded(Companding),
 }
 
@@ -153,7 +154,7 @@ impl ToLight {
         Ok(Self::Curve(tone_curve(encoding, full_scale).map_err(named)?, full_scale))
     }
 
-    /// A channel's light. Numbers of 8 and 16 bits repeat: each is decoded once.
+    /// Light of a channel. Numbers of 8 and 16 bits repeat: each is decoded once.
     pub(crate) fn of_channel(&self, channel: &Channel) -> Vec<f32> {
         let Self::Curve(curve, full_scale) = self else {
             return channel.samples.iter().map(|v| self.number(f64::from(*v)) as f32).collect();
@@ -169,7 +170,7 @@ impl ToLight {
         channel.samples.iter().map(decode).collect()
     }
 
-    /// A level of a raw picture as its light is told.
+    /// A level of a raw image in the unit of the light.
     pub(crate) fn number(&self, stored: f64) -> f64 {
         match self {
             Self::Companded(companding) => companding.linear(stored),
@@ -177,7 +178,7 @@ impl ToLight {
         }
     }
 
-    /// The largest light, where the file has a largest number.
+    /// The largest light, if the file has a largest number.
     pub(crate) fn full_scale(&self, photograph: &Photograph) -> Option<f64> {
         match self {
             Self::Curve(..) => Some(1.0),
@@ -223,7 +224,7 @@ mod tests {
         assert!((gamma[0] - 0.25).abs() < 1e-6 && gamma[1] == 1.0, "{gamma:?}");
         let table = Encoding::Table(vec![(0.0, 0.0), (0.5, 0.8), (1.0, 1.0)]);
         assert!((light(table, Some(255.0), &[204.0])[0] - 0.5).abs() < 1e-6);
-        // Of a measured function in the picture's own numbers, half way in the logarithm.
+        // Of a measured function in the image's own numbers, half way in the logarithm.
         let oecf = Encoding::Oecf { points: vec![(2.0, 10.0), (8.0, 50.0), (32.0, 100.0)], largest_output: None };
         let found = light(oecf, Some(255.0), &[10.0, 30.0, 100.0]);
         assert!((found[0] - 0.0625).abs() < 1e-6 && (found[1] - 0.125).abs() < 1e-6 && found[2] == 1.0, "{found:?}");

@@ -1,4 +1,4 @@
-//! `measure flare`: light in traps that send none.
+//! `measure flare`: veiling light in light traps.
 
 use std::path::PathBuf;
 
@@ -17,22 +17,22 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure flare`
 #[derive(Args, Clone, Debug)]
 pub struct FlareRequest {
-    /// A picture of light traps in a white field
+    /// Image of light traps in a white field
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// A part of a light trap: left column, top row, width, height; once a trap
+    /// Part of a light trap: left column, top row, width, height; once per trap
     #[arg(long = "trap", value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub traps: Vec<[usize; 4]>,
-    /// A part of the white field
+    /// Part of the white field
     #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub white: Option<[usize; 4]>,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl FlareRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self { picture: picture.into(), traps: Vec::new(), white: None, input: PictureInput::default() }
     }
@@ -40,10 +40,10 @@ impl FlareRequest {
 
 const CHARTS: [&str; 1] = [Flare::NAME];
 
-/// Light in traps that send none (ISO 18844).
+/// Veiling light in light traps, which emit none (ISO 18844).
 ///
 /// # Errors
-/// Where the picture or its traps cannot be used.
+/// If the image or its traps cannot be used.
 pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     let traps = traps(request, &readings)?;

@@ -1,4 +1,4 @@
-//! `measure flicker`: light that goes up and down, over rows and over frames.
+//! `measure flicker`: modulated light, over rows and over frames.
 
 use std::path::{Path, PathBuf};
 
@@ -17,37 +17,39 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure flicker`
 #[derive(Args, Clone, Debug)]
 pub struct FlickerRequest {
-    /// Frames of a sequence in their order, or one of a rolling shutter
+    /// Frames of a sequence in order, or one frame of a rolling shutter
     #[arg(value_name = "FRAME", required = true)]
     pub frames: Vec<PathBuf>,
-    /// Time from one row of the file to the next, µs, of a rolling shutter [default: the side-car's, or all rows are exposed together]
+    /// Time from one row of the file to the next, µs, of a rolling shutter [default: the side-car's, or all rows are exposed
+    /// together]
     #[arg(long, value_name = "US", allow_negative_numbers = true)]
     pub row_time_us: Option<f64>,
-    /// Frames a second [default: the side-car's, or not known; each frame is measured by itself]
+    /// Frames per second [default: the side-car's, or unknown: each frame is measured separately]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub frame_rate_hz: Option<f64>,
-    /// Exposure of a row, µs: tells the light's own modulation and the duty of its pulses [default: the side-car's, or not known]
+    /// Exposure of a row, µs: adds the light's own modulation and the duty cycle of its pulses [default: the side-car's, or
+    /// unknown]
     #[arg(long, value_name = "US", allow_negative_numbers = true)]
     pub exposure_us: Option<f64>,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl FlickerRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(frames: Vec<PathBuf>) -> Self {
         Self { frames, row_time_us: None, frame_rate_hz: None, exposure_us: None, input: PictureInput::default() }
     }
 }
 
-/// Charts of one light, and of many.
+/// Charts with one light, and with many.
 const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 const CHARTS: [&str; 3] = [FlatField::NAME, Backlit::NAME, LedFlicker::NAME];
 
 const METHOD: &str = "bands over rows and changes over frames, by least squares; modulation as IEEE P2020 defines it (± one standard uncertainty)";
 
-/// What is needed of the frames.
+/// Data of the frames.
 struct Sequence {
     frames: Vec<Readings>,
     timing: FlickerTiming,
@@ -55,10 +57,10 @@ struct Sequence {
     name: String,
 }
 
-/// The flicker of an evenly lit region, or of each lamp of a chart.
+/// Flicker of a uniformly lit region, or of each lamp of a chart.
 ///
 /// # Errors
-/// Where times are missing, or a region is too small, saturated or dark.
+/// If times are missing, or a region is too small, saturated or dark.
 pub fn flicker(request: &FlickerRequest) -> Result<Report, Error> {
     let FlickerRequest { row_time_us, frame_rate_hz, exposure_us, .. } = *request;
     let (times, notes) = completed(&request.frames, FrameTimes { row_time_us, frame_rate_hz, exposure_us })?;
@@ -96,7 +98,7 @@ fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {
     let truth = input.truth(&CHARTS, file, first)?;
     let seconds = |us: f64| us * 1e-6;
     let timing = FlickerTiming {
-        // Of a mosaic's colour every second row of the file is read.
+        // For one colour of a mosaic, every second row of the file is read.
         row_time_s: request.row_time_us.map(|us| seconds(us) * first.period.1 as f64),
         frame_rate_hz: request.frame_rate_hz,
         exposure_s: request.exposure_us.map(seconds),
@@ -153,7 +155,7 @@ fn one(
     plot(sequence, at, report)
 }
 
-/// What frames of this rate cannot tell apart.
+/// Frequencies that frames at this rate cannot distinguish.
 fn alike(orders: Vec<(u32, f64)>, rate_hz: f64) -> String {
     let list: Vec<String> = orders.iter().map(|(k, f)| format!("{f:.2} Hz (order {k})")).collect();
     format!(
@@ -212,7 +214,7 @@ fn plot(sequence: &Sequence, at: Option<[usize; 4]>, report: &mut Report) -> Res
     Ok(())
 }
 
-/// Each lamp of a chart, beside what the chart says of it.
+/// Each lamp of a chart, with the chart's statement about it.
 fn lamps(sequence: &Sequence, truth: &Truth, request: &FlickerRequest, report: &mut Report) -> Result<(), Error> {
     let (patches, left_out) = truth.patches(&sequence.frames[0])?;
     let mut rows = Vec::new();

@@ -13,25 +13,26 @@ use crate::report::Report;
 /// `etendue measure focal`
 #[derive(Args, Clone, Debug)]
 pub struct FocalRequest {
-    /// The pictures, the chart and what is known of the camera.
+    /// The images, the chart and the known properties of the camera.
     #[command(flatten)]
     pub views: ViewsRequest,
-    /// Whether the report holds what was found as keys of a camera file.
+    /// True if the report includes the results as keys of a camera file.
     #[arg(skip)]
     pub camera_keys: bool,
 }
 
 impl FocalRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(views: ViewsRequest) -> Self {
         Self { views, camera_keys: false }
     }
 }
 
-/// Focal length and principal point, from one picture of a chart at a known distance or from several. Runs on the caller's thread pool.
+/// Focal length and principal point, from one image of a chart at a known distance or from several. Runs on the caller's thread
+/// pool.
 ///
 /// # Errors
-/// Where the views do not determine them.
+/// If the views do not determine them.
 pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let mut options = views.options();
@@ -85,28 +86,29 @@ fn field_of_view(report: &mut Report, found: &Found) {
 /// `etendue calibrate`
 #[derive(Args, Clone, Debug)]
 pub struct CalibrationRequest {
-    /// The pictures, the chart and what is known of the camera.
+    /// The images, the chart and the known properties of the camera.
     #[command(flatten)]
     pub views: ViewsRequest,
-    /// Whether the report holds a camera file; needs the pixels' pitch.
+    /// True if the report includes a camera file; needs the pixel pitch.
     #[arg(skip)]
     pub camera_keys: bool,
-    /// The lens's f-number, for the camera file [default: 4, which is marked as a stand-in]
+    /// F-number of the lens, for the camera file [default: 4, marked as a stand-in]
     #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true, requires = "camera_keys", display_order = 21)]
     pub f_number: Option<f64>,
 }
 
 impl CalibrationRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(views: ViewsRequest) -> Self {
         Self { views, camera_keys: false, f_number: None }
     }
 }
 
-/// A camera from several views of a plane chart: projection, distortion and, where the pixels' pitch is given, a camera file. Runs on the caller's thread pool.
+/// A camera from several views of a plane chart: projection, distortion and, if the pixel pitch is given, a camera file. Runs on
+/// the caller's thread pool.
 ///
 /// # Errors
-/// Where views are too few, show no chart or do not determine the model.
+/// If the views are too few, show no chart or do not determine the model.
 pub fn calibrate(request: &CalibrationRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let found = views.found(views.options(), observer)?;

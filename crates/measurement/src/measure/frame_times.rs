@@ -1,25 +1,25 @@
-//! Times of frames that are measured: what the caller states, else what their side-car says.
+//! Times of the measured frames: from the caller, otherwise from their side-cars.
 
 use std::path::PathBuf;
 
 use etendue_io::failure::Error;
 use etendue_io::photograph::{StatedRows, StatedTiming, stated_timing};
 
-/// Relative difference of two statements that is taken for rounding.
+/// Maximum relative difference of two statements that counts as rounding.
 const ALIKE: f64 = 1e-6;
 
-/// Times of frames, as far as they are known.
+/// Times of frames, as far as known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FrameTimes {
-    /// From row to row of the file, µs.
+    /// Time from row to row of the file, µs.
     pub(super) row_time_us: Option<f64>,
-    /// Frames a second.
+    /// Frames per second.
     pub(super) frame_rate_hz: Option<f64>,
     /// Exposure of a row, µs.
     pub(super) exposure_us: Option<f64>,
 }
 
-/// The times with those that `given` leaves open, as far as the frames' side-cars say them; and what the user should know of it.
+/// Returns the times of `given`, completed from the frames' side-cars, and notes for the user.
 pub(super) fn completed(frames: &[PathBuf], given: FrameTimes) -> Result<(FrameTimes, Vec<String>), Error> {
     let stated: Option<Vec<StatedTiming>> =
         frames.iter().map(|file| stated_timing(file)).collect::<Result<_, _>>().map_err(Error::input)?;
@@ -38,16 +38,16 @@ pub(super) fn completed(frames: &[PathBuf], given: FrameTimes) -> Result<(FrameT
     Ok((times, told.into_notes()))
 }
 
-/// What is said of where times come from.
+/// Report on the origin of the times.
 struct Told {
     side_car: String,
-    /// What is taken from the side-car.
+    /// Times from the side-car.
     taken: Vec<String>,
     notes: Vec<String>,
 }
 
 impl Told {
-    /// The caller's number, else the side-car's.
+    /// Returns the caller's number, otherwise the side-car's.
     fn chosen(&mut self, field: &str, name: &str, unit: &str, given: Option<f64>, said: Option<f64>) -> Option<f64> {
         match (given, said) {
             (Some(given), Some(said)) if (given - said).abs() > ALIKE * said.abs() => {
@@ -68,13 +68,13 @@ impl Told {
     }
 }
 
-/// Without the rounding of a unit's factor.
+/// Formats a number without the rounding error of a unit's factor.
 fn rounded(value: f64) -> String {
     let digits = format!("{value:.9e}");
     digits.parse::<f64>().map_or(digits, |value| value.to_string())
 }
 
-/// Of all frames, where they agree.
+/// Common value of all frames, if they agree.
 fn row_time_s(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
     if stated.iter().any(|frame| frame.rows != stated[0].rows) {
         told.notes.push("the frames' side-cars state different shutters; rows are not measured".to_owned());
@@ -90,7 +90,7 @@ fn row_time_s(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
     }
 }
 
-/// Of frames that follow each other by equal numbers of periods.
+/// Common value of frames that follow each other by equal numbers of periods.
 fn frame_rate_hz(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
     let period_s = stated[0].frame_period_s?;
     if stated.iter().any(|frame| frame.file != stated[0].file || frame.frame_period_s != Some(period_s)) {
@@ -106,7 +106,7 @@ fn frame_rate_hz(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
     even.map(|step| 1.0 / (f64::from(step) * period_s))
 }
 
-/// Of all frames, where exposure control left it as it was.
+/// Common value of all frames, if exposure control did not change it.
 fn exposure_s(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
     let first = stated[0].exposure_s?;
     let same = stated.iter().all(|frame| frame.exposure_s == Some(first));

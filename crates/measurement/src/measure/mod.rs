@@ -1,7 +1,7 @@
-//! Cameras measured from pictures, and lenses without rendering: one kind of measurement a file.
+//! Measurements of cameras from images, and of lenses without rendering: one kind of measurement per file.
 //!
-//! Each takes a request with typed arguments and answers with a [`Report`](crate::report::Report): numbers with unit and standard
-//! uncertainty, tables, plots and notes. Pictures are read from files.
+//! Each takes a request with typed arguments and returns a [`Report`](crate::report::Report): numbers with unit and standard
+//! uncertainty, tables, plots and notes. Images are read from files.
 
 mod balanced_mosaic;
 mod cdp;

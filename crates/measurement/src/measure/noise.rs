@@ -1,4 +1,4 @@
-//! `measure noise`: temporal and fixed-pattern noise of an even surface, or of each patch of a chart.
+//! `measure noise`: temporal and fixed-pattern noise of a uniform surface, or of each patch of a chart.
 
 use std::path::{Path, PathBuf};
 
@@ -16,35 +16,35 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure noise`
 #[derive(Args, Clone, Debug)]
 pub struct NoiseRequest {
-    /// Eight or more frames of one even surface, or of a chart with --truth
+    /// Eight or more frames of one uniform surface, or of a chart with --truth
     #[arg(value_name = "FRAME", required = true)]
     pub frames: Vec<PathBuf>,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl NoiseRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(frames: Vec<PathBuf>) -> Self {
         Self { frames, input: PictureInput::default() }
     }
 }
 
-/// Charts of one even surface, and of many.
+/// Charts of one uniform surface, and of many.
 const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 const CHARTS: [&str; 4] = [FlatField::NAME, Backlit::NAME, OecfSteps::NAME, ContrastPatches::NAME];
 
-/// An even surface over the frames.
+/// A uniform surface over the frames.
 struct Surface {
-    /// Which patch of a chart it is.
+    /// The patch of a chart.
     patch: Option<Patch>,
-    /// Where it lies; all of the frame where that is not said.
+    /// Position; `None` for the whole frame.
     at: Option<[usize; 4]>,
     stack: Option<Stack>,
-    /// Why it is left out.
+    /// Reason for leaving it out.
     fault: Option<String>,
-    /// The first of its frames that is clipped.
+    /// The first clipped frame.
     cut: Option<(PathBuf, Cut)>,
 }
 
@@ -74,10 +74,10 @@ impl Surface {
     }
 }
 
-/// Temporal and fixed-pattern noise of an even surface, or of each patch of a chart (ISO 15739).
+/// Temporal and fixed-pattern noise of a uniform surface, or of each patch of a chart (ISO 15739).
 ///
 /// # Errors
-/// Where the frames are too few, saturated or no frames of one surface.
+/// If the frames are too few, saturated or not of one surface.
 pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
     let input = &request.input;
     let (mut surfaces, mut black, mut encodings) = (Vec::new(), 0.0, Vec::new());
@@ -143,7 +143,7 @@ fn one(stack: &Stack, black: f64) -> Result<Report, Error> {
     Ok(report)
 }
 
-/// Noise over the luminance of a chart's patches; those that are saturated are named.
+/// Noise against the luminance of a chart's patches; saturated patches are named.
 fn patches(surfaces: &[Surface], black: f64) -> Result<Report, String> {
     let mut report = Report::new("noise", METHOD);
     let mut found: Vec<(&Patch, Noise)> = Vec::new();

@@ -1,4 +1,4 @@
-//! `measure oecf`: the tone curve from a series of exposures, or from steps in one picture.
+//! `measure oecf`: the tone curve from a series of exposures, or from steps in one image.
 
 use std::path::{Path, PathBuf};
 
@@ -19,28 +19,28 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure oecf`
 #[derive(Args, Clone, Debug)]
 pub struct OecfRequest {
-    /// Pictures of one even surface, one an exposure; with --steps, or the --truth of a chart of steps, one picture
+    /// Images of one uniform surface, one per exposure; with --steps, or the --truth of a chart of steps, one image
     #[arg(value_name = "PICTURE", required = true)]
     pub pictures: Vec<PathBuf>,
-    /// Exposure of each picture in their order, any unit [default: the side-cars' exposure_s]
+    /// Exposure of each image in order, any unit [default: the side-cars' exposure_s]
     #[arg(long, value_name = "H,…", value_delimiter = ',', conflicts_with_all = ["steps", "truth"], allow_negative_numbers = true)]
     pub exposures: Vec<f64>,
-    /// A table of steps in the picture: x, y, width, height, luminance; one step a line, # for comments
+    /// Table of steps in the image: x, y, width, height, luminance; one step per line, # for comments
     #[arg(long, value_name = "STEPS.csv", conflicts_with = "truth")]
     pub steps: Option<PathBuf>,
-    /// Find the camera's response from pictures of one scene (not even) at exposures known relatively
+    /// Find the camera's response from images of one non-uniform scene at relatively known exposures
     #[arg(long, conflicts_with_all = ["steps", "truth"])]
     pub response: bool,
     /// With --response: find the ratios of the exposures too
     #[arg(long, requires = "response")]
     pub refine: bool,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl OecfRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(pictures: Vec<PathBuf>) -> Self {
         Self {
             pictures,
@@ -53,13 +53,14 @@ impl OecfRequest {
     }
 }
 
-/// The largest degree of a response.
+/// Maximum degree of a response.
 const DEGREE: usize = 8;
 
-/// The tone curve from a series of exposures or from steps (ISO 14524); the camera's response from a scene at exposures known relatively.
+/// The tone curve from a series of exposures or from steps (ISO 14524); the camera's response from a scene at relatively known
+/// exposures.
 ///
 /// # Errors
-/// Where the pictures or their exposures cannot be used.
+/// If the images or their exposures cannot be used.
 pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
     if request.response {
         return response(request);
@@ -87,14 +88,14 @@ pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
     Ok(report)
 }
 
-/// Charts of one even surface, and of steps.
+/// Charts of one uniform surface, and of steps.
 const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 const CHARTS: [&str; 3] = [OecfSteps::NAME, FlatField::NAME, Backlit::NAME];
 
-/// Points of the curve, the reading of no light, the unit of the exposures, and patches that are not seen.
+/// Points of the curve, the reading without light, the unit of the exposures, and patches that are not visible.
 struct Measured {
     points: Vec<ExposurePoint>,
-    /// What the readings are, and those of no light and of saturation.
+    /// Kind of readings, and those without light and at saturation.
     readings: &'static str,
     black: f64,
     full_scale: Option<f64>,
@@ -120,12 +121,12 @@ fn point(exposure: f64, surface: &Image, levels: &SignalLevels, readings: &Readi
     (ExposurePoint::of(exposure, surface, full_scale, readings.shared_px), Cut::of(surface, full_scale))
 }
 
-/// What the readings are: decoded ones no longer tell of the tone curve of the file.
+/// Kind of readings: decoded ones no longer reflect the tone curve of the file.
 fn kind(readings: &Readings) -> &'static str {
     if readings.stated.encoding == Encoding::Linear { readings.kind() } else { "decoded" }
 }
 
-/// Pictures with their exposures.
+/// Images with their exposures.
 fn series(request: &OecfRequest) -> Result<Vec<(f64, Readings)>, Error> {
     let count = (request.pictures.len(), request.exposures.len());
     if count.1 > 0 && count.0 != count.1 {
@@ -151,7 +152,7 @@ fn series(request: &OecfRequest) -> Result<Vec<(f64, Readings)>, Error> {
     Ok(series)
 }
 
-/// Two pictures with noise that are the same pixel by pixel are one picture given twice.
+/// Refuses the same image given twice: two noisy images that are equal pixel by pixel.
 fn copies(request: &OecfRequest, series: &[(f64, Readings)]) -> Result<(), Error> {
     let noisy = |image: &Image| image.samples().iter().any(|s| *s != image.samples()[0]);
     for (i, (_, a)) in series.iter().enumerate() {
@@ -181,7 +182,7 @@ fn exposures(request: &OecfRequest) -> Result<Measured, Error> {
     Ok(Measured::new(points.collect(), levels, &series[0].1))
 }
 
-/// The middle of an even chart at its cameras' exposures; each picture lies in the folder of its camera.
+/// The centre of a uniform chart at its cameras' exposures; each image is in the folder of its camera.
 fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
     if request.input.truth.camera.is_some() {
         return Err(Error::argument(

@@ -1,4 +1,4 @@
-//! Pictures that a measurement reads: what all measurements ask for, how pictures are counted, and which readings are clipped.
+//! Input images of a measurement: common arguments, progress, and clipped readings.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fmt::Display, path::Path};
@@ -12,7 +12,7 @@ use super::readings::{Readings, Selection, SignalLevels};
 use super::truth::{Truth, TruthInput};
 use crate::report::Report;
 
-/// So many pictures, read by several threads.
+/// A number of images, read by several threads.
 pub(crate) struct Pictures<'a> {
     pub(crate) heading: &'a str,
     pub(crate) done: AtomicUsize,
@@ -21,7 +21,7 @@ pub(crate) struct Pictures<'a> {
 }
 
 impl Pictures<'_> {
-    /// One more is read.
+    /// Counts one more image as read.
     pub(crate) fn step(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         self.observer.progress(Progress {
@@ -34,27 +34,27 @@ impl Pictures<'_> {
     }
 }
 
-/// Which readings of a picture are measured, what they mean, and where the chart lies in them.
+/// Choice of the readings to measure, their meaning, and the position of the chart in them.
 #[derive(Args, Clone, Debug, Default)]
 pub struct PictureInput {
-    /// Which part and channel.
+    /// Part and channel.
     #[command(flatten)]
     pub selection: Selection,
-    /// What the numbers mean, where the file does not say.
+    /// Meaning of the numbers, where the file does not state it.
     #[command(flatten)]
     pub levels: SignalLevels,
-    /// What the chart is and where.
+    /// The chart and its position.
     #[command(flatten)]
     pub truth: TruthInput,
 }
 
 impl PictureInput {
-    /// The readings of a picture in proportion to light.
+    /// Readings of an image, proportional to light.
     pub(crate) fn linear(&self, picture: &Path) -> Result<Readings, Error> {
         self.selection.linear(picture)
     }
 
-    /// Refuses a reading of no light where differences of readings alone count.
+    /// Refuses a reading without light where only differences of readings matter.
     pub(crate) fn check_without_black(&self) -> Result<(), Error> {
         match self.levels.black {
             None => Ok(()),
@@ -66,7 +66,7 @@ impl PictureInput {
         }
     }
 
-    /// What the truth says of a picture, where one is given: of one of these charts, and of the picture's size.
+    /// Ground truth of an image, if given: of one of these charts, and of the image's size.
     pub(crate) fn truth(&self, charts: &[&str], picture: &Path, readings: &Readings) -> Result<Option<Truth>, Error> {
         let truth = self.truth.read(charts)?;
         truth.iter().try_for_each(|truth| truth.fits(picture, readings))?;
@@ -74,7 +74,7 @@ impl PictureInput {
     }
 }
 
-/// What is wrong with a picture.
+/// Error of an image.
 pub(crate) fn refused(picture: &Path, error: impl Display) -> Error {
     let fault = Fault::new(ErrorCode::NotMeasurable, format!("{}: {error}", picture.display()));
     Error::input(Fault { file: Some(picture.to_path_buf()), ..fault })
@@ -82,7 +82,7 @@ pub(crate) fn refused(picture: &Path, error: impl Display) -> Error {
 
 /// Minimum fraction of a region's readings at its minimum or maximum from which the region counts as clipped.
 const CUT_FRACTION: f64 = 0.01;
-/// Readings from this value on are no whole numbers of a digital format.
+/// Readings from this value on are not integers of a digital format.
 const MAX_WHOLE: f32 = 16_777_216.0;
 
 /// Clipping of the readings of a region.

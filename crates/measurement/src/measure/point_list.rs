@@ -1,8 +1,8 @@
-//! Points of a chart: from picture files, or from a list (CSV) in place of a picture.
+//! Points of a chart: from image files, or from a list (CSV) in place of an image.
 //!
-//! The first line names the columns, in any order: `column` and `row`, whole numbers from 0, the point's place on the chart in steps;
-//! `x_px` and `y_px`, where it is seen, raster coordinates (pixel centres at + 0.5); `uncertainty_px`, the standard uncertainty of each of
-//! these, may be left out (0). Lines that begin with # and empty ones are skipped.
+//! The first line names the columns, in any order: `column` and `row`, whole numbers from 0, the point's position on the chart in
+//! steps; `x_px` and `y_px`, its observed position in raster coordinates (pixel centres at + 0.5); `uncertainty_px`, the standard
+//! uncertainty of each of these, optional (0). Lines that begin with # and empty lines are skipped.
 
 use std::path::{Path, PathBuf};
 use std::{collections::BTreeMap, sync::atomic::AtomicUsize};
@@ -25,15 +25,15 @@ use super::truth::{Truth, TruthInput};
 
 const COLUMNS: [&str; 5] = ["column", "row", "x_px", "y_px", "uncertainty_px"];
 const NEEDED: usize = 4;
-/// Charts of more columns or rows are taken for a slip.
+/// Maximum columns or rows of a chart; more are taken for a typing error.
 const MOST: f64 = 10_000.0;
 
-/// Whether a file is a list of points.
+/// True if a file is a list of points.
 fn is_list(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
 }
 
-/// The points of a list.
+/// Reads the points of a list.
 pub(crate) fn read(file: &Path) -> Result<Grid, Error> {
     let text = text_of(file)?;
     let refused = |line: usize, what: String| {
@@ -57,7 +57,7 @@ pub(crate) fn read(file: &Path) -> Result<Grid, Error> {
     Ok(Grid { nodes: nodes.into_values().map(|(_, node)| node).collect(), size, disc_radius_steps: None })
 }
 
-/// Where in a line each of the columns stands, and how many there are.
+/// Position of each column in a line, and number of columns.
 fn places(heading: &str) -> Option<(Vec<Option<usize>>, usize)> {
     let names: Vec<&str> = heading.split(',').map(str::trim).collect();
     let place = |wanted: &&str| names.iter().position(|name| name == wanted);
@@ -97,51 +97,51 @@ const TARGETS: [Word<Target>; 2] = [
     (Target::Dots, "dots", "A square grid of discs"),
 ];
 
-/// The chart that is photographed.
+/// The chart in the image.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ChartInput {
-    /// The chart [default: whichever shows more points]
+    /// The chart [default: the one that shows more points]
     #[arg(long, value_parser = choice(TARGETS))]
     pub target: Option<Target>,
     /// Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found]
     #[arg(long, value_name = "NxM", value_parser = grid)]
     pub grid: Option<[usize; 2]>,
-    /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic,
-    /// or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance]
+    /// Channel: R, G, B or Y of an image, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its
+    /// pixels with colours balanced to one grey [default: the luminance]
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
-    /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    /// Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
     #[arg(long, value_name = "TILE", value_parser = tile)]
     pub cfa: Option<String>,
-    /// How light follows from the numbers.
+    /// Conversion from numbers to light.
     #[command(flatten)]
     pub encoding: EncodingChoice,
-    /// Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture
+    /// Part of the image to search for the chart: left column, top row, width and height, pixels of the image
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
     pub region: Option<[usize; 4]>,
-    /// Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen
+    /// For lists of points (CSV) in place of images: columns and rows of the images in which they were seen
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size_px: Option<[usize; 2]>,
-    /// What the chart is and where.
+    /// The chart and its position.
     #[command(flatten)]
     pub truth: TruthInput,
-    /// List every point of the chart in the text, too; JSON has them anyway
+    /// List every point of the chart in the text, too; JSON always has them
     #[arg(long)]
     pub points: bool,
 }
 
-/// A chart as a picture shows it.
+/// A chart as seen in an image.
 #[derive(Clone, Debug)]
 pub(crate) struct Seen {
     pub file: PathBuf,
     pub size_px: [usize; 2],
     pub grid: Grid,
-    /// How light was found from the picture's numbers.
+    /// Conversion of the image's numbers to light.
     pub stated: Option<Stated>,
 }
 
 impl ChartInput {
-    /// What the truth says, where one is given.
+    /// Ground truth, if given.
     pub(crate) fn told(&self) -> Result<Option<(Truth, PointsTold)>, Error> {
         let Some(truth) = self.truth.read(&CHARTS)? else { return Ok(None) };
         let told = truth.points()?;
@@ -157,7 +157,7 @@ impl ChartInput {
         Selection { channel, cfa, region: None, encoding }
     }
 
-    /// The chart in a picture.
+    /// Finds the chart in an image.
     pub(crate) fn seen(&self, file: &Path) -> Result<Seen, Error> {
         Ok(self.look(file)?)
     }
@@ -170,7 +170,7 @@ impl ChartInput {
         self.look_in(file, &photograph, self.channel.as_deref())
     }
 
-    /// The points of a list.
+    /// Reads the points of a list.
     fn listed(&self, file: &Path) -> Result<Seen, Error> {
         let told = self.told()?;
         let size_px = self.size_px.ok_or_else(|| {
@@ -193,8 +193,8 @@ impl ChartInput {
         Ok(Seen { file: file.to_owned(), size_px, grid: read(file)?, stated: None })
     }
 
-    /// The chart in one channel. In the mosaic of a colour that has several places in the tile, each point is the mean of where
-    /// these show it: what each of them misses between its pixels the others see.
+    /// Finds the chart in one channel. For a colour with several places in the mosaic's tile, each point is the mean over these
+    /// places: the places sample the image between each other's pixels.
     pub(crate) fn seen_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Error> {
         Ok(self.look_in(file, photograph, channel)?)
     }
@@ -217,7 +217,7 @@ impl ChartInput {
         Ok(Seen { file: file.to_owned(), size_px: [width, height], grid, stated: Some(photograph.stated.clone()) })
     }
 
-    /// The chart among readings, in the picture's raster coordinates.
+    /// Finds the chart among readings, in the image's raster coordinates.
     fn grid(&self, file: &Path, plane: &Readings, sought: Sought) -> Result<Grid, Unseen> {
         let part =
             self.region.map(|region| plane.part_of("region", region).map(|image| (image, region))).transpose()?;
@@ -236,15 +236,15 @@ impl ChartInput {
     }
 }
 
-/// What is wrong with a picture whose chart's marks have changed their hand.
+/// Error of an image whose chart's marks have the wrong handedness.
 const MIRRORED: &str = "shows its chart mirrored, as the three dots that are left out of it say: an axis of the picture runs the wrong way; give the picture as the \
                         camera takes it, or mirror it back";
 
-/// Why a picture gives no points.
+/// Reason why an image gives no points.
 enum Unseen {
-    /// It is a good picture in which there is no such chart.
+    /// A valid image without such a chart.
     Chart(PathBuf, TargetError),
-    /// It, or what is told of it, cannot be used.
+    /// The image, or the statements about it, cannot be used.
     Failed(Error),
 }
 
@@ -263,11 +263,11 @@ impl From<Unseen> for Error {
     }
 }
 
-/// A picture in which there is no chart, and why none is seen.
+/// An image without a visible chart, and the reason.
 pub(crate) type WithoutChart = (PathBuf, TargetError);
 
-/// The charts of several pictures of one size, and the pictures in which there is none, with the reason. A picture that is there twice is
-/// refused, and so are all where fewer than [`MIN_VIEWS`] of several show the chart.
+/// The charts of several images of one size, and the images without one, with the reason. Refuses duplicate images; refuses all
+/// if fewer than [`MIN_VIEWS`] of several show the chart.
 pub(crate) fn all(
     chart: &ChartInput,
     files: &[PathBuf],
@@ -296,7 +296,7 @@ pub(crate) fn all(
     if faults.is_empty() { Ok((views, without)) } else { Err(Error::Input(faults)) }
 }
 
-/// What is told where views without a chart cannot be left out: of all the first reason, of some every one.
+/// Messages if views without a chart cannot be left out: the first reason if none shows it, otherwise every reason.
 fn too_few(without: &[WithoutChart], left: usize) -> Vec<String> {
     let told = |(file, error): &WithoutChart| format!("{}: {error}", file.display());
     match without {

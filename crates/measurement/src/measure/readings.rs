@@ -1,4 +1,4 @@
-//! Which readings of a picture file are measured.
+//! Selection of the readings of an image file.
 
 use std::path::Path;
 
@@ -12,44 +12,44 @@ use etendue_spectra::colour::BT709;
 use super::balanced_mosaic::balanced_mosaic;
 use super::encoding::{EncodingChoice, ToLight};
 
-/// In place of a colour's name: a mosaic's colours balanced to one grey, a reading of each pixel.
+/// In place of a colour's name: the mosaic's colours balanced to one grey, one reading per pixel.
 pub(crate) const BALANCED: &str = "balanced";
 
-/// Choice of a part of a picture.
+/// Selection of a part of an image.
 #[derive(Args, Clone, Debug, Default)]
 pub struct Selection {
-    /// The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only
+    /// Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only
     /// one, or the luminance]
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
-    /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    /// Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
     #[arg(long, value_name = "TILE", value_parser = tile)]
     pub cfa: Option<String>,
-    /// Measure this part only: left column, top row, width and height, pixels of the file
+    /// Part to measure: left column, top row, width and height, pixels of the file
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
     pub region: Option<[usize; 4]>,
-    /// How light follows from the numbers.
+    /// Conversion from numbers to light.
     #[command(flatten)]
     pub encoding: EncodingChoice,
 }
 
-/// The readings of a picture in proportion to light, as far as the file says: luminance where it is in colour and no channel
-/// is named.
+/// The readings of an image in proportion to light, as far as the file states: luminance if it is in colour and no channel is
+/// named.
 pub(crate) struct Readings {
     pub image: Image,
-    /// The largest reading that the file can hold, in the readings' own unit.
+    /// Largest reading that the file can hold, in the readings' own unit.
     pub full_scale: Option<f64>,
-    /// The reading of no light, where a side-car states it.
+    /// Reading without light, if a side-car states it.
     pub black: Option<f64>,
-    /// Columns and rows of the file from one reading to the next: those of a mosaic's tile, else 1.
+    /// Columns and rows of the file from one reading to the next: those of a mosaic's tile, otherwise 1.
     pub period: (usize, usize),
-    /// Column and row of the first reading within the picture.
+    /// Column and row of the first reading within the image.
     pub first: (usize, usize),
-    /// Columns and rows of the picture, of all colours.
+    /// Columns and rows of the image, of all colours.
     pub picture_px: (usize, usize),
-    /// How light was found from the numbers of the file.
+    /// Conversion from the numbers of the file to light.
     pub stated: Stated,
-    /// Side of the blocks of readings whose errors may be equal, as their paths shared what they found; 1: none are.
+    /// Side of the blocks of readings with possibly equal errors (path reuse); 1: none.
     pub shared_px: usize,
 }
 
@@ -58,24 +58,24 @@ impl Readings {
         (self.image.width(), self.image.height())
     }
 
-    /// Where a point of the picture lies among the readings, raster coordinates both.
+    /// Position among the readings of a point of the image, both in raster coordinates.
     pub(crate) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let along = |at: f64, first: usize, period: usize| (at - first as f64 - 0.5) / period as f64 + 0.5;
         [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
     }
 
-    /// Where a point among the readings lies in the picture: the inverse of [`place`](Self::place).
+    /// Position in the image of a point among the readings: the inverse of [`place`](Self::place).
     pub(crate) fn in_picture(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let along = |at: f64, first: usize, period: usize| (at - 0.5) * period as f64 + first as f64 + 0.5;
         [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
     }
 
-    /// The readings of a part that an argument states, by the name of its field.
+    /// The readings of a part that an argument states; `field` is the argument's name.
     pub(crate) fn part_of(&self, field: &str, region: [usize; 4]) -> Result<Image, Error> {
         self.part(region, &format!("`{field}`")).map_err(|error| error.with_field(field))
     }
 
-    /// The readings of a part of the picture, which must lie within it.
+    /// The readings of a part of the image, which must be inside it.
     pub(crate) fn part(&self, region: [usize; 4], name: &str) -> Result<Image, Error> {
         let [x, y, width, height] = region;
         let (columns, rows) = self.picture_px;
@@ -103,7 +103,7 @@ impl Readings {
         self.of_region(region).map_or([0, 0], |[x, y, ..]| [x, y])
     }
 
-    /// The readings whose pixels lie wholly between two corners of the picture: left column, top row, width, height.
+    /// The readings whose pixels are entirely between two corners of the image: left column, top row, width, height.
     pub(crate) fn between(&self, low: [f64; 2], high: [f64; 2]) -> Option<[usize; 4]> {
         let along = |k: usize, first: usize, period: usize, count: usize| {
             let (first, period) = (first as f64, period as f64);
@@ -119,14 +119,14 @@ impl Readings {
     }
 }
 
-/// Blocks are of pixels of one colour: of raw readings that many, of other pictures up to twice as wide.
+/// Blocks consist of pixels of one colour: as many for raw readings, up to twice as wide for other images.
 fn shared_px(photograph: &Photograph) -> usize {
     let side = f64::from(photograph.correlated_block_px).sqrt().ceil() as usize;
     if side > 1 && photograph.raw.is_none() { 2 * side } else { side }
 }
 
 impl Readings {
-    /// A reading at every pixel of what is measured of a photograph.
+    /// Creates one reading for every measured pixel of an image.
     fn of_every_pixel(image: Image, photograph: &Photograph, light: &ToLight) -> Self {
         let facts = photograph.raw.as_ref();
         Self {
@@ -141,7 +141,7 @@ impl Readings {
         }
     }
 
-    /// Refuses readings with errors that more than `most` neighbours along a row share.
+    /// Refuses readings whose errors are shared by more than `most` neighbours along a row.
     pub(crate) fn independent(&self, file: &Path, most: usize) -> Result<(), Error> {
         if self.shared_px <= most {
             return Ok(());
@@ -157,7 +157,7 @@ impl Readings {
         ))
     }
 
-    /// Whether a side-car says that they are raw, in a word.
+    /// Kind of the readings: raw or not, by the side-car.
     pub(crate) fn kind(&self) -> &'static str {
         if self.black.is_some() { "raw" } else { "picture" }
     }
@@ -178,8 +178,8 @@ impl Selection {
         self.of(file, &photograph)
     }
 
-    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one, or for [`BALANCED`] of all pixels,
-    /// with the colours of a tile of two by two balanced.
+    /// The readings of an image's channel. For a mosaic, those of every place of the colour in the tile, separately, or for
+    /// [`BALANCED`] of all pixels, with the colours of a tile of two by two balanced.
     pub(crate) fn planes(&self, file: &Path, photograph: &Photograph) -> Result<Vec<Readings>, Error> {
         let tile = self.mosaic(photograph).filter(|_| self.channel.as_deref() == Some(BALANCED));
         if tile.is_some_and(|tile| tile.columns == 2 && tile.channels.len() == 4) {
@@ -193,7 +193,7 @@ impl Selection {
         (0..count).map(|nth| self.nth(file, photograph, nth)).collect()
     }
 
-    /// Whether a photograph has a channel of this name, or a mosaic that colour.
+    /// True if an image has a channel of this name, or its mosaic that colour.
     pub(crate) fn has(&self, photograph: &Photograph, name: &str) -> bool {
         match self.mosaic(photograph) {
             Some(tile) => tile.channels.iter().any(|c| is_colour(c, name)),
@@ -201,12 +201,12 @@ impl Selection {
         }
     }
 
-    /// One channel's readings, decoded to linear where the file is encoded for display.
+    /// One channel's readings, linearised if the file is display-encoded.
     pub(crate) fn linear(&self, file: &Path) -> Result<Readings, Error> {
         self.of(file, &self.encoding.photograph(file)?)
     }
 
-    /// Red, green and blue of a picture in colour, decoded to linear; `None` where it is not in colour.
+    /// Red, green and blue of a colour image, linearised; `None` if it is not in colour.
     pub(crate) fn colours(&self, file: &Path) -> Result<Option<[Readings; 3]>, Error> {
         let photograph = self.encoding.photograph(file)?;
         if self.channel.is_some() || !["R", "G", "B"].into_iter().all(|name| self.has(&photograph, name)) {
@@ -223,7 +223,7 @@ impl Selection {
         self.nth(file, photograph, 0)
     }
 
-    /// Of a mosaic, those of the colour's nth place in the tile.
+    /// For a mosaic, the readings of the colour's nth place in the tile.
     fn nth(&self, file: &Path, photograph: &Photograph, nth: usize) -> Result<Readings, Error> {
         self.check_cfa(file, photograph)?;
         let light = ToLight::of(file, photograph)?;
@@ -236,7 +236,7 @@ impl Selection {
         self.part(file, photograph, samples, &light, nth)
     }
 
-    /// One channel's readings as stored, of a raw picture.
+    /// One channel's readings as stored, of a raw image.
     pub(crate) fn raw(&self, file: &Path) -> Result<Readings, Error> {
         let photograph = self.encoding.photograph(file)?;
         let colours: Vec<_> = photograph.channels.iter().filter(|c| c.name != "A").collect();
@@ -277,7 +277,7 @@ impl Selection {
         Ok(Readings { image, period, first, ..every })
     }
 
-    /// The readings of all of a mosaic's pixels, its colours balanced.
+    /// The readings of all pixels of a mosaic, with its colours balanced.
     fn balanced(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
         self.check_cfa(file, photograph)?;
         let light = ToLight::of(file, photograph)?;
@@ -287,7 +287,7 @@ impl Selection {
         Ok(Readings { image: balanced_mosaic(&readings.image, readings.full_scale), ..readings })
     }
 
-    /// Filters are told of pictures of one channel only.
+    /// Refuses colour filters for images of more than one channel.
     fn check_cfa(&self, file: &Path, photograph: &Photograph) -> Result<(), Error> {
         match &self.cfa {
             Some(cfa) if photograph.channels.len() != 1 => {
@@ -302,7 +302,7 @@ impl Selection {
         }
     }
 
-    /// The colour filters: as told, or of the side-car; `None` where there is one colour only.
+    /// The colour filters: as stated by the user, or by the side-car; `None` if there is only one colour.
     fn mosaic(&self, photograph: &Photograph) -> Option<FilterTile> {
         let told =
             self.cfa.as_ref().map(|text| FilterTile { columns: 2, channels: text.chars().map(String::from).collect() });
@@ -310,7 +310,7 @@ impl Selection {
         (photograph.channels.len() == 1 && tile.channels.len() > 1).then_some(tile)
     }
 
-    /// The part that is measured: as told, or what the side-car says is picture; dark rows and columns are not.
+    /// The measured part: as stated by the user, otherwise the image area of the side-car, without dark rows and columns.
     fn area(&self, photograph: &Photograph) -> Option<[usize; 4]> {
         self.region.or_else(|| Some(photograph.raw.as_ref()?.frame.as_ref()?.picture_px))
     }
@@ -348,12 +348,12 @@ impl Selection {
     }
 }
 
-/// One channel's numbers as a picture.
+/// One channel's numbers as an image.
 fn whole(photograph: &Photograph, samples: Vec<f32>) -> Image {
     Image::from_samples(photograph.width, photograph.height, samples).expect("a photograph's channels fill it")
 }
 
-/// Whether a filter has this name, or the other usual one of its colour.
+/// True if a filter has this name, or the other usual one of its colour.
 fn is_colour(filter: &str, name: &str) -> bool {
     let usual = [("R", "red"), ("G", "green"), ("B", "blue")];
     filter == name || usual.iter().any(|(a, b)| (filter, name) == (a, b) || (filter, name) == (b, a))
@@ -391,7 +391,7 @@ fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Ve
         ));
     };
     let [red, green, blue] = BT709.map(|weight| weight as f32);
-    // Where one of them is clipped, the luminance is too: it is told as full.
+    // If one of them is clipped, the luminance is too: it is set to full scale.
     let full = light.full_scale(photograph).map(|full| full as f32);
     let mixed = |((r, g), b): ((&f32, &f32), &f32)| match full.filter(|full| r.max(*g).max(*b) >= *full) {
         Some(full) => full,
@@ -407,13 +407,13 @@ fn no_channel(file: &Path, name: &str, names: &[&str]) -> Error {
     )
 }
 
-/// What a picture's numbers mean, where the file does not say.
+/// Meaning of an image's numbers, where the file does not state it.
 #[derive(Args, Clone, Debug, Default)]
 pub struct SignalLevels {
-    /// The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0]
+    /// Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0]
     #[arg(long, value_name = "READING", allow_negative_numbers = true)]
     pub black: Option<f64>,
-    /// The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold]
+    /// Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold]
     #[arg(long, value_name = "READING", allow_negative_numbers = true)]
     pub full_scale: Option<f64>,
 }
@@ -428,7 +428,8 @@ impl SignalLevels {
     }
 }
 
-/// The pixels of a picture that lie wholly between two corners: left column, top row, width, height; `None` where these are beyond it.
+/// The pixels of an image that are entirely between two corners: left column, top row, width, height; `None` if these are outside
+/// it.
 pub(crate) fn pixels(low: [f64; 2], high: [f64; 2], columns: usize, rows: usize) -> Option<[usize; 4]> {
     let start = low.map(f64::ceil);
     let end = high.map(f64::floor);
@@ -437,7 +438,7 @@ pub(crate) fn pixels(low: [f64; 2], high: [f64; 2], columns: usize, rows: usize)
     (within && some).then(|| [start[0], start[1], end[0] - start[0], end[1] - start[1]].map(|v| v as usize))
 }
 
-/// Distance of a part's middle from the picture's, of the half diagonal.
+/// Distance of a part's centre from the image centre, relative to the half diagonal.
 pub(crate) fn field_position(at: &[usize; 4], width: usize, height: usize) -> f64 {
     let from = |start: usize, length: usize, whole: usize| start as f64 + 0.5 * length as f64 - 0.5 * whole as f64;
     let (x, y) = (from(at[0], at[2], width), from(at[1], at[3], height));

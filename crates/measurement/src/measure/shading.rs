@@ -17,25 +17,25 @@ use super::readings::Readings;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 
-/// A picture of an evenly lit surface, and about which centre.
+/// Image of a uniformly lit surface, and the centre of the fall-off.
 #[derive(Args, Clone, Debug)]
 pub struct FlatFieldRequest {
-    /// A picture of an evenly lit surface
+    /// Image of a uniformly lit surface
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// Centre of the fall-off, raster coordinates [default: the picture's]
+    /// Centre of the fall-off, raster coordinates [default: the image centre]
     #[arg(long, value_name = "X,Y", value_parser = point)]
     pub centre_px: Option<(f64, f64)>,
     /// Rings of the profile over the radial field position
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = in_range(RINGS))]
     pub rings: u32,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl FlatFieldRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self { picture: picture.into(), centre_px: None, rings: 20, input: PictureInput::default() }
     }
@@ -44,19 +44,19 @@ impl FlatFieldRequest {
 /// `etendue measure vignetting`
 #[derive(Args, Clone, Debug)]
 pub struct VignettingRequest {
-    /// The picture and its rings.
+    /// The image and its rings.
     #[command(flatten)]
     pub flat: FlatFieldRequest,
-    /// Whether the report holds what was found as keys of a camera file.
+    /// True if the report includes the results as keys of a camera file.
     #[arg(skip)]
     pub camera_keys: bool,
-    /// The pixels' pitch, µm, for --camera-out
+    /// Pixel pitch, µm, for --camera-out
     #[arg(long, value_name = "UM", allow_negative_numbers = true, requires = "camera_keys", display_order = 16)]
     pub pixel_pitch_um: Option<f64>,
 }
 
 impl VignettingRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(flat: FlatFieldRequest) -> Self {
         Self { flat, camera_keys: false, pixel_pitch_um: None }
     }
@@ -65,7 +65,7 @@ impl VignettingRequest {
 /// `etendue measure shading`
 #[derive(Args, Clone, Debug)]
 pub struct ShadingRequest {
-    /// The picture and its rings.
+    /// The image and its rings.
     #[command(flatten)]
     pub flat: FlatFieldRequest,
     /// Blocks of the map along each side, an odd number
@@ -74,7 +74,7 @@ pub struct ShadingRequest {
 }
 
 impl ShadingRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(flat: FlatFieldRequest) -> Self {
         Self { flat, blocks: DEFAULT_BLOCKS }
     }
@@ -82,11 +82,11 @@ impl ShadingRequest {
 
 /// Blocks of the map along each side (ISO 17957).
 const DEFAULT_BLOCKS: u32 = 11;
-/// As many as a map may have.
+/// Allowed numbers of blocks of a map.
 const BLOCKS: RangeInclusive<u32> = 1..=501;
-/// As many rings as a profile may have.
+/// Allowed numbers of rings of a profile.
 const RINGS: RangeInclusive<u32> = 4..=1000;
-/// Charts of one even surface.
+/// Charts of one uniform surface.
 const CHARTS: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 
 impl FlatFieldRequest {
@@ -94,7 +94,7 @@ impl FlatFieldRequest {
         ShadingSettings {
             black: self.input.levels.black(readings),
             full_scale: self.input.levels.full_scale(readings),
-            // Among the readings, which of a mosaic are those of one colour.
+            // Position among the readings, which for a mosaic are those of one colour.
             centre_px: self.centre_px.map(|(x, y)| readings.place([x, y]).into()),
             rings: self.rings as usize,
             blocks: blocks as usize,
@@ -105,7 +105,7 @@ impl FlatFieldRequest {
         refused(&self.picture, error)
     }
 
-    /// Where a chart's truth is given: whether it is even and fills this picture.
+    /// Checks, if a chart's ground truth is given, that the chart is uniform and fills this image.
     fn check(&self, readings: &Readings) -> Result<(), Error> {
         self.input.truth(&CHARTS, &self.picture, readings)?.map_or(Ok(()), |truth| truth.filled())
     }
@@ -145,7 +145,7 @@ impl VignettingRequest {
         let (x, y) = (x.max(width - x), y.max(height - y));
         let corner_mm = (x * x + y * y).sqrt() * pitch_um / 1000.0;
         let steps = || (0..=20).map(|i| f64::from(i) / 20.0);
-        // The last step lies a little beyond the corner, as the lens's table must reach it.
+        // The last step is slightly beyond the corner, as the lens's table must reach it.
         let radii = steps().map(|p| p * corner_mm * (1.0 + 1e-6)).collect();
         [radii, steps().map(|p| shading.falloff(p).max(0.0)).collect()]
     }
@@ -162,15 +162,15 @@ impl VignettingRequest {
     }
 }
 
-/// A flat field's fall-off over the radial field position.
+/// Fall-off of a flat field against the radial field position.
 ///
 /// # Errors
-/// Where the picture is not of an even surface that fills it.
+/// If the image is not of a uniform surface that fills it.
 pub fn vignetting(request: &VignettingRequest) -> Result<Report, Error> {
     Ok(falloff(request)?.0)
 }
 
-/// The same with the fall-off itself and the picture's columns and rows.
+/// The same with the fall-off itself and the image's columns and rows.
 pub(crate) fn falloff(request: &VignettingRequest) -> Result<(Report, Shading, (f64, f64)), Error> {
     let pitch_um = request.pitch_um()?;
     let mut report = Report::new(
@@ -201,10 +201,10 @@ pub(crate) fn falloff(request: &VignettingRequest) -> Result<(Report, Shading, (
     Ok((report, shading, size))
 }
 
-/// A flat field's fall-off as a map, and its colour shading (ISO 17957).
+/// Fall-off of a flat field as a map, and its colour shading (ISO 17957).
 ///
 /// # Errors
-/// Where the picture is not of an even surface that fills it.
+/// If the image is not of a uniform surface that fills it.
 pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
     let method = "shading of a flat field after ISO 17957: blocks relative to the centre (± one standard uncertainty)";
     let mut report = Report::new("shading", method);
@@ -253,7 +253,7 @@ fn extreme(report: &mut Report, key: &str, label: &str, map: &[Vec<Estimate>]) {
     report.figure(&format!("{key}_least_percent"), label, "%", least.scaled(100.0));
 }
 
-/// A map as a table: one row of blocks a row.
+/// A map as a table: one table row per row of blocks.
 fn map(key: &'static str, map: &[Vec<Estimate>]) -> Table {
     let row = |(i, blocks): (usize, &Vec<Estimate>)| {
         vec![Cell::Number(i as f64 + 1.0, 0), Cell::List(blocks.iter().map(|e| 100.0 * e.value).collect(), 2)]

@@ -20,28 +20,28 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure star`
 #[derive(Args, Clone, Debug)]
 pub struct StarRequest {
-    /// A picture of a Siemens star
+    /// Image of a Siemens star
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// The star's centre, raster coordinates, within two pixels
+    /// Centre of the star, raster coordinates, within two pixels
     #[arg(long, value_name = "X,Y", value_parser = point, required_unless_present = "truth", conflicts_with = "truth")]
     pub centre_px: Option<(f64, f64)>,
-    /// Cycles of dark and bright all round
+    /// Number of dark and bright cycles around the circle
     #[arg(long, value_name = "N", required_unless_present = "truth", conflicts_with = "truth")]
     pub cycles: Option<u32>,
-    /// The smallest circle, px [with --truth: where the star has half a cycle a pixel, or begins]
+    /// Radius of the smallest circle, px [with --truth: where the star has half a cycle per pixel, or begins]
     #[arg(long, value_name = "PX", required_unless_present = "truth", allow_negative_numbers = true)]
     pub inner_px: Option<f64>,
-    /// The largest circle, px: the response is 1 there [with --truth: a little within the star's rim]
+    /// Radius of the largest circle, px, where the response is set to 1 [with --truth: slightly inside the star's edge]
     #[arg(long, value_name = "PX", required_unless_present = "truth", allow_negative_numbers = true)]
     pub outer_px: Option<f64>,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl StarRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self {
             picture: picture.into(),
@@ -57,38 +57,39 @@ impl StarRequest {
 /// `etendue measure texture`
 #[derive(Args, Clone, Debug)]
 pub struct TextureRequest {
-    /// A picture of a texture such as dead leaves
+    /// Image of a texture such as dead leaves
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// The texture itself at the same place, pixel by pixel: a sharp render without noise (radiance.exr of --set output.radiance=true)
+    /// The texture itself at the same position, pixel by pixel: a sharp render without noise (radiance.exr of --set
+    /// output.radiance=true)
     #[arg(value_name = "REFERENCE")]
     pub reference: PathBuf,
-    /// A picture of an even surface of the same brightness, for the noise
+    /// Image of a uniform surface of the same brightness, for the noise
     #[arg(long, value_name = "PICTURE")]
     pub even: Option<PathBuf>,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl TextureRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>, reference: impl Into<PathBuf>) -> Self {
         Self { picture: picture.into(), reference: reference.into(), even: None, input: PictureInput::default() }
     }
 }
 
-/// What is left out of a star at its rim, share of its radius and at least this many pixels of blur.
+/// Margin left out at a star's edge: a fraction of its radius, and at least this many pixels of blur.
 const RIM_SHARE: f64 = 0.03;
 const RIM_PX: f64 = 2.0;
 
-/// The star as told by options or by the chart's truth, whose circles begin where half a cycle fills a pixel.
+/// The star from the arguments or the chart's ground truth; its circles begin where half a cycle fills a pixel.
 fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> {
     let levels = &request.input.levels;
     let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
     let needed =
         || Error::coded(ErrorCode::NotStated, "expected `centre_px`, `cycles`, `inner_px` and `outer_px`, or `truth`");
-    // Among the readings, which lie some pixels apart.
+    // In units of readings, which are some pixels apart.
     let step = readings.period.0 as f64;
     let star = |(x, y): (f64, f64), cycles, inner_px: f64, outer_px: f64| {
         let centre_px = readings.place([x, y]).into();
@@ -120,7 +121,7 @@ fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> 
 /// A Siemens star: response over frequency (ISO 12233).
 ///
 /// # Errors
-/// Where the picture holds no such star.
+/// If the image contains no such star.
 pub fn star(request: &StarRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     readings.independent(&request.picture, 1)?;
@@ -159,14 +160,14 @@ fn response_plot(title: &str, series: Vec<Series>) -> Plot {
     }
 }
 
-/// A picture of the leaves, its reading of saturation, and how light was found from its numbers.
+/// An image of the leaves, its saturation level, and the conversion from its numbers to light.
 struct Leaves {
     image: Image,
     full_scale: Option<f64>,
     stated: Stated,
 }
 
-/// A picture of the leaves, cut to them where the chart's truth says where they are.
+/// An image of the leaves, cropped to them if the chart's ground truth gives their position.
 fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leaves, Error> {
     readings.independent(file, 1)?;
     let (full_scale, stated) = (input.levels.full_scale(&readings), readings.stated.clone());
@@ -179,16 +180,16 @@ fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leave
     Ok(Leaves { image, full_scale, stated })
 }
 
-/// Texture such as dead leaves against its reference: response, invented structure, coherence.
+/// Compares a texture such as dead leaves with its reference: response, invented structure, coherence.
 ///
 /// # Errors
-/// Where the pictures differ in size or cannot be used.
+/// If the images differ in size or cannot be used.
 pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     let input = &request.input;
     input.check_without_black()?;
     let seen = |file: &Path| leaves(input, input.linear(file)?, file);
     let picture = seen(&request.picture)?;
-    // The reference is another kind of picture: it says itself what its numbers are.
+    // The reference is another kind of image with its own encoding.
     let own = Selection { encoding: EncodingChoice::default(), ..input.selection.clone() };
     let reference = leaves(input, own.linear(&request.reference)?, &request.reference)?;
     let even = request.even.as_ref().map(|file| seen(file)).transpose()?;

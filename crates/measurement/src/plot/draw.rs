@@ -1,4 +1,4 @@
-//! The drawing itself.
+//! Drawing of plots.
 
 use std::fmt::Write as _;
 
@@ -7,10 +7,10 @@ use glam::DVec2;
 
 use super::{BOTTOM, Colour, Fitted, HEIGHT, LEFT, Legend, Mark, Plot, RIGHT, ROW, Series, TOP, WIDTH};
 
-/// Colours that people with colour-blindness tell apart (Okabe & Ito 2008).
+/// Colours that people with colour-blindness can distinguish (Okabe & Ito 2008).
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
 
-/// Plots one below the other as one SVG file.
+/// Plots one below the other in one SVG file.
 #[must_use]
 pub fn svg(plots: &[Plot]) -> String {
     let drawings: Vec<_> = plots.iter().map(Drawing::new).collect();
@@ -51,7 +51,7 @@ impl<'a> Drawing<'a> {
         drawing
     }
 
-    /// Where something is drawn: points, ends of error bars, and points of lines some pixels apart.
+    /// Occupied positions: points, ends of error bars, and points along lines some pixels apart.
     fn drawn(&self) -> Vec<(f64, f64)> {
         let mut drawn = Vec::new();
         for series in &self.plot.series {
@@ -133,7 +133,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// What stands above the next plot: the legend too, where the curves leave it no corner.
+    /// Height of the plot, including the legend if the curves leave no corner for it.
     fn height(&self) -> f64 {
         HEIGHT + if self.legend.is_below { self.legend.height } else { 0.0 }
     }

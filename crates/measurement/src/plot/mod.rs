@@ -1,6 +1,6 @@
 //! Plots as SVG: one pair of axes with ranges and ticks, lines, points, error bars, a legend.
 //!
-//! Ranges follow from the data unless stated. The text of a plot depends on its data alone.
+//! Ranges follow from the data unless stated. The text of a plot depends only on its data.
 
 mod draw;
 
@@ -25,7 +25,7 @@ struct Fitted {
 }
 
 impl Fitted {
-    /// A range that shows the values: to full steps of ticks.
+    /// A range that covers the values, rounded to full tick steps.
     fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
         let measure = |v: f64| if axis.scale == Scale::Log { log10(v) } else { v };
         let usable = |v: &f64| v.is_finite() && (axis.scale == Scale::Linear || *v > 0.0);
@@ -43,7 +43,7 @@ impl Fitted {
         Self { scale: axis.scale, low, high, step }
     }
 
-    /// Where a number lies, 0 to 1; `None` where the axis cannot show it.
+    /// Position of a number, 0 to 1; `None` if the axis cannot show it.
     fn place(&self, value: f64) -> Option<f64> {
         let measured = match self.scale {
             Scale::Linear => value,
@@ -53,7 +53,7 @@ impl Fitted {
         Some((measured - self.low) / (self.high - self.low)).filter(|p| p.is_finite())
     }
 
-    /// Ticks: place and text.
+    /// Ticks: position and text.
     fn ticks(&self) -> Vec<(f64, String)> {
         let step = self.step;
         let count = ((self.high - self.low) / step + 1e-9).floor() as i64;
@@ -85,12 +85,12 @@ fn step(scale: Scale, span: f64) -> f64 {
     [5.0, 2.0, 1.0].map(|k| k * decade).into_iter().find(fits).unwrap_or(decade)
 }
 
-/// Three digits, so that powers of ten look like themselves.
+/// Rounds to three digits, so that powers of ten print cleanly.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// As many decimals as a step needs; powers of ten for what is very large or small.
+/// As many decimals as a step needs; powers of ten for very large or small numbers.
 fn number(value: f64, step: f64) -> String {
     if value.abs() < 1e-9 * step {
         return "0".to_owned();
@@ -102,11 +102,11 @@ fn number(value: f64, step: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Height of a row of the legend, and how far it stands off the axes and everything drawn.
+/// Height of a row of the legend, and its distance from the axes and everything drawn.
 const ROW: f64 = 18.0;
 const MARGIN: f64 = 8.0;
 
-/// Where the legend stands.
+/// Position of the legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Legend {
     left: f64,
@@ -117,7 +117,7 @@ struct Legend {
 }
 
 impl Legend {
-    /// Under the axis, where it is in nobody's way.
+    /// Below the axis, clear of everything.
     fn below(plot: &Plot) -> Self {
         let named = || plot.series.iter().filter(|s| !s.name.is_empty());
         let longest = named().map(|s| s.name.chars().count()).max().unwrap_or(0);
@@ -125,7 +125,7 @@ impl Legend {
         Self { left: LEFT, top: HEIGHT - MARGIN, width, height, is_below: true }
     }
 
-    /// In the first corner within the axes that nothing is drawn in; `None` where there is none.
+    /// In the first empty corner within the axes; `None` if there is none.
     fn in_a_corner(self, drawn: &[(f64, f64)]) -> Option<Self> {
         let (left, right) = (LEFT + MARGIN, WIDTH - RIGHT - MARGIN - self.width);
         let (top, bottom) = (TOP + MARGIN, HEIGHT - BOTTOM - MARGIN - self.height);
@@ -142,72 +142,72 @@ impl Legend {
     }
 }
 
-/// How an axis maps its numbers.
+/// Mapping of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// In proportion.
+    /// Linear.
     Linear,
-    /// By powers of ten; numbers that are not positive are left out.
+    /// Logarithmic; numbers that are not positive are left out.
     Log,
 }
 
 /// An axis.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// What stands beside it, with its unit.
+    /// Label, with its unit.
     pub label: String,
-    /// How its numbers are laid out.
+    /// Scale of its numbers.
     pub scale: Scale,
-    /// The least range that it must show.
+    /// Minimum range.
     pub shows: Vec<f64>,
 }
 
 impl Axis {
-    /// In proportion.
+    /// A linear axis.
     #[must_use]
     pub fn linear(label: &str) -> Self {
         Self { label: label.to_owned(), scale: Scale::Linear, shows: Vec::new() }
     }
 
-    /// By powers of ten.
+    /// A logarithmic axis.
     #[must_use]
     pub fn log(label: &str) -> Self {
         Self { scale: Scale::Log, ..Self::linear(label) }
     }
 
-    /// That shows at least these values.
+    /// Extends the range to include these values.
     #[must_use]
     pub fn showing(self, values: &[f64]) -> Self {
         Self { shows: values.to_vec(), ..self }
     }
 }
 
-/// How a series is drawn.
+/// Style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// Points joined by a line.
     Line,
-    /// A thin broken line: limits and models.
+    /// A thin dashed line: limits and models.
     Broken,
     /// Dots.
     Points,
 }
 
-/// The palette's colours for series that are about that colour.
+/// Colours of the palette for series that concern a colour of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
-    /// Of what is about blue light.
+    /// For blue light.
     Blue,
-    /// Of what is about red light.
+    /// For red light.
     Red,
 }
 
 /// A series of points with the half heights of their error bars.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// Its name in the legend.
+    /// Name in the legend.
     pub name: String,
-    /// How it is drawn.
+    /// Style.
     pub mark: Mark,
     /// (x, y, half an error bar).
     pub points: Vec<[f64; 3]>,
@@ -226,7 +226,7 @@ impl Series {
         Self { name: name.to_owned(), mark, points: points.into_iter().map(<[f64; 3]>::from).collect(), colour: None }
     }
 
-    /// Drawn in this colour.
+    /// Sets the colour.
     pub fn coloured(self, colour: Colour) -> Self {
         Self { colour: Some(colour), ..self }
     }
@@ -235,13 +235,13 @@ impl Series {
 /// A pair of axes with series.
 #[derive(Clone, Debug)]
 pub struct Plot {
-    /// What stands above it.
+    /// Title.
     pub title: String,
-    /// The axis to the right.
+    /// Horizontal axis.
     pub x: Axis,
-    /// The axis upwards.
+    /// Vertical axis.
     pub y: Axis,
-    /// What is drawn, the first below the others.
+    /// Series, drawn in order.
     pub series: Vec<Series>,
 }
 
@@ -259,7 +259,7 @@ mod tests {
         let wanted = ["-150", "-100", "-50", "0", "50", "100", "150", "200", "250", "300"];
         assert_eq!(texts(&Axis::linear(""), [-130.0, 260.0]), wanted);
         assert_eq!(texts(&Axis::log(""), [0.5, 900.0]), ["0.1", "1", "10", "100", "1000"]);
-        // One value only: a range about it.
+        // A single value: a range around it.
         let fitted = Fitted::new(&Axis::linear(""), [5.0].into_iter());
         assert!(fitted.place(5.0).is_some_and(|p| p > 0.0 && p < 1.0));
         assert_eq!(Fitted::new(&Axis::log(""), [1.0, 10.0].into_iter()).place(0.0), None);

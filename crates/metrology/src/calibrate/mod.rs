@@ -1,26 +1,26 @@
-//! Cameras from views of a plane chart whose points are known.
+//! Camera calibration from views of a plane chart with known points.
 //!
-//! Unknown are the camera matrix (fx, fy, cx, cy; no skew), the coefficients of a model of the projection crate
-//! ([`Family`]), and of each view where the chart stands (turn as a vector, place). Steps:
+//! Unknown are the camera matrix (fx, fy, cx, cy; no skew), the coefficients of a model of the projection crate ([`Family`]), and
+//! for each view the pose of the chart (rotation vector, position). Steps:
 //!
-//! 1. For some focal lengths, each view's points become directions by the model's first guess, and the homography from the
-//!    chart to these directions gives the chart's pose; the focal length whose poses throw the points nearest to where
-//!    they are seen is taken (`problem.rs`). That is Zhang's (2000) condition, that the homography's first two columns are
-//!    orthonormal, searched instead of solved: it holds for wide fields and strong distortion as well.
-//! 2. All numbers together by Levenberg and Marquardt: least squares of the distances in the picture (`problem.rs`).
-//! 3. Of discs: the shift of each centroid ([`disc`](crate::patch_statistics)) by the camera just found is taken off, and 2 repeated
-//!    until it stays.
+//! 1. For several focal lengths, the model's first guess converts each view's points to directions, and the homography from the
+//!    chart to these directions gives the chart's pose. The focal length with the smallest reprojection error is used
+//!    (`problem.rs`). This is Zhang's (2000) condition, that the homography's first two columns are orthonormal, searched instead
+//!    of solved: it also holds for wide fields and strong distortion.
+//! 2. All parameters together by Levenberg and Marquardt: least squares of the distances in the image (`problem.rs`).
+//! 3. For discs: the shift of each centroid ([`disc`](crate::patch_statistics)) under the current camera is subtracted, and step
+//!    2 repeated until the shifts converge.
 //!
-//! Lengths of charts, poses and distances are in one unit of the caller's. Uncertainty: the covariance of 2, from the
-//! residuals (degrees of freedom: coordinates less numbers). A stated distance is one observation with its own uncertainty, 0
-//! being exact, beside the points; a distance that is not what the views show is refused. What the views do not
-//! determine, such as the focal length of one view from the front, is refused ([`CalibrateError::Undetermined`]).
+//! Lengths of charts, poses and distances are in one unit chosen by the caller. Uncertainty: the covariance of step 2, from the
+//! residuals (degrees of freedom: coordinates less parameters). A stated distance is one observation with its own uncertainty (0
+//! if exact) in addition to the points; a distance that contradicts the views is refused. Parameters that the views do not
+//! determine, such as the focal length from one frontal view, are refused ([`CalibrateError::Undetermined`]).
 //!
-//! Robust weights are off unless asked for ([`Options::robust`]): then, after 2, a point whose distance d is beyond 2.5 σ
-//! (σ from the median) counts with √(2.5 σ/d) (Huber 1964), and 2 is repeated five times; the covariance is widened by what
-//! these weights take from it (Huber 1981).
+//! Robust weights are off by default ([`Options::robust`]): if on, after step 2 a point at a distance d beyond 2.5 σ (σ from the
+//! median) has the weight √(2.5 σ/d) (Huber 1964), and step 2 is repeated five times; the covariance is widened to compensate for
+//! these weights (Huber 1981).
 //!
-//! Left out: skew, charts that are not flat or not known, several cameras.
+//! Limitations: no skew, no charts that are not flat or not known, no multi-camera calibration.
 
 mod outlier_rejection;
 mod pose;
@@ -40,10 +40,10 @@ pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
 pub use sightings::{CalibrateError, Options, Sighting, Sightings};
 
-/// Least of points of a view.
+/// Minimum number of points of a view.
 const MIN_POINTS: usize = 6;
 
-/// The camera of a picture size that saw the views.
+/// Calibrates the camera of an image size from its views.
 ///
 /// # Errors
 /// [`CalibrateError`].
@@ -55,7 +55,7 @@ pub fn calibrate(
 ) -> Result<Calibrated, CalibrateError> {
     let found = calibrate_as_stated(views, size_px, family, options)?;
     if let Some(stated) = options.distance {
-        // What cannot be told without the distance does not speak against it.
+        // If the fit needs the distance, the views cannot contradict it.
         if let Ok(free) = solved(views, size_px, family, Options { distance: None, ..options }) {
             contradiction(stated, &free).map_or(Ok(()), Err)?;
         }
@@ -63,10 +63,10 @@ pub fn calibrate(
     Ok(found)
 }
 
-/// The same, believing a stated distance whatever the views show by themselves.
+/// Same as [`calibrate`], but accepts a stated distance that contradicts the views.
 ///
 /// # Errors
-/// [`CalibrateError`], but for a distance that the views contradict.
+/// [`CalibrateError`], except for a distance that contradicts the views.
 pub fn calibrate_as_stated(
     views: &[Sightings],
     size_px: [usize; 2],
@@ -91,7 +91,7 @@ fn solved(
     let mut bundle = Bundle::new(views, size_px, family, options);
     let start = problem::guess(&bundle).ok_or(CalibrateError::Start)?;
     let mut found = fit(&bundle, &start)?;
-    // The weight of the distance follows from what the points leave.
+    // The weight of the distance follows from the residuals of the points.
     for _ in 0..options.distance.map_or(0, |_| 2) {
         bundle.weigh_distance(&found);
         found = fit(&bundle, &found.parameters)?;
@@ -106,11 +106,11 @@ fn solved(
     result::result(&bundle, found)
 }
 
-/// Where the distance that the views show by themselves is off the stated one by more than three standard uncertainties of the
-/// difference.
+/// Returns an error if the distance from the views alone differs from the stated one by more than three standard uncertainties of
+/// the difference.
 fn contradiction(stated: Estimate, free: &Calibrated) -> Option<CalibrateError> {
     const LIMIT: f64 = 3.0;
-    // The distance is known as well as the focal length, in proportion.
+    // The relative uncertainty of the distance equals that of the focal length.
     let focal = free.estimate("fx_px")?;
     let distance = free.poses[0].distance();
     let shown = Estimate::new(distance, distance * focal.standard_uncertainty / focal.value);
@@ -119,7 +119,7 @@ fn contradiction(stated: Estimate, free: &Calibrated) -> Option<CalibrateError> 
     ((shown.value - stated.value).abs() > LIMIT * joint).then_some(CalibrateError::Distance { stated, shown })
 }
 
-/// The fit to where the discs' centres are seen.
+/// Repeats the fit with the observed positions of the discs' centres.
 fn without_shifts(bundle: &mut Bundle<'_>, mut found: Fit) -> Result<Fit, CalibrateError> {
     const ROUNDS: usize = 6;
     const STILL_PX: f64 = 1e-4;

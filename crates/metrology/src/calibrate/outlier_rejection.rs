@@ -1,32 +1,33 @@
-//! Cameras from views of which some do not belong: a chart numbered wrongly, another chart, a picture of another camera.
+//! Calibration with rejection of wrong views: wrongly numbered charts, another chart, an image of another camera.
 //!
-//! Where the fit of all views does not settle, or one view lies far off beside the others, the camera is found without each view in
-//! turn, and the one without which the rest fits best is left out. What is left must be three views at least, and two thirds of all.
+//! If the fit of all views does not converge, or one view has far larger residuals than the others, the camera is fitted without
+//! each view in turn, and the view whose omission gives the best fit is left out. At least three views, and two thirds of all,
+//! must remain.
 
 use super::{CalibrateError, Calibrated, Family, Options, Sightings, calibrate};
 
-/// A camera, and the views that are not in it.
+/// A camera, and the rejected views.
 #[derive(Clone, Debug)]
 pub struct OutlierRejection {
-    /// The camera of the other views, its poses and residuals in their order.
+    /// The camera from the accepted views, with their poses and residuals in order.
     pub camera: Calibrated,
-    /// Views in it, from 0.
+    /// Accepted views, from 0.
     pub kept: Vec<usize>,
-    /// Views left out, with the reason.
+    /// Rejected views, with the reason.
     pub left_out: Vec<(usize, String)>,
 }
 
-/// Least of views that make a camera by themselves: as many must be left where others are left out.
+/// Minimum number of views for a calibration; as many must remain after rejection.
 pub const MIN_VIEWS: usize = 3;
-/// A view this many times farther off than the median of the others is tried without, and left out where that makes the others' distances
-/// half as large.
+/// Ratio of a view's residual to the median of the others above which the fit is tried without it; the view is rejected if that
+/// halves the others' residuals.
 const STRAY: f64 = 5.0;
 const GAIN: f64 = 0.5;
 
-/// The camera that saw the views, or most of them.
+/// Calibrates the camera from all views, or most of them.
 ///
 /// # Errors
-/// [`CalibrateError`]; [`CalibrateError::View`] where one view is at fault and too few are left without it.
+/// [`CalibrateError`]; [`CalibrateError::View`] if one view causes the failure and too few remain without it.
 pub fn calibrate_rejecting_outliers(
     views: &[Sightings],
     size_px: [usize; 2],
@@ -73,7 +74,7 @@ fn without(kept: &[usize], v: usize) -> Vec<usize> {
     kept.iter().enumerate().filter(|(i, _)| *i != v).map(|(_, view)| *view).collect()
 }
 
-/// The view that lies far off beside the others.
+/// The view with far larger residuals than the others.
 fn stray(camera: &Calibrated) -> Option<usize> {
     let rms: Vec<f64> = (0..camera.poses.len()).map(|v| camera.view_rms_px(v)).collect();
     let mut sorted = rms.clone();
@@ -83,7 +84,7 @@ fn stray(camera: &Calibrated) -> Option<usize> {
     (rms[worst] > STRAY * median).then_some(worst)
 }
 
-/// The view without which the others fit best, where a view may be the reason why there is no fit.
+/// The view without which the others fit best, if a single view may prevent the fit.
 fn culprit(
     kept: &[usize],
     error: &CalibrateError,

@@ -1,11 +1,11 @@
-//! Where a chart stands before the camera.
+//! Pose of a chart in front of the camera.
 
 use etendue_core::maths::f64::sin_cos;
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::{fit::null_vector, linear::Matrix};
 
-/// From the chart's frame to the camera's: X_camera = turn · X_chart + place.
+/// Transform from the chart's frame to the camera's: X_camera = turn · X_chart + place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// The rotation.
@@ -15,13 +15,13 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose of a turn vector (angle in rad times axis; Rodrigues) and a place.
+    /// The pose of a rotation vector (angle in rad times axis; Rodrigues) and a position.
     pub(super) fn of(numbers: &[f64]) -> Self {
         let vector = DVec3::new(numbers[0], numbers[1], numbers[2]);
         Self { turn: turned(vector), place: DVec3::new(numbers[3], numbers[4], numbers[5]) }
     }
 
-    /// Its six numbers.
+    /// Its six parameters.
     pub(super) fn numbers(&self) -> [f64; 6] {
         let [v, p] = [vector(self.turn), self.place];
         [v.x, v.y, v.z, p.x, p.y, p.z]
@@ -33,14 +33,14 @@ impl Pose {
         self.turn.x_axis * chart.x + self.turn.y_axis * chart.y + self.place
     }
 
-    /// The distance of the camera from the chart's plane, positive where the chart is before it.
+    /// The distance of the camera from the chart's plane, positive if the chart is in front of it.
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.turn.z_axis.dot(self.place)
     }
 
-    /// The pose that sees points of the chart in directions, by the homography of least |d × (H x)|; `None` where they determine
-    /// none.
+    /// The pose that maps points of the chart to directions, by the homography of least |d × (H x)|; `None` if they do not
+    /// determine one.
     pub(super) fn direct(points: &[(DVec2, DVec3)]) -> Option<Self> {
         let centre = points.iter().map(|p| p.0).sum::<DVec2>() / points.len() as f64;
         let size = points.iter().map(|p| (p.0 - centre).length()).sum::<f64>() / points.len() as f64;
@@ -89,7 +89,7 @@ fn turned(v: DVec3) -> DMat3 {
     DMat3::IDENTITY + cross * (sin / angle) + cross * cross * ((1.0 - cos) / (angle * angle))
 }
 
-/// The turn vector of a rotation of less than half a turn.
+/// The rotation vector of a rotation of less than half a turn.
 fn vector(turn: DMat3) -> DVec3 {
     let [x, y, z] = [turn.x_axis, turn.y_axis, turn.z_axis];
     let twice_sine = DVec3::new(y.z - z.y, z.x - x.z, x.y - y.x);
@@ -102,7 +102,7 @@ fn vector(turn: DMat3) -> DVec3 {
     if cosine > 0.0 {
         return 0.5 * twice_sine;
     }
-    // Half a turn: 1 + R = 2 a aᵀ, whose longest column leads along the axis.
+    // Half a turn: 1 + R = 2 a aᵀ, whose longest column is along the axis.
     let sum = turn + DMat3::IDENTITY;
     let axis = [sum.x_axis, sum.y_axis, sum.z_axis]
         .into_iter()

@@ -1,4 +1,4 @@
-//! All numbers of a camera and its views, what they leave of the sightings, and the first guess.
+//! Parameters of a camera and its views, residuals, and the initial guess.
 
 use etendue_core::maths::f64::exp2;
 use etendue_projection::{Calibration, CameraMatrix};
@@ -8,18 +8,18 @@ use super::{Family, Options, Pose, Sightings};
 use crate::fit::{Fit, Problem};
 use crate::patch_statistics::centroid_shift;
 
-/// Views, and which numbers are fitted: fx, fy (where not equal), cx, cy (where free), coefficients, then six of each view.
+/// Views and the fitted parameters: fx, fy (unless equal), cx, cy (if free), coefficients, then six per view.
 #[derive(Clone, Debug)]
 pub(super) struct Bundle<'a> {
     pub(super) views: &'a [Sightings],
     pub(super) size_px: [usize; 2],
     pub(super) family: Family,
     pub(super) options: Options,
-    /// What was taken off each sighting, px.
+    /// Correction subtracted from each sighting, px.
     shifts: Vec<Vec<DVec2>>,
     /// Square roots of weights.
     weights: Vec<Vec<f64>>,
-    /// Of the stated distance: pixels for its whole.
+    /// Weight of the stated distance: pixels per unit of relative error.
     distance_weight: f64,
 }
 
@@ -29,10 +29,10 @@ pub(super) struct Placed {
     pub(super) poses: Vec<Pose>,
 }
 
-/// Weight of a distance that is exact: a ten-thousandth of it counts as a pixel, so that it holds to some 10⁻⁵ beside points
-/// that scatter by a tenth. A larger one makes a valley in which the fit hardly moves.
+/// Weight of an exact distance: a relative error of 10⁻⁴ counts as one pixel, so that the distance holds to about 10⁻⁵ when
+/// points scatter by a tenth of a pixel. A larger weight makes a valley in which the fit hardly moves.
 const EXACT: f64 = 1e4;
-/// Standard deviation of a coordinate before a fit says it, px.
+/// Assumed standard deviation of a coordinate before the fit, px.
 const FIRST_SIGMA_PX: f64 = 0.1;
 
 impl<'a> Bundle<'a> {
@@ -44,7 +44,7 @@ impl<'a> Bundle<'a> {
         bundle
     }
 
-    /// Names of the numbers before the views'.
+    /// Names of the parameters before those of the views.
     pub(super) fn names(&self) -> Vec<&'static str> {
         let mut names = Vec::new();
         if self.options.focal_px.is_none() {
@@ -60,7 +60,7 @@ impl<'a> Bundle<'a> {
         names
     }
 
-    /// The numbers of a camera.
+    /// The parameters of a camera.
     pub(super) fn numbers(&self, matrix: CameraMatrix, coefficients: &[f64]) -> Vec<f64> {
         let of_name = |name: &str| match name {
             "fx_px" if self.options.square_pixels => Some(0.5 * (matrix.fx + matrix.fy)),
@@ -73,13 +73,13 @@ impl<'a> Bundle<'a> {
         self.names().iter().filter_map(|name| of_name(name)).chain(coefficients.iter().copied()).collect()
     }
 
-    /// The principal point before it is fitted: as stated, or the picture's middle.
+    /// The principal point before the fit: as stated, or the image centre.
     fn principal(&self) -> DVec2 {
         let [width, height] = self.size_px.map(|n| n as f64);
         self.options.principal_px.unwrap_or(DVec2::new(0.5 * width, 0.5 * height))
     }
 
-    /// The camera of numbers.
+    /// The camera of the parameters.
     pub(super) fn calibration(&self, parameters: &[f64]) -> Option<Calibration> {
         let names = self.names();
         let at = |name: &str| names.iter().position(|n| *n == name).map(|i| parameters[i]);
@@ -92,12 +92,12 @@ impl<'a> Bundle<'a> {
         Calibration::new(model, CameraMatrix { fx, fy, skew: 0.0, cx, cy }, self.size_px).ok()
     }
 
-    /// A sighting without what discs shift it by.
+    /// A sighting, corrected for the shift of disc centroids.
     pub(super) fn seen(&self, view: usize, point: usize) -> DVec2 {
         self.views[view].points[point].at - self.shifts[view][point]
     }
 
-    /// Takes off what discs shift their centroids by; the largest change, px.
+    /// Updates the correction for the shift of disc centroids; returns the largest change, px.
     pub(super) fn shift(&mut self, parameters: &[f64]) -> f64 {
         let Some(placed) = self.state(parameters) else { return 0.0 };
         let mut largest: f64 = 0.0;
@@ -113,8 +113,8 @@ impl<'a> Bundle<'a> {
         largest
     }
 
-    /// One observation of the stated distance, shared among the views: all together weigh as a coordinate does whose standard
-    /// deviation is what the points of a fit leave.
+    /// Sets the weight of the stated distance, which is one observation shared among the views. All together have the weight of a
+    /// coordinate whose standard deviation is that of the residuals of the points.
     pub(super) fn weigh_distance(&mut self, fit: &Fit) {
         let points = |v: usize| &fit.residuals[v][..2 * self.views[v].points.len()];
         let squares: f64 = (0..self.views.len()).flat_map(points).map(|r| r * r).sum();
@@ -128,8 +128,8 @@ impl<'a> Bundle<'a> {
         }
     }
 
-    /// What of the covariance Huber's weights take away (Huber 1981, section 6.5, to the mean of his matrices): Σ ψ²/ν over the
-    /// square of the mean of ψ′, which is 1 within the limit and, across the line to the fit, w beyond it.
+    /// Factor that corrects the covariance for Huber's weights (Huber 1981, section 6.5, to the mean of his matrices): Σ ψ²/ν over
+    /// the square of the mean of ψ′, which is 1 within the limit and, perpendicular to the residual, w beyond it.
     pub(super) fn widening(&self, fit: &Fit) -> f64 {
         let (mut weighted, mut squares, mut weights, mut slopes, mut count) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for (view, residuals) in self.weights.iter().zip(&fit.residuals) {
@@ -145,7 +145,7 @@ impl<'a> Bundle<'a> {
         if squares > 0.0 { weighted / squares * (weights / count) * (count / slopes) * (count / slopes) } else { 1.0 }
     }
 
-    /// Huber's weights by the distances of a fit.
+    /// Sets Huber's weights from the residuals of a fit.
     pub(super) fn reweigh(&mut self, fit: &Fit) {
         let distance = |v: usize, p: usize| {
             let [x, y] = [0, 1].map(|c| fit.residuals[v][2 * p + c] / self.weights[v][p]);
@@ -224,9 +224,9 @@ impl Problem for Bundle<'_> {
     }
 }
 
-/// All numbers; `None` where no focal length sees the charts.
+/// Initial guess of all parameters; `None` if no focal length is consistent with the charts.
 pub(super) fn guess(bundle: &Bundle<'_>) -> Option<Vec<f64>> {
-    // From a sixteenth of the picture's longer side to sixteen of them, by steps of an eighth of an octave.
+    // From a sixteenth of the image's longer side to sixteen times it, in steps of an eighth of an octave.
     const OCTAVES: i32 = 4;
     const STEPS: i32 = 8;
     let longer = bundle.size_px[0].max(bundle.size_px[1]) as f64;
@@ -240,7 +240,7 @@ pub(super) fn guess(bundle: &Bundle<'_>) -> Option<Vec<f64>> {
     best.map(|(_, numbers)| numbers)
 }
 
-/// The sum of squared distances and the numbers at a focal length.
+/// The sum of squared distances and the parameters at a focal length.
 fn guess_at(bundle: &Bundle<'_>, focal_px: f64) -> Option<(f64, Vec<f64>)> {
     let principal = bundle.principal();
     let matrix = CameraMatrix { fx: focal_px, fy: focal_px, skew: 0.0, cx: principal.x, cy: principal.y };
@@ -248,7 +248,7 @@ fn guess_at(bundle: &Bundle<'_>, focal_px: f64) -> Option<(f64, Vec<f64>)> {
     let camera = bundle.calibration(&numbers)?;
     for view in bundle.views {
         let seen = view.points.iter().map(|p| Some((p.chart, camera.unproject(p.at)?)));
-        // Beyond the guess's field nothing is known yet.
+        // Points beyond the field of the initial guess are skipped.
         let known: Vec<_> = seen.flatten().collect();
         if 2 * known.len() < view.points.len() {
             return None;

@@ -1,4 +1,4 @@
-//! A camera as it was found.
+//! Result of a calibration.
 
 use etendue_projection::{Calibration, CameraMatrix};
 use glam::DVec2;
@@ -7,29 +7,29 @@ use super::{CalibrateError, Family, Pose, problem::Bundle, shared};
 use crate::fit::{Fit, Problem};
 use crate::{Estimate, linear::Matrix};
 
-/// A fitted number.
+/// A fitted parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Its name: fx_px, fy_px, cx_px, cy_px (raster coordinates), then the model's.
+    /// Name: fx_px, fy_px, cx_px, cy_px (raster coordinates), then the model's.
     pub name: &'static str,
-    /// Its value.
+    /// Value.
     pub estimate: Estimate,
 }
 
-/// A camera from views.
+/// A calibrated camera.
 #[derive(Clone, Debug)]
 pub struct Calibrated {
     /// The camera.
     pub calibration: Calibration,
-    /// What was fitted, of the camera.
+    /// Fitted parameters of the camera.
     pub parameters: Vec<Parameter>,
     /// Their covariance, in their order.
     pub covariance: Matrix,
-    /// Their standard uncertainties if the errors of points were independent of one another, as other programs state them.
+    /// Their standard uncertainties under the assumption of independent point errors, as other programs state them.
     pub independent_uncertainties: Vec<f64>,
-    /// Where the chart stood in each view.
+    /// Pose of the chart in each view.
     pub poses: Vec<Pose>,
-    /// Fitted less seen, px, of every point of each view.
+    /// Residuals, fitted less observed, px, of every point of each view.
     pub residuals_px: Vec<Vec<DVec2>>,
     /// Standard deviation of a coordinate, px: √(Σ r²/ν).
     pub sigma_px: f64,
@@ -40,16 +40,16 @@ pub struct Calibrated {
 }
 
 impl Calibrated {
-    /// The fitted number of a name.
+    /// The fitted parameter of a name.
     #[must_use]
     pub fn estimate(&self, name: &str) -> Option<Estimate> {
         self.parameters.iter().find(|p| p.name == name).map(|p| p.estimate)
     }
 
-    /// A number that follows from the camera, with its uncertainty from the parameters' covariance, to first order; `None`
-    /// where the camera has none.
+    /// A quantity derived from the camera, with its uncertainty from the parameters' covariance, to first order; `None` if the
+    /// camera has none.
     pub fn follows(&self, number: impl Fn(&Calibration) -> Option<f64>) -> Option<Estimate> {
-        /// Of a standard uncertainty.
+        /// Step of numerical derivatives, in standard uncertainties.
         const STEP: f64 = 0.1;
         let value = number(&self.calibration)?;
         let slope = |i: usize| {
@@ -91,7 +91,7 @@ impl Calibrated {
     }
 }
 
-/// Relative standard uncertainty of a focal length beyond which it is not known.
+/// Relative standard uncertainty above which a focal length counts as undetermined.
 const FOCAL_LIMIT: f64 = 0.05;
 
 pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, CalibrateError> {

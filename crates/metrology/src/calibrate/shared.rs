@@ -1,20 +1,21 @@
-//! What errors of points of one line of the chart have in common, and what it does to the camera.
+//! Errors shared by the points of one line of the chart, and their effect on the camera's covariance.
 //!
-//! In a view from the front all points of a column lie alike between the pixels' columns, and what the pixels' raster does to one
-//! of them it does to all; noise of whole rows or columns of the sensor, and a line of the chart that is printed a little aside,
-//! are shared as well. So an error is e = ε + a column's + a row's, for x and for y each, independent with variances σ² and
-//! τₖ² of four kinds k. They are found by moments: with residuals r = M e, M = 1 − J (JᵀJ)⁻¹Jᵀ, and z_g the 0 and 1 of line g of n_g points,
+//! In a frontal view all points of a column have the same sub-pixel phase, so the pixel raster affects them equally. Row and
+//! column noise of the sensor, and a displaced line of the printed chart, are shared as well. The error model is therefore e = ε
+//! + a column's + a row's, separately for x and y, independent with variances σ² and τₖ² of four kinds k. They are estimated by
+//! moments: with residuals r = M e, M = 1 − J (JᵀJ)⁻¹Jᵀ, and z_g the indicator vector (0 and 1) of line g of n_g points,
 //!
 //! ```text
 //! Σ r²                     = σ² tr M             + Σₖ τₖ² Σ_{h ∈ k} z_hᵀ M z_h                  (on average)
 //! Σ_{g ∈ l} (z_g · r)²/n_g = σ² Σ z_gᵀ M z_g/n_g + Σₖ τₖ² Σ_{g ∈ l} Σ_{h ∈ k} (z_gᵀ M z_h)²/n_g
 //! ```
 //!
-//! (Searle, Casella & McCulloch 1992), those that come out negative being 0; and the covariance is that of least squares under such errors,
-//! s² (JᵀJ)⁻¹ + Σₖ τₖ² Σ_g v_g v_gᵀ with v_g = (JᵀJ)⁻¹Jᵀz_g, s² all of the scatter, Σ r²/ν: never less than of independent errors. τₖ² is as uncertain as the few lines make it: it counts with Student's
-//! variance, ν/(ν − 2), ν = Σ z_gᵀ M z_g/n_g lines that are free.
+//! (Searle, Casella & McCulloch 1992); negative estimates are set to 0. The covariance is that of least squares under such
+//! errors, s² (JᵀJ)⁻¹ + Σₖ τₖ² Σ_g v_g v_gᵀ with v_g = (JᵀJ)⁻¹Jᵀz_g and s² the total scatter, Σ r²/ν: never less than for
+//! independent errors. As few lines determine τₖ² poorly, it is multiplied by Student's variance, ν/(ν − 2), with ν = Σ z_gᵀ M
+//! z_g/n_g free lines.
 //!
-//! Left out: errors that drift slowly from line to line (steps of nearly whole pixels), which look like a camera.
+//! Limitations: errors that drift slowly from line to line (steps of nearly whole pixels) look like camera parameters.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +26,7 @@ use crate::linear::{Matrix, Orthogonal, dot};
 /// Coordinates of a point, and directions of lines.
 const AXES: [usize; 2] = [0, 1];
 const KINDS: usize = 4;
-/// Student's variance of fewer free lines than three would be without limit.
+/// Maximum of Student's variance, which is unbounded for fewer than three free lines.
 const MAX_STUDENT: f64 = 3.0;
 
 /// A coordinate of the points of a row or column of one view.
@@ -54,7 +55,7 @@ impl Line {
     }
 }
 
-/// The covariance of a fit's numbers under errors that lines share.
+/// The covariance of a fit's parameters under errors that lines share.
 pub(super) fn covariance(bundle: &Bundle<'_>, fit: &Fit) -> Matrix {
     let unit = unit_covariance(fit);
     let widened = unit.as_ref().and_then(|unit| {
@@ -67,7 +68,7 @@ pub(super) fn covariance(bundle: &Bundle<'_>, fit: &Fit) -> Matrix {
     covariance
 }
 
-/// (JᵀJ)⁻¹, with nothing of what is not determined; `None` of exact points.
+/// (JᵀJ)⁻¹, with zeros for undetermined parameters; `None` for exact points.
 fn unit_covariance(fit: &Fit) -> Option<Matrix> {
     let variance = fit.sigma * fit.sigma;
     let n = fit.parameters.len();
@@ -96,7 +97,7 @@ fn lines(bundle: &Bundle<'_>, fit: &Fit, unit: &Matrix) -> Option<Vec<Line>> {
     Some(lines)
 }
 
-/// Points of a view that have one of their chart's coordinates in common.
+/// Points of a view that share one of their chart's coordinates.
 fn alike(bundle: &Bundle<'_>, view: usize, direction: usize) -> impl Iterator<Item = Vec<usize>> {
     let mut lines: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
     for (p, point) in bundle.views[view].points.iter().enumerate() {
@@ -110,7 +111,7 @@ fn of(unit: &Matrix, lines: &[Line], fit: &Fit) -> Matrix {
         lines.iter().filter(|line| line.kind == k).map(|line| line.product(line) / line.count()).sum()
     });
     let [_, shared @ ..] = components(lines, fit);
-    // All of the scatter, so that what few lines tell badly makes nothing less uncertain.
+    // The total scatter, so that poor estimates from few lines do not reduce any uncertainty.
     let variance = fit.sigma * fit.sigma;
     let n = fit.parameters.len();
     let mut covariance = Matrix::zeros(n, n);
@@ -127,7 +128,7 @@ fn student(freedom: f64) -> f64 {
     if freedom > 3.0 { (freedom / (freedom - 2.0)).min(MAX_STUDENT) } else { MAX_STUDENT }
 }
 
-/// σ² and the four τ².
+/// σ² and the four τ² of the model.
 fn components(lines: &[Line], fit: &Fit) -> [f64; 1 + KINDS] {
     let mut moments = Matrix::zeros(1 + KINDS, 1 + KINDS);
     let mut seen = [0.0; 1 + KINDS];
@@ -147,7 +148,7 @@ fn components(lines: &[Line], fit: &Fit) -> [f64; 1 + KINDS] {
         .unwrap_or_else(|| std::array::from_fn(|k| if k == 0 { fit.sigma * fit.sigma } else { 0.0 }))
 }
 
-/// The solution in which what would be negative is 0.
+/// The solution with negative components set to 0.
 fn not_negative(moments: &Matrix, seen: [f64; 1 + KINDS]) -> Option<[f64; 1 + KINDS]> {
     let mut kept: Vec<usize> = (0..=KINDS).filter(|k| moments.at(*k, *k) > 0.0).collect();
     loop {

@@ -1,30 +1,30 @@
-//! Points of a chart that are seen in a picture, what of a camera is stated beforehand, and why there is no camera.
+//! Observed points of a chart, known properties of a camera, and errors of a calibration.
 
 use etendue_projection::{CalibrationError, model::ModelError};
 use glam::DVec2;
 
 use crate::{Estimate, fit::FitError};
 
-/// A point of a chart and where it is seen.
+/// A point of a chart and its observed position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sighting {
-    /// On the chart, in the caller's unit of length.
+    /// Position on the chart, in the caller's unit of length.
     pub chart: DVec2,
-    /// Raster coordinates, px.
+    /// Observed position, raster coordinates, px.
     pub at: DVec2,
 }
 
-/// One picture of the chart.
+/// One image of the chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sightings {
     /// Its points.
     pub points: Vec<Sighting>,
-    /// Of discs, whose centroids were seen: their radius, in the caller's unit of length.
+    /// Radius of discs whose centroids were observed, in the caller's unit of length.
     pub disc_radius: Option<f64>,
 }
 
 impl Sightings {
-    /// The points of a grid whose steps on the chart have a length.
+    /// The points of a grid with a step of this length on the chart.
     #[must_use]
     pub fn of_grid(grid: &crate::target::Grid, step: f64) -> Self {
         let chart = |[i, j]: [usize; 2]| DVec2::new(i as f64, j as f64) * step;
@@ -33,38 +33,38 @@ impl Sightings {
     }
 }
 
-/// What is known before.
+/// Known properties.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
-    /// fx = fy.
+    /// True if fx = fy.
     pub square_pixels: bool,
-    /// The principal point is this, raster coordinates; otherwise it is fitted.
+    /// Known principal point, raster coordinates; fitted if `None`.
     pub principal_px: Option<DVec2>,
-    /// The focal length (principal distance) is this, px; otherwise it is fitted.
+    /// Known focal length (principal distance), px; fitted if `None`.
     pub focal_px: Option<f64>,
-    /// The entrance pupil is at this distance from the chart's plane in every view, in the caller's unit of length.
+    /// Distance of the entrance pupil from the chart's plane in every view, in the caller's unit of length.
     pub distance: Option<Estimate>,
-    /// Points far from the fit count less.
+    /// True if points far from the fit have less weight.
     pub robust: bool,
 }
 
-/// Why views give no camera.
+/// Reason why views do not give a camera.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrateError {
-    /// No views at all.
+    /// No views.
     #[error("no views: give at least one picture of the chart")]
     NoViews,
-    /// A view of too few points.
+    /// A view with too few points.
     #[error("view {} shows {points} points of the chart; at least {least} are needed: leave it out", view + 1)]
     Sparse {
         /// The view, from 0.
         view: usize,
-        /// Its points.
+        /// Number of its points.
         points: usize,
-        /// Points that would do.
+        /// Minimum number of points.
         least: usize,
     },
-    /// One view is the reason.
+    /// One view prevents the calibration.
     #[error(
         "view {}: without it the others give a camera, with it: {cause}. See how its points are numbered, leave it out, or give more views",
         view + 1
@@ -72,10 +72,10 @@ pub enum CalibrateError {
     View {
         /// The view, from 0.
         view: usize,
-        /// What is wrong with all.
+        /// The error with all views.
         cause: Box<CalibrateError>,
     },
-    /// No first guess.
+    /// No initial guess.
     #[error(
         "the points lie on no plane chart as this model would see it: check the order of the points and the model (a fisheye for \
          very wide fields)"
@@ -84,30 +84,30 @@ pub enum CalibrateError {
     /// The fit failed.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The fitted coefficients are no model.
+    /// The fitted coefficients are not a valid model.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// The fitted numbers are no camera.
+    /// The fitted parameters are not a valid camera.
     #[error(transparent)]
     Camera(#[from] CalibrationError),
-    /// What is stated is not what the views show.
+    /// A stated value contradicts the views.
     #[error(
         "the stated distance, {} ± {}, is not what the views show, {:.6} ± {:.2} (in the pitch's unit): check distance and pitch, state the \
          distance's uncertainty, or leave it out", stated.value, stated.standard_uncertainty, shown.value, shown.standard_uncertainty
     )]
     Distance {
-        /// As stated.
+        /// Stated value.
         stated: Estimate,
-        /// As the views show it.
+        /// Value from the views.
         shown: Estimate,
     },
-    /// Numbers that the views do not tell.
+    /// Parameters that the views do not determine.
     #[error(
         "the views do not determine {}: add views with the chart turned by 20° to 45° about different axes and out to the picture's \
          corners, state the chart's distance, or fit a model of fewer coefficients (a narrow field does not tell those of wide ones)", names.join(", ")
     )]
     Undetermined {
-        /// Their names.
+        /// Names of the parameters.
         names: Vec<String>,
     },
 }

@@ -5,10 +5,10 @@
 //! ΔE00 of (M c) against t           CIEDE2000, L*a*b* against the reference white
 //! ```
 //!
-//! The camera's exposure is in M. Uncertainty of each ΔE00 and of their mean: of the means of all patches, through M, propagated to
-//! second order. A ΔE00 is no less than 0, so noise makes small ones larger; where that shift is more than an eighth of it none is stated. Nor is
-//! one stated of the largest, which is chosen by its noise as well. Left out: matrices that keep
-//! white, weights by perceived difference, more than three channels.
+//! M contains the camera's exposure. Uncertainty of each ΔE00 and of their mean: from the means of all patches, through M,
+//! propagated to second order. As ΔE00 is never negative, noise biases small values upwards; if that bias exceeds an eighth of
+//! the value, no uncertainty is stated. The largest ΔE00 has none either, as its selection depends on noise. Limitations: no
+//! matrices that preserve white, no weights by perceived difference, three channels only.
 
 mod processing;
 
@@ -23,15 +23,15 @@ pub use processing::{ColourProcessing, colour_processing, white_balance};
 /// A patch of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourPatch {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its pixels: red, green, blue.
+    /// Pixels: red, green, blue.
     pub pixels: [Image; 3],
-    /// CIE XYZ under the reference illuminant, Y of white 1.
+    /// CIE XYZ under the reference illuminant, with Y = 1 for white.
     pub reference: [f64; 3],
 }
 
-/// The matrix and what it leaves.
+/// The matrix and the remaining errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourError {
     /// From readings less black to XYZ, row by row.
@@ -42,17 +42,17 @@ pub struct ColourError {
     pub mean: Estimate,
     /// The largest.
     pub largest: f64,
-    /// L*a*b* of each patch as the matrix gives it, and as the reference is.
+    /// L*a*b* of each patch from the matrix, and of its reference.
     pub colours: Vec<[[f64; 3]; 2]>,
 }
 
-/// Why colours cannot be measured.
+/// Reason why colours cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ColourFault {
     /// Too few patches for a matrix.
     #[error("a colour matrix needs at least six patches, not {0}")]
     TooFew(usize),
-    /// A patch is tiny.
+    /// A patch is too small.
     #[error("the patch {0} has fewer than four pixels")]
     TooSmall(String),
     /// A patch is clipped.
@@ -60,29 +60,29 @@ pub enum ColourFault {
     Saturated {
         /// The patch.
         name: String,
-        /// Share of pixels.
+        /// Percentage of clipped pixels.
         percent: f64,
     },
-    /// The patches do not tell the channels apart.
+    /// The patches do not distinguish the channels.
     #[error(
         "the patches look the same to two of the camera's channels, so no colour matrix can be fitted: is this a colour picture of the chart?"
     )]
     Ambiguous,
-    /// The patches are other colours.
+    /// The patches have other colours.
     #[error(
         "the patches are not those of the chart (mean ΔE00 {0:.1} after the best matrix, where cameras leave a few): is it the chart, the right way up?"
     )]
     Unlike(f64),
 }
 
-/// The largest mean ΔE00 that a camera in colour leaves.
+/// Maximum mean ΔE00 of a plausible colour camera.
 const MAX_DELTA: f64 = 15.0;
 
-/// Fits the matrix and tells what colours it leaves wrong; `white` is the XYZ of the reference white, `shared_px` the side of the blocks of
-/// pixels in which errors are alike (1: in none).
+/// Fits the matrix and measures the remaining colour errors; `white` is the XYZ of the reference white, `shared_px` the side of
+/// the blocks of pixels with equal errors (1: none).
 ///
 /// # Errors
-/// Where there are too few patches, or they are tiny, clipped or grey.
+/// If there are too few patches, or they are too small, clipped or grey.
 pub fn measure_colour(
     patches: &[ColourPatch],
     black: f64,
@@ -103,7 +103,7 @@ pub fn measure_colour(
     let matrix = fitted(patches, &values).ok_or(ColourFault::Ambiguous)?;
     let colours = seen(&values, matrix, white);
     let references: Vec<Lab> = patches.iter().map(|p| lab(p.reference, white)).collect();
-    // ΔE00 of each patch, then their mean, by a matrix of the same readings.
+    // ΔE00 of each patch, then their mean, from a matrix of the same readings.
     let figures = propagate_curved(&means.concat(), |x| {
         let colours = seen(x, fitted(patches, x).unwrap_or(matrix), white);
         let each: Vec<f64> = colours.iter().zip(&references).map(|(c, r)| ciede2000(*c, *r)).collect();
@@ -125,7 +125,7 @@ pub fn measure_colour(
     })
 }
 
-/// The colours of readings of all patches.
+/// The colours of the readings of all patches.
 fn seen(readings: &[f64], matrix: [[f64; 3]; 3], white: [f64; 3]) -> Vec<Lab> {
     let xyz = |reading: &[f64]| matrix.map(|row| row.iter().zip(reading).map(|(m, r)| m * r).sum::<f64>());
     readings.chunks_exact(3).map(|reading| lab(xyz(reading), white)).collect()
@@ -141,7 +141,7 @@ fn check(patch: &ColourPatch, full_scale: Option<f64>) -> Result<(), ColourFault
     }
 }
 
-/// The matrix of readings of all patches.
+/// The matrix from the readings of all patches.
 fn fitted(patches: &[ColourPatch], readings: &[f64]) -> Option<[[f64; 3]; 3]> {
     let row = |c: usize| {
         let mut normal = Normal::new(3);
@@ -173,7 +173,7 @@ mod tests {
         let camera =
             |[x, y, z]: [f64; 3]| [500.0 * x + 90.0 * y, 40.0 * x + 600.0 * y + 20.0 * z, 70.0 * y + 450.0 * z];
         let found = measure_colour(&patches(camera), 16.0, Some(1023.0), D65_WHITE, 1).expect("a chart");
-        // Readings are kept in f32.
+        // Readings are stored in f32.
         assert!(found.largest < 1e-3, "{:?}", found.largest);
         let white = camera(D65_WHITE);
         let back = found.matrix.map(|row| row.iter().zip(white).map(|(m, w)| m * w).sum::<f64>());

@@ -1,4 +1,4 @@
-//! White balance and colour matrix of a camera, as its processing uses them, from a chart's patches and an even white.
+//! White balance and colour matrix of a camera, as its processing uses them, from a chart's patches and a uniform white.
 //!
 //! ```text
 //! factors  max_j w_j / w_k                           w: readings of a white less black; the smallest factor is 1
@@ -6,8 +6,9 @@
 //! M minimises Σ |M c − t|², rows that sum to 1       t: linear sRGB of the patch
 //! ```
 //!
-//! (the matrix that `colour_matrix = { fit = … }` finds from a camera's spectra, with c measured.) Uncertainty: of the means of all patches and of the
-//! white, by the law of propagation. The white's own colour is taken for that of the light. Left out: lights other than D65, in which t would be another.
+//! (the matrix that `colour_matrix = { fit = … }` finds from a camera's spectra, with c measured.) Uncertainty: from the means of
+//! all patches and of the white, by the law of propagation. The white is assumed to have the colour of the light. Limitations:
+//! D65 only; other lights need another t.
 
 use etendue_core::maths::f64::hypot;
 use etendue_spectra::colour::{D65_WHITE, lab, linear_srgb_from_xyz};
@@ -15,15 +16,15 @@ use etendue_spectra::colour::{D65_WHITE, lab, linear_srgb_from_xyz};
 use super::{ColourFault, ColourPatch, check};
 use crate::{Estimate, Image, estimate::propagate_curved, linear::Normal, patch_statistics::patch_statistics};
 
-/// A patch of less chroma C*ab is grey.
+/// Maximum chroma C*ab of a grey patch.
 const GREY: f64 = 5.0;
 
-/// What colour processing needs.
+/// Parameters of colour processing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColourProcessing {
     /// Factors on red, green and blue; the smallest is 1.
     pub white_balance: [Estimate; 3],
-    /// From balanced colours over those of white to linear sRGB, row by row.
+    /// From colours balanced and relative to white to linear sRGB, row by row.
     pub matrix: [[Estimate; 3]; 3],
 }
 
@@ -34,10 +35,11 @@ pub fn white_balance(white: &[Estimate; 3]) -> [Estimate; 3] {
     [0, 1, 2].map(|k| factors[k].first_order)
 }
 
-/// White balance and matrix from the patches of a chart in daylight D65 and from the readings of a white in the same light less black.
+/// White balance and matrix from the patches of a chart in daylight D65 and from the readings of a white in the same light, less
+/// black.
 ///
 /// # Errors
-/// Where there are too few patches, or they are tiny, clipped or grey.
+/// If there are too few patches, or they are too small, clipped or grey.
 pub fn colour_processing(
     patches: &[ColourPatch],
     white: &[Estimate; 3],
@@ -79,7 +81,7 @@ fn is_grey(patch: &ColourPatch) -> bool {
     hypot(colour.a, colour.b) < GREY
 }
 
-/// The matrix of readings of all patches, then of the white.
+/// The matrix from the readings of all patches, then of the white.
 fn fitted(patches: &[ColourPatch], readings: &[f64]) -> Option<[[f64; 3]; 3]> {
     let (of_patches, white) = readings.split_at(readings.len() - 3);
     let balanced: Vec<[f64; 3]> = of_patches.chunks_exact(3).map(|y| [0, 1, 2].map(|k| y[k] / white[k])).collect();
@@ -106,7 +108,7 @@ mod tests {
 
     #[test]
     fn a_camera_that_is_a_matrix_of_srgb_gives_its_inverse() {
-        // Rows that sum to 1: what they make of white is white.
+        // Rows that sum to 1 map white to white.
         let sees = |t: [f64; 3]| {
             [[0.7, 0.2, 0.1], [0.2, 0.7, 0.1], [0.0, 0.3, 0.7]]
                 .map(|row: [f64; 3]| row.iter().zip(t).map(|(m, t)| m * t).sum::<f64>())
@@ -123,10 +125,10 @@ mod tests {
             .collect();
         let white = strength.map(|w| Estimate::new(w, 0.0));
         let found = colour_processing(&patches, &white, 16.0, None, 1).expect("a chart");
-        // Readings are kept in f32.
+        // Readings are stored in f32.
         let near = |a: f64, b: f64, tolerance: f64| assert!((a - b).abs() < tolerance, "{a} {b}");
         found.white_balance.iter().zip([2.0, 1.0, 1.6]).for_each(|(e, f)| near(e.value, f, 1e-6));
-        // Greys of the chart are not grey to its last digit: the scale is theirs to 0.3 %.
+        // The chart's greys are not exactly neutral: they determine the scale to 0.3 %.
         for t in [[0.8, 0.1, 0.2], [0.1, 0.6, 0.3], [0.3, 0.2, 0.9]] {
             let back = found.matrix.map(|row| row.iter().zip(sees(t)).map(|(m, c)| m.value * c).sum::<f64>());
             back.iter().zip(t).for_each(|(a, b)| near(*a, b, 5e-3));

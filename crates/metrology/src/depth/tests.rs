@@ -13,7 +13,7 @@ fn truth() -> Image {
 #[test]
 fn errors_are_told_by_range_and_without_edges() {
     let truth = truth();
-    // 10 cm too near on the left, 3 m too far on the right, the border smeared, one pixel missing.
+    // 10 cm too near on the left, 3 m too far on the right, the border blurred, one pixel missing.
     let samples = truth.samples().iter().enumerate().map(|(i, d)| match i % 64 {
         30..34 => 15.0,
         0 if i / 64 == 40 => f32::NAN,
@@ -24,11 +24,11 @@ fn errors_are_told_by_range_and_without_edges() {
     let settings = DepthSettings { focal_base_px_m: Some(300.0), ..DepthSettings::default() };
     let report = measure_depth(&estimate, &truth, &settings).expect("depths");
     let near = report.ranges[0].2;
-    // Rows 11 to 63 keep off the sky, columns 0 to 28 off the jump, less the missing pixel.
+    // Rows 11 to 63 avoid the sky, columns 0 to 28 the jump, less the missing pixel.
     assert_eq!((near.pixels, near.missing), (53 * 29 - 1, 1));
     assert!((near.bias_m.value + 0.1).abs() < 1e-6 && (near.rmse_m.value - 0.1).abs() < 1e-6);
     assert_eq!((near.outliers.value, near.within[0].value), (0.0, 1.0));
-    // The same everywhere: no spread of logarithms, and 300 px m (1/3.9 − 1/4) of disparity, below 3 px.
+    // Constant: no spread of logarithms, and 300 px m (1/3.9 − 1/4) of disparity, below 3 px.
     let [d1, disparity] = near.disparity.expect("a rig");
     assert!(near.scale_invariant.value < 1e-4 && d1.value == 0.0);
     assert!((disparity.value - 300.0 * (1.0 / 3.9 - 0.25)).abs() < 1e-5, "{disparity:?}");
@@ -50,14 +50,14 @@ fn a_factor_is_taken_away_where_asked_for() {
     let report = measure_depth(&estimate, &truth, &settings).expect("depths");
     assert!((report.scale - 4.0).abs() < 1e-6 && report.all.rmse_m.value < 1e-5, "{report:?}");
     let plain = measure_depth(&estimate, &truth, &DepthSettings::default()).expect("depths");
-    // ln 4 everywhere: all of it a factor.
+    // ln 4 everywhere: a pure factor.
     assert!((plain.all.rmse_log.value - core::f64::consts::LN_2 * 2.0).abs() < 1e-6);
     assert!(plain.all.scale_invariant.value < 1e-4, "{:?}", plain.all.scale_invariant);
 }
 
 #[test]
 fn holes_of_the_truth_are_no_edges() {
-    // A scanner's truth: one pixel in sixteen.
+    // Ground truth of a scanner: one pixel in sixteen.
     let sparse = truth()
         .samples()
         .iter()

@@ -1,4 +1,4 @@
-//! What a distortion is like at first: the radial polynomial nearest to the picture, brought to the centre's own scale.
+//! First approximation of a distortion: the radial polynomial nearest to the image, normalised to the scale at the centre.
 
 use etendue_projection::{RadialDistortion, Sense};
 use glam::{DMat2, DMat3, DVec2};
@@ -6,7 +6,7 @@ use glam::{DMat2, DMat3, DVec2};
 use super::RadialFit;
 use crate::fit::Homography;
 
-/// A radial polynomial about a place, r in half diagonals.
+/// A radial polynomial about a point, r in half diagonals.
 #[derive(Clone, Copy, Debug)]
 struct Polynomial {
     /// In px.
@@ -24,12 +24,12 @@ impl Polynomial {
         self.distortion.unit_mm()
     }
 
-    /// Where what is seen at a place would be seen without it; `None` beyond its fold.
+    /// Undistorted position of an observed position; `None` beyond the polynomial's fold.
     fn ideal(&self, at: DVec2) -> Option<DVec2> {
         Some(self.middle + self.distortion.ideal(at - self.middle)?)
     }
 
-    /// The same with a number changed: k₁, k₂, the place's x or y.
+    /// The same with one parameter changed: k₁, k₂, the centre's x or y.
     fn changed(&self, number: usize, by: f64) -> Option<Self> {
         let (mut k, mut middle) = (self.distortion.coefficients(), self.middle);
         match number {
@@ -40,21 +40,21 @@ impl Polynomial {
     }
 }
 
-/// A map from the picture to an ideal one: value, slope and (as near as can be) curvature at the centre are those of no
+/// A map from the image to an ideal one: value, slope and (as nearly as possible) curvature at the centre are those of no
 /// distortion.
 #[derive(Clone, Copy, Debug)]
 struct Level {
     polynomial: Polynomial,
-    /// From the polynomial's plane to the ideal picture.
+    /// From the polynomial's plane to the ideal image.
     level: Homography,
 }
 
-/// Steps of differences, of half a diagonal: derivatives to 1e-6 of the polynomial's third.
+/// Step of finite differences, relative to half a diagonal: derivatives to 1e-6 of the polynomial's third.
 const STEP: f64 = 1e-3;
 
 impl Level {
     /// The homography after which the polynomial has value, slope and tilt of the identity at the centre: v = slope⁻¹ (x − value),
-    /// then v/(1 − tilt · v). A homography's curvature is −2 tₓ eₓ, −(tₓ e_y + t_y eₓ), −2 t_y e_y; the nearest tilt is taken.
+    /// then v/(1 − tilt · v). A homography's curvature is −2 tₓ eₓ, −(tₓ e_y + t_y eₓ), −2 t_y e_y; the nearest tilt is used.
     fn of(polynomial: Polynomial, centre: DVec2) -> Option<Self> {
         let step = STEP * polynomial.half_diagonal_px();
         let at = |x: f64, y: f64| polynomial.ideal(centre + step * DVec2::new(x, y));
@@ -78,19 +78,19 @@ impl Level {
     }
 }
 
-/// The middle between the polynomials of both directions: charts of few points do not tell one from the other, which beyond the points
-/// differ. With the maps in which a number of the first is changed: k₁, k₂ and, where the picture tells it, the centre.
+/// The mean of the polynomials of both directions: charts of few points do not distinguish them, although they differ beyond the
+/// points. With the maps in which one parameter of the first is changed: k₁, k₂ and, if the image determines it, the centre.
 #[derive(Clone, Debug)]
 pub(super) struct Base {
-    /// One or two.
+    /// One or two maps.
     maps: Vec<Level>,
-    /// More and less of each number.
+    /// Maps with each parameter increased and decreased.
     changed: Vec<[Level; 2]>,
 }
 
 impl Base {
-    /// Of fits about a centre, the better first, with the homography from the chart to the ideal picture; `None` where one of them folds
-    /// there.
+    /// From fits about a centre, the better first, with the homography from the chart to the ideal image; `None` if one of them
+    /// folds there.
     pub(super) fn of(fits: &[&RadialFit], centre: DVec2, half_diagonal_px: f64) -> Option<(Self, Homography)> {
         let map = |fit: &&RadialFit| {
             let middle = fit.centre_px.map(|c| c.value).into();
@@ -109,21 +109,21 @@ impl Base {
         Some(Self { maps: vec![Level::of(none, centre)?], changed: changed(&none, centre, false)? })
     }
 
-    /// How many fields it has, and whether the last of them is half the difference of two directions, once of which either way is the
-    /// polynomial of one of them.
+    /// Number of fields, and true if the last of them is half the difference of the two directions: ± 1 times it gives the
+    /// polynomial of either.
     pub(super) fn count(&self) -> (usize, bool) {
         let both = self.maps.len() > 1;
         (self.changed.len() + usize::from(both), both)
     }
 
-    /// Where what is seen at a place would be seen ideally; `None` beyond the polynomial's fold.
+    /// Ideal position of an observed position; `None` beyond the polynomial's fold.
     pub(super) fn place(&self, at: DVec2) -> Option<DVec2> {
         let sum = self.maps.iter().try_fold(DVec2::ZERO, |sum, map| Some(sum + map.place(at)?));
         Some(sum? / self.maps.len() as f64)
     }
 
-    /// How the ideal place depends on each of the numbers, and half the difference of both directions: fields of displacement
-    /// that have neither place nor slope nor tilt at the centre.
+    /// Derivatives of the ideal position by each parameter, and half the difference of both directions: displacement fields with
+    /// neither position nor slope nor tilt at the centre.
     pub(super) fn fields(&self, at: DVec2) -> Option<Vec<DVec2>> {
         let half = |[more, less]: [&Level; 2]| Some(0.5 * (more.place(at)? - less.place(at)?));
         let field = |[more, less]: &[Level; 2]| Some(half([more, less])? / STEP);
@@ -134,7 +134,7 @@ impl Base {
         Some(fields)
     }
 
-    /// Its slope at a place.
+    /// Slope at a position.
     pub(super) fn slope(&self, at: DVec2) -> Option<DMat2> {
         let step = STEP * self.maps[0].polynomial.half_diagonal_px();
         let along = |d: DVec2| Some((self.place(at + step * d)? - self.place(at - step * d)?) * (0.5 / step));
@@ -142,7 +142,7 @@ impl Base {
     }
 }
 
-/// Maps with a number changed up and down.
+/// Maps with a parameter changed up and down.
 fn changed(polynomial: &Polynomial, centre: DVec2, moves: bool) -> Option<Vec<[Level; 2]>> {
     let changed = |number: usize, by: f64| Level::of(polynomial.changed(number, by * STEP)?, centre);
     let both = |k: usize| Some([changed(k, 1.0)?, changed(k, -1.0)?]);

@@ -1,6 +1,5 @@
-//! Figures of a distortion: its curve against field (figure 11 of the paper), how far rows and columns bow, and its local and largest values.
-//!
-//! Distortion against field: the curve of the paper's figure 11.
+//! Figures of a distortion: its curve against field (figure 11 of the paper), the bow of rows and columns, and its local and
+//! largest values.
 
 use std::collections::BTreeMap;
 
@@ -16,19 +15,20 @@ use crate::{Estimate, linear::dot, target::Node};
 pub struct CurvePoint {
     /// Observed distance from the centre, in half diagonals.
     pub field: f64,
-    /// Observed over ideal distance, the mean over the directions in which the chart reaches there.
+    /// Observed over ideal distance, averaged over the directions in which the chart reaches there.
     pub ratio: Estimate,
-    /// The share of directions in which it does.
+    /// Fraction of directions in which the chart reaches there.
     pub covered: f64,
-    /// Standard deviation of the ratio over directions: what is not radial.
+    /// Standard deviation of the ratio over directions: the non-radial part.
     pub spread: f64,
 }
 
-/// Steps of field, and directions of each ring.
+/// Number of field steps, and of directions per ring.
 const STEPS: i32 = 40;
 const DIRECTIONS: i32 = 72;
 
-/// How far the nearest point of the chart may be seen, in steps at the centre: half a diagonal, in tilt and distortion.
+/// Maximum distance to the nearest point of the chart, in steps at the centre: half a diagonal, with allowance for tilt and
+/// distortion.
 const NEAR: f64 = 1.5;
 
 /// The curve at steps of 2.5 % of the half diagonal.
@@ -43,15 +43,15 @@ fn point(ideal: &Ideal, seen: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diago
         let (sin, cos) = sin_cos(std::f64::consts::TAU * f64::from(i) / f64::from(DIRECTIONS));
         ideal.centre() + radius * DVec2::new(cos, sin)
     };
-    // Between points of the chart, or beyond them by half a step at most. Far outside the fields may fold back onto the
-    // chart: the point must be seen there, too.
+    // Between points of the chart, or beyond them by half a step at most. Far outside, the fields may fold back onto the chart: the
+    // point must also be visible there.
     let within = |at: &DVec2| {
         let chart = ideal.chart(*at).map(|c| c.to_array().map(|c| c.round() as i64));
         let point = chart.and_then(|chart| seen.get(&chart));
         point.is_some_and(|p| (*p - *at).length() < NEAR * ideal.step_px())
     };
     let places: Vec<DVec2> = (0..DIRECTIONS).map(place).filter(within).collect();
-    // A direction to each corner of the picture.
+    // One direction to each corner of the image.
     if places.len() < 4 {
         return None;
     }
@@ -77,16 +77,16 @@ fn point(ideal: &Ideal, seen: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diago
 /// The bow of a row or column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineBow {
-    /// Whether it is a row (horizontal), or a column.
+    /// True for a row (horizontal), false for a column.
     pub is_row: bool,
-    /// Its number.
+    /// Index.
     pub index: usize,
-    /// The largest distance of its points from the chord through its ends, in the picture's heights; positive where it bows
-    /// towards the centre (pincushion), negative away from it (barrel).
+    /// Maximum distance of its points from the chord through its ends, relative to the image height; positive if it bows towards
+    /// the centre (pincushion), negative away from it (barrel).
     pub bow: f64,
 }
 
-/// Every row and column of at least five points.
+/// Bows of every row and column with at least five points.
 pub(super) fn bows(nodes: &[Node], size: [usize; 2], centre: DVec2, height_px: f64) -> Vec<LineBow> {
     let line = |axis: usize, index: usize| {
         let points: Vec<DVec2> = nodes.iter().filter(|n| n.index[axis] == index).map(|n| n.at).collect();
@@ -97,8 +97,8 @@ pub(super) fn bows(nodes: &[Node], size: [usize; 2], centre: DVec2, height_px: f
     rows.chain((0..size[0]).filter_map(|i| line(0, i))).collect()
 }
 
-/// The distance of the first row that reaches from side to side from the last such, at the sides (mean) over that in the middle,
-/// less 1: positive for a pincushion. The mean of both sides has no tilt of the chart in it, to first order.
+/// Distance between the first and the last row that reach from side to side: at the sides (mean) relative to the middle, less 1;
+/// positive for pincushion distortion. The mean of both sides is independent of the chart's tilt to first order.
 pub(super) fn picture_height(nodes: &[Node], [columns, rows]: [usize; 2]) -> Option<Estimate> {
     let row = |index: usize| {
         let points: Vec<&Node> = nodes.iter().filter(|n| n.index[1] == index).collect();
@@ -114,7 +114,7 @@ pub(super) fn picture_height(nodes: &[Node], [columns, rows]: [usize; 2]) -> Opt
     (whole.len() > 1 && middle > 0.0).then(|| Estimate::new(ratio - 1.0, relative))
 }
 
-/// px; `None` of fewer than five points.
+/// px; `None` for fewer than five points.
 fn bow(points: &[DVec2], centre: DVec2) -> Option<f64> {
     const LEAST: usize = 5;
     let (first, last) = (points.first()?, points.last()?);
@@ -130,20 +130,20 @@ fn bow(points: &[DVec2], centre: DVec2) -> Option<f64> {
 pub struct LocalDistortion {
     /// Column and row of the point.
     pub index: [usize; 2],
-    /// Where it is seen, px.
+    /// Observed position, px.
     pub at: DVec2,
-    /// Where it would be seen ideally, px.
+    /// Ideal position, px.
     pub ideal: DVec2,
-    /// Its distance from the centre, in half diagonals.
+    /// Distance from the centre, in half diagonals.
     pub field: f64,
-    /// (Observed − ideal)/ideal distance from the centre by the fitted map at this place: the point's own scatter is not in it.
+    /// (Observed − ideal)/ideal distance from the centre by the fitted map at this position, without the point's own scatter.
     /// Neighbours share most of their errors.
     pub distortion: Estimate,
     /// Standard uncertainty of a coordinate of `at`, px.
     pub uncertainty_px: f64,
 }
 
-/// Of every point but those at the centre itself, where a ratio says nothing.
+/// Local distortion at every point except those at the centre itself, where the ratio is undefined.
 pub(super) fn all(ideal: &Ideal, nodes: &[Node], half_diagonal_px: f64) -> Vec<LocalDistortion> {
     nodes.iter().filter_map(|n| local(ideal, n, half_diagonal_px)).collect()
 }
@@ -162,14 +162,14 @@ fn local(ideal: &Ideal, node: &Node, half_diagonal_px: f64) -> Option<LocalDisto
     Some(LocalDistortion { index, at: node.at, ideal: place, field, distortion, uncertainty_px })
 }
 
-/// Points that are compared at most: every so many of those that may be the largest.
+/// Maximum number of compared points: a regular subset of those that may be the largest.
 const COMPARED: usize = 64;
-/// The share of cases in which an interval holds the truth.
+/// Coverage probability of an interval.
 const COVERED: f64 = 0.95;
 
-/// The largest distortion by magnitude. Which point it is follows from the same errors as its value: of n points that may be it as
-/// far as their uncertainties tell, and whose errors are as n′ independent ones (n′ = n²/Σ ρ²ᵢⱼ, ρ their correlations), the uncertainty
-/// is that with which 95 % intervals hold all of them at once (Šidák 1967).
+/// The largest distortion by magnitude. The selection of the point depends on the same errors as its value. Of the points that
+/// may be the largest within their uncertainties, n in number and with errors equivalent to n′ independent ones (n′ = n²/Σ ρ²ᵢⱼ,
+/// ρ their correlations), the uncertainty is that for which 95 % intervals cover all of them simultaneously (Šidák 1967).
 pub(super) fn largest(ideal: &Ideal, local: &[LocalDistortion]) -> Option<LocalDistortion> {
     let size = |l: &LocalDistortion| l.distortion.value.abs();
     let found = local.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
@@ -186,7 +186,7 @@ pub(super) fn largest(ideal: &Ideal, local: &[LocalDistortion]) -> Option<LocalD
     Some(LocalDistortion { distortion: Estimate::new(found.distortion.value, wider * u), ..*found })
 }
 
-/// How many independent errors those of some ratios are like.
+/// Effective number of independent errors of several ratios.
 fn independent(ideal: &Ideal, rows: &[Vec<f64>]) -> f64 {
     let levers: Vec<Vec<f64>> = rows.iter().map(|row| ideal.lever(row)).collect();
     let covariance = |i: usize, j: usize| dot(&levers[i], &rows[j]);

@@ -1,14 +1,15 @@
-//! Fields of displacement over the picture, by which one map of a plane differs from another; why a picture has no distortion to tell.
+//! Displacement fields over the image, by which one map of a plane differs from another; errors of a distortion measurement.
 //!
-//! Those of a homography near the identity are eight: two of place, four of slope, two of tilt, v (t · v). A distortion is
-//! described by fields that have no place, slope and tilt at the centre, so that none of them is taken for a homography: four
-//! of the six quadratic ones, and all of higher degree. With x from the centre over the chart's reach, |x| ≤ 1 on the chart.
+//! A homography near the identity has eight: two of position, four of slope, two of tilt, v (t · v). A distortion is described by
+//! fields without position, slope and tilt at the centre, so that none of them is confused with a homography: four of the six
+//! quadratic ones, and all of higher degree. x is the position relative to the centre divided by the chart's reach, |x| ≤ 1 on
+//! the chart.
 
 use glam::DVec2;
 
 use crate::fit::FitError;
 
-/// Fields of a homography.
+/// Number of fields of a homography.
 pub(super) const PLANE: usize = 8;
 /// Degree of the highest field.
 pub(super) const DEGREE: usize = 9;
@@ -43,7 +44,7 @@ fn powers(x: f64) -> [f64; DEGREE + 1] {
     powers
 }
 
-/// Why a picture has no distortion to tell.
+/// Reason why a distortion cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DistortionError {
     /// Too few points.
@@ -53,10 +54,10 @@ pub enum DistortionError {
     Few {
         /// Points found.
         points: usize,
-        /// Points that would do.
+        /// Minimum number of points.
         least: usize,
     },
-    /// The chart does not show the centre.
+    /// The chart does not cover the centre.
     #[error("the chart does not cover the picture's centre, ({:.1}, {:.1}) px, where ideal scale is taken: centre the chart, or state another centre", centre_px[0], centre_px[1])]
     Centre {
         /// The centre, px.
@@ -82,7 +83,7 @@ mod tests {
             let (xx, yy) = (second([h, 0.0], [-h, 0.0]), second([0.0, h], [0.0, -h]));
             let xy = 0.25 * (second([h, h], [-h, -h]) - second([h, -h], [-h, h]));
             assert!(*there == DVec2::ZERO && (at(h, 0.0)[k].length() / h) < 2.0 * h, "{k}");
-            // Fourth powers leave h²; the tilt that is nearest to a curvature is −(xx.x + xy.y, yy.y + xy.x)/3.
+            // Fourth powers leave h²; the tilt nearest to a curvature is −(xx.x + xy.y, yy.y + xy.x)/3.
             assert!((xx.x + xy.y).abs() < 1e-5 && (yy.y + xy.x).abs() < 1e-5, "{k}: {xx} {xy} {yy}");
         }
     }

@@ -1,10 +1,10 @@
-//! From the picture to where a camera without distortion would see the same.
+//! Map from the image to the ideal image of a camera without distortion.
 //!
-//! ideal(p) = base(p) + Σ βₖ Fₖ(p), the base a radial polynomial ([`base`](super::base)), F how it depends on its own numbers and
-//! the fields of [`fields`], none of which has place, slope or tilt at the centre; and ideal(p) = H(chart), H a homography.
-//! β and what H lacks are found by least squares of the distances in the picture, in which all but the base's own fields
-//! are as small as the picture shows them to be ([`fit_mixed_model`]): large where many points tell them, and where few do, what
-//! they might be is in the uncertainty.
+//! ideal(p) = base(p) + Σ βₖ Fₖ(p), with the base a radial polynomial ([`base`](super::base)), F its derivatives by its own
+//! parameters and the fields of [`fields`], none of which has position, slope or tilt at the centre; and ideal(p) = H(chart), H a
+//! homography. β and the correction of H are found by least squares of the distances in the image ([`fit_mixed_model`]). All
+//! fields except the base's own are as small as the image shows them to be: large if many points determine them; if few do, their
+//! possible size is included in the uncertainty.
 
 use glam::{DMat2, DMat3, DVec2};
 
@@ -13,24 +13,24 @@ use super::{DistortionError, RadialFit, base::Base};
 use crate::fit::{Homography, MixedModelFit, fit_mixed_model};
 use crate::{linear::Matrix, patch_statistics::centroid_shift, target::Node};
 
-/// Points that are needed.
+/// Minimum number of points.
 pub(super) const LEAST: usize = 16;
 
-/// Least error of a coordinate, px: 1 000 px have 1e-13 px of rounding, thousands of operations.
+/// Minimum error of a coordinate, px: 1 000 px have 1e-13 px of rounding, times thousands of operations.
 const ROUNDING_PX: f64 = 1e-9;
 
 pub(super) fn chart(node: &Node) -> DVec2 {
     DVec2::new(node.index[0] as f64, node.index[1] as f64)
 }
 
-/// The map from the picture to the ideal picture, and the homography between that and the chart.
+/// The map from the image to the ideal image, and the homography between that and the chart.
 #[derive(Clone, Debug)]
 pub struct Ideal {
     base: Base,
     centre: DVec2,
-    /// The largest distance of a point of the chart from the centre, px: the fields' unit.
+    /// Maximum distance of a point of the chart from the centre, px: the fields' unit.
     reach: f64,
-    /// From the chart (steps) to the ideal picture, and back.
+    /// From the chart (steps) to the ideal image, and back.
     plane: Homography,
     chart: Homography,
     sizes: Vec<f64>,
@@ -40,7 +40,7 @@ pub struct Ideal {
 }
 
 impl Ideal {
-    /// Of points about a centre, beginning with two radial fits.
+    /// From points about a centre, starting with two radial fits.
     pub(super) fn of(nodes: &[Node], centre: DVec2, fits: [&RadialFit; 2], unit: f64) -> Result<Self, DistortionError> {
         let reach = nodes.iter().map(|n| (n.at - centre).length()).fold(0.0, f64::max);
         let whole = |base: &Base| nodes.iter().all(|n| base.slope(n.at).is_some());
@@ -52,10 +52,10 @@ impl Ideal {
             let pairs: Vec<[DVec2; 2]> = nodes.iter().map(|n| [chart(n), n.at]).collect();
             Some((Base::none(centre, unit)?, Homography::direct(&pairs)?))
         });
-        // Of a coordinate, for what is known before; lists of exact points leave nothing, and their rounding counts.
+        // Prior scale of a coordinate's error; lists of exact points have no residuals, and their rounding counts.
         let rough = (ordered[0].rms_px * core::f64::consts::FRAC_1_SQRT_2).max(ROUNDING_PX);
         let (base, plane) = start.ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
-        // The homography's own change moves it once more by less than its square.
+        // The homography's own change affects it again by less than its square.
         const ROUNDS: usize = 2;
         let mut ideal = Self::unfitted(base, centre, reach, plane);
         for _ in 0..ROUNDS {
@@ -81,7 +81,7 @@ impl Ideal {
         }
     }
 
-    /// The fields' sizes, and the homography better by what they leave.
+    /// Fits the sizes of the fields, and updates the homography by the residual.
     fn fitted(self, nodes: &[Node], rough: f64) -> Result<Self, DistortionError> {
         let (design, values) =
             self.equations(nodes, rough).ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
@@ -95,8 +95,9 @@ impl Ideal {
         Ok(Self { plane, chart: inverse(&plane, self.centre), sizes, covariance, sigma, tau, ..self })
     }
 
-    /// A row a coordinate: H(chart) − base(p) by fields, over the base's slope, so that errors are those of places in the picture.
-    /// One more says that a lens may be that of either direction or lie between or a little beyond: half the difference counts 0 ± 1 times.
+    /// One row per coordinate: H(chart) − base(p) by fields, over the base's slope, so that errors are those of positions in the
+    /// image. One more row is the prior that a lens follows either direction, or lies between or slightly beyond them: half the
+    /// difference has the coefficient 0 ± 1.
     fn equations(&self, nodes: &[Node], rough: f64) -> Option<(Matrix, Vec<f64>)> {
         let (mut rows, mut values) = (Vec::with_capacity(2 * nodes.len()), Vec::with_capacity(2 * nodes.len()));
         for node in nodes {
@@ -118,7 +119,7 @@ impl Ideal {
         Some((Matrix::from_rows(columns, rows), values))
     }
 
-    /// The homography less a part of its fields: x − a − A x over 1 + t · x, about the centre.
+    /// The homography less its plane fields: x − a − A x over 1 + t · x, about the centre.
     fn moved(&self, fields: &[f64]) -> Homography {
         let f = fields.iter().map(|f| f / self.reach).collect::<Vec<f64>>();
         let rows = [[1.0 - f[2], -f[3], -f[0]], [-f[4], 1.0 - f[5], -f[1]], [f[6], f[7], 1.0]];
@@ -151,13 +152,13 @@ impl Ideal {
         self.sigma
     }
 
-    /// Standard deviation of each term that is not of k₁ and k₂ at the chart's farthest point, px.
+    /// Standard deviation of each term beyond k₁ and k₂ at the chart's farthest point, px.
     #[must_use]
     pub fn tau_px(&self) -> f64 {
         self.tau
     }
 
-    /// The length of a step of the chart at the centre, px: the root of its cell's area.
+    /// Length of a step of the chart at the centre, px: the square root of its cell's area.
     #[must_use]
     pub fn step_px(&self) -> f64 {
         let step = |d: DVec2| {
@@ -168,20 +169,20 @@ impl Ideal {
         cell.map_or(0.0, |(x, y)| DMat2::from_cols(x, y).determinant().abs().sqrt() / 2e-3)
     }
 
-    /// The chart's point that is seen at a place, steps; `None` where the map has none.
+    /// The chart's point at an observed position, steps; `None` if the map has none.
     #[must_use]
     pub fn chart(&self, at: DVec2) -> Option<DVec2> {
         self.chart.image(self.place(at)?)
     }
 
-    /// Where what is seen at a place would be seen without distortion, px; `None` where the map has no such place.
+    /// Undistorted position of an observed position, px; `None` if the map has none.
     #[must_use]
     pub fn place(&self, at: DVec2) -> Option<DVec2> {
         let base = self.base.place(at)?;
         Some(base + self.fields(at)?.iter().zip(&self.sizes).map(|(f, size)| *size * *f).sum::<DVec2>())
     }
 
-    /// How the ideal distance's logarithm at a place depends on the fields' sizes.
+    /// Derivatives of the logarithm of the ideal distance at a position by the fields' sizes.
     pub(super) fn log_distance_row(&self, at: DVec2) -> Option<Vec<f64>> {
         let v = self.place(at)? - self.centre;
         let lever = v / v.length_squared();
@@ -192,13 +193,13 @@ impl Ideal {
         self.covariance.form(row)
     }
 
-    /// The covariance of the fields' sizes with what depends on them by a row.
+    /// Covariance of the fields' sizes with a quantity that depends on them by a row.
     pub(super) fn lever(&self, row: &[f64]) -> Vec<f64> {
         self.covariance.times(row)
     }
 
-    /// By how much the centroid of a disc about a point of the chart lies off its centre's image, px. The image near a node is
-    /// found by steps along the slope there.
+    /// Offset of the centroid of a disc about a point of the chart from its centre's image, px. The image near a node is found by
+    /// steps along the slope there.
     pub(super) fn disc_shift(&self, node: &Node, radius: f64) -> Option<DVec2> {
         const STEPS: usize = 4;
         let h = 1e-3 * self.reach;
@@ -212,7 +213,7 @@ impl Ideal {
     }
 }
 
-/// The way back, with the centre's image before the plane.
+/// The inverse of a homography, with the centre's image in front of the plane.
 fn inverse(plane: &Homography, centre: DVec2) -> Homography {
     let matrix = plane.matrix.inverse();
     Homography { matrix: matrix / (matrix * centre.extend(1.0)).z }

@@ -1,25 +1,26 @@
-//! Distortion from one picture of a plane chart, without a model of the lens.
+//! Distortion from one image of a plane chart, without a model of the lens.
 //!
-//! 1. The radial polynomial of k₁ and k₂ nearest to the picture is found in either direction, with its centre ([`RadialFit`]).
-//! 2. Beginning with the better one, places of the picture are taken to where a camera without distortion and with the scale of the
-//!    picture's centre would see the same, the chart tilted as it is ([`ideal`](Ideal)): by a map of the ninth degree of which value,
-//!    slope and, as far as it can, curvature at the centre are a homography's. (Of discs, the shift of each centroid is
-//!    taken off and the map found again; [`disc`](crate::patch_statistics).)
-//! 3. The ratio of the two distances from the centre,
-//!    observed over ideal, against the observed one in half diagonals, is the distortion curve ([`curve`](CurvePoint)); less 1
-//!    it is the local geometric distortion of ISO 17850:2015, whose ideal scale is that of the dots about the centre as well
-//!    ([`LocalDistortion`]).
-//! 4. The bow of rows and columns in the picture's height is ISO 17850's line distortion ([`LineBow`]).
-//! 5. The height of the picture at its sides over that in the middle, from the outermost rows that reach from side to side, is
-//!    the picture-height (television) distortion.
+//! 1. The radial polynomial of k₁ and k₂ nearest to the image is fitted in both directions, with its centre ([`RadialFit`]).
+//! 2. Starting with the better one, image positions are mapped to those of a camera without distortion that has the scale at the
+//!    image centre and the same tilt of the chart ([`ideal`](Ideal)). The map has degree nine; its value, slope and, as nearly as
+//!    possible, curvature at the centre are a homography's. (For discs, the shift of each centroid is subtracted and the map
+//!    fitted again; [`disc`](crate::patch_statistics).)
+//! 3. The ratio of the two distances from the centre, observed over ideal, against the observed one in half diagonals, is the
+//!    distortion curve ([`curve`](CurvePoint)); less 1 it is the local geometric distortion of ISO 17850:2015, whose ideal scale
+//!    is also that of the dots about the centre ([`LocalDistortion`]).
+//! 4. The bow of rows and columns relative to the image height is ISO 17850's line distortion ([`LineBow`]).
+//! 5. The height of the image at its sides relative to the middle, from the outermost rows that reach from side to side, is the
+//!    picture-height (television) distortion.
 //!
-//! Positions are raster coordinates, px; ratios are pure. Ideal scale is a slope at one place, where a chart of few points says little
-//! of it: terms beyond k₁, k₂ and second degree count as far as the points show them, and what the points leave open of
-//! them is in the uncertainty with the points' own scatter ([`fit_mixed_model`](crate::fit::fit_mixed_model())). So charts of 16 points on are
-//! measured; the fewer, the less certain. Assumed: errors of points are independent and alike; what departs from k₁ and k₂ is a smooth field,
-//! about as large across the chart as along it. What of a distortion centred elsewhere looks
-//! like a tilt at the centre is in it no more than in the curve: [`Distortion::largest_difference`] tells. Left out: the
-//! chart's own errors.
+//! Positions are raster coordinates, px; ratios are dimensionless. The ideal scale is a slope at one point, where a chart of few
+//! points gives little information. Terms beyond k₁, k₂ and second degree therefore count as far as the points show them; what
+//! the points leave open is included in the uncertainty with the points' own scatter
+//! ([`fit_mixed_model`](crate::fit::fit_mixed_model())). Charts with 16 points or more can be measured; fewer points give larger
+//! uncertainties.
+//!
+//! Assumptions: point errors are independent and have equal variance; the departure from k₁ and k₂ is a smooth field of about
+//! equal size in both directions. The part of a decentred distortion that looks like a tilt at the centre is in neither the map
+//! nor the curve: [`Distortion::largest_difference`] reveals it. Limitations: errors of the chart itself.
 
 mod base;
 mod curve;
@@ -39,25 +40,25 @@ pub use fields::DistortionError;
 pub use ideal::Ideal;
 pub use radial::RadialFit;
 
-/// The distortion of a picture.
+/// Distortion of an image.
 #[derive(Clone, Debug)]
 pub struct Distortion {
-    /// The centre to which distances are taken, px.
+    /// Centre of the radial distances, px.
     pub centre_px: DVec2,
-    /// Half the picture's diagonal, px.
+    /// Half the image diagonal, px.
     pub half_diagonal_px: f64,
-    /// The way from the picture to the ideal picture.
+    /// Map from the image to the ideal image.
     pub ideal: Ideal,
     /// The curve, at equal steps of field as far as the chart reaches.
     pub curve: Vec<CurvePoint>,
-    /// Every point of the chart but those at the centre itself.
+    /// Local distortion at every point of the chart except those at the centre itself.
     pub local: Vec<LocalDistortion>,
-    /// The one of them that is largest by magnitude, with the uncertainty of the largest.
+    /// The largest of them by magnitude, with the uncertainty of the largest.
     pub largest: Option<LocalDistortion>,
     /// Rows and columns.
     pub lines: Vec<LineBow>,
-    /// Picture-height distortion: the height at the sides over that in the middle, less 1; `None`
-    /// where no two rows reach from side to side.
+    /// Picture-height distortion: height at the sides relative to the middle, less 1; `None` if fewer than two rows reach from side
+    /// to side.
     pub height: Option<Estimate>,
     /// k₁, k₂ from ideal to observed.
     pub forward: RadialFit,
@@ -66,8 +67,8 @@ pub struct Distortion {
 }
 
 impl Distortion {
-    /// Where the curve and k₁, k₂ (observed to ideal) differ the most for their joint uncertainty: the curve's point, the ratio
-    /// by the coefficients, and the normalised error (k = 2).
+    /// The point of the largest difference between the curve and k₁, k₂ (observed to ideal) relative to their joint uncertainty:
+    /// the curve's point, the ratio from the coefficients, and the normalised error (k = 2).
     #[must_use]
     pub fn largest_difference(&self) -> Option<(CurvePoint, Estimate, f64)> {
         let beside = |p: &CurvePoint| {
@@ -78,7 +79,7 @@ impl Distortion {
     }
 }
 
-/// The distortion that a grid shows, about a centre (the picture's middle where none is stated).
+/// Measures the distortion of a grid about a centre (the image centre by default).
 ///
 /// # Errors
 /// [`DistortionError`].
@@ -106,7 +107,7 @@ pub fn distortion(grid: &Grid, size_px: [usize; 2], centre_px: Option<DVec2>) ->
     })
 }
 
-/// The maps, and the points from which they were found.
+/// The maps, and the points used to fit them.
 struct Found {
     nodes: Vec<Node>,
     ideal: Ideal,
@@ -114,7 +115,7 @@ struct Found {
     backward: RadialFit,
 }
 
-/// The maps of a grid, of discs with each disc's centre where its centroid was.
+/// The maps of a grid; for discs, centroids are replaced by the discs' centres.
 fn without_shifts(grid: &Grid, centre: DVec2, half_diagonal_px: f64) -> Result<Found, DistortionError> {
     const ROUNDS: usize = 2;
     let mut found = maps(grid.nodes.clone(), grid.size, centre, half_diagonal_px)?;

@@ -1,4 +1,4 @@
-//! k₁ and k₂ of one picture of a chart.
+//! k₁ and k₂ of one image of a chart.
 
 use etendue_projection::{RadialDistortion, Sense};
 use glam::{DMat3, DVec2};
@@ -6,8 +6,8 @@ use glam::{DMat3, DVec2};
 use crate::fit::{Fit, FitError, Homography, Problem, fit};
 use crate::{Estimate, calibrate::Sighting};
 
-/// The radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴) nearest to a picture, r and r′ in half diagonals about its own centre, after
-/// a homography from the chart (eight numbers more).
+/// The radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴) nearest to an image, r and r′ in half diagonals about its own centre, after a
+/// homography from the chart (eight more parameters).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadialFit {
     /// From ideal to observed, or back.
@@ -16,14 +16,14 @@ pub struct RadialFit {
     pub k1: Estimate,
     /// k₂, per half diagonal to the fourth.
     pub k2: Estimate,
-    /// The distortion's centre, raster coordinates; uncertain without limit where the distortion is too weak to show it
-    /// (then the curve's centre was taken).
+    /// Centre of distortion, raster coordinates; with infinite uncertainty if the distortion is too weak to determine it (then the
+    /// curve's centre is used).
     pub centre_px: [Estimate; 2],
     /// Covariance of k₁, k₂ and the centre's x and y.
     pub covariance: [[f64; 4]; 4],
     /// Root mean square distance of the points from the fit, px.
     pub rms_px: f64,
-    /// From the chart to the picture without distortion, px.
+    /// From the chart to the undistorted image, px.
     pub(super) plane: Homography,
 }
 
@@ -41,11 +41,11 @@ impl RadialFit {
         let problem = Radial { points, sense, half_diagonal_px, centre, free: false, chart, size };
         let mut numbers = problem.first(&start);
         numbers.extend([0.0; 2]);
-        // Without distortion every centre is as good: it is set free when k₁ and k₂ are known.
+        // Without distortion the centre is arbitrary: it is freed after k₁ and k₂ are fitted.
         let held = fit(&problem, &numbers)?;
         let numbers = [&held.parameters[..], &centre.to_array()].concat();
         let free = fit(&Radial { free: true, ..problem.clone() }, &numbers).ok();
-        // A centre known no better than a twentieth of the half diagonal is not known.
+        // A centre with an uncertainty above a twentieth of the half diagonal counts as undetermined.
         let known = |f: &Fit| (10..12).all(|i| f.estimate(i).standard_uncertainty < 0.05 * half_diagonal_px);
         let (found, centre_px) = match free.filter(known) {
             Some(found) => (found.clone(), [found.estimate(10), found.estimate(11)]),
@@ -64,7 +64,8 @@ impl RadialFit {
 }
 
 impl RadialFit {
-    /// Observed over ideal radius at an observed one, in half diagonals about the fit's own centre, of a fit from observed to ideal.
+    /// Observed over ideal radius at an observed one, in half diagonals about the fit's own centre, for a fit from observed to
+    /// ideal.
     pub(super) fn ratio(&self, field: f64) -> Estimate {
         let (square, fourth) = (field * field, field * field * field * field);
         let ratio = 1.0 / (1.0 + self.k1.value * square + self.k2.value * fourth);
@@ -79,8 +80,8 @@ fn middle(pairs: &[[DVec2; 2]]) -> (DVec2, f64) {
     (centre, pairs.iter().map(|p| (p[0] - centre).length()).fold(0.0, f64::max))
 }
 
-/// Numbers: the homography from the chart (moved to its middle, of size 1) to half diagonals about `centre`, row by row but for
-/// the last; k₁, k₂; the centre where it is free.
+/// Parameters: the homography from the chart (centred, scaled to size 1) to half diagonals about `centre`, row by row without the
+/// last element; k₁, k₂; the centre if free.
 #[derive(Clone)]
 struct Radial<'a> {
     points: &'a [Sighting],
@@ -93,7 +94,7 @@ struct Radial<'a> {
 }
 
 impl Radial<'_> {
-    /// From the chart to the picture without distortion, px.
+    /// From the chart to the undistorted image, px.
     fn plane(&self, numbers: &[f64]) -> Homography {
         let unit = |centre: DVec2, size: f64| DMat3::from_translation(centre) * DMat3::from_scale(DVec2::splat(size));
         let matrix = unit(self.centre, self.half_diagonal_px) * homography(numbers).matrix;
@@ -108,7 +109,7 @@ impl Radial<'_> {
     }
 }
 
-/// Of its numbers, row by row.
+/// The homography of its parameters, row by row.
 fn homography(p: &[f64]) -> Homography {
     let rows = [p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], 1.0];
     Homography { matrix: DMat3::from_cols_array(&rows).transpose() }
@@ -131,7 +132,7 @@ impl Problem for Radial<'_> {
         let mut residuals = Vec::with_capacity(2 * self.points.len());
         for point in self.points {
             let undistorted = homography.image((point.chart - self.chart) / self.size)?;
-            // In half diagonals about the distortion's own centre.
+            // In half diagonals about the centre of distortion.
             let moved = undistorted - (*centre - self.centre) / self.half_diagonal_px;
             let observed = distortion.observed(moved)?;
             residuals.extend((*centre + observed * self.half_diagonal_px - point.at).to_array());

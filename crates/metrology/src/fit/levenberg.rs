@@ -1,29 +1,29 @@
 //! Non-linear least squares after Levenberg (1944) and Marquardt (1963).
 //!
-//! The step solves (JᵀJ + λ D) δ = −Jᵀ r, D the diagonal of JᵀJ; λ falls tenfold after a step that lowers Σ r², and rises
-//! tenfold until one does. J is of central differences, with an error of about 1e-9 of its columns. Residuals come in
-//! blocks, so that a parameter of one view costs one view.
+//! The step solves (JᵀJ + λ D) δ = −Jᵀ r, D the diagonal of JᵀJ; λ decreases tenfold after a step that lowers Σ r², and increases
+//! tenfold until one does. J is computed by central differences, with an error of about 1e-9 of its columns. Residuals are
+//! grouped in blocks, so that a parameter of one view costs one evaluation of that view.
 //!
-//! Uncertainty: covariance = s² (JᵀJ)⁻¹ with s² = Σ r²/ν, ν residuals less parameters: the residuals themselves say how
-//! well they are known (GUM, type A), on the premise that they are independent, of equal variance, and that the model holds.
-//! A direction in which JᵀJ, scaled to a unit diagonal, has less than 1e-9 is one that the observations say nothing about:
-//! its parameters are infinitely uncertain.
+//! Uncertainty: covariance = s² (JᵀJ)⁻¹ with s² = Σ r²/ν, ν residuals less parameters. The uncertainty follows from the residuals
+//! themselves (GUM, type A), assuming that they are independent, of equal variance, and that the model holds. A direction in
+//! which JᵀJ, scaled to a unit diagonal, has less than 1e-9 is undetermined by the observations: its parameters have infinite
+//! uncertainty.
 //!
-//! Left out: bounds (a problem answers `None` where it cannot be evaluated, and the step is shortened), robust losses
-//! (a problem may weight its residuals).
+//! Limitations: no bounds (a problem answers `None` where it cannot be evaluated, and the step is shortened), no robust losses (a
+//! problem may weight its residuals).
 
 use crate::Estimate;
 use crate::linear::{Cholesky, Matrix, eigen};
 
-/// What is to be fitted.
+/// A least-squares problem.
 pub trait Problem {
-    /// What a set of parameters means, made once for all blocks.
+    /// Model state of a set of parameters, computed once for all blocks.
     type State;
 
-    /// Makes it; `None` where the parameters are illegal.
+    /// Computes the state; `None` if the parameters are invalid.
     fn state(&self, parameters: &[f64]) -> Option<Self::State>;
 
-    /// What it means with one of the parameters changed, for problems in which that costs less.
+    /// Computes the state with one parameter changed, for problems in which that costs less.
     fn changed(&self, _state: &Self::State, parameters: &[f64], _changed: usize) -> Option<Self::State> {
         self.state(parameters)
     }
@@ -31,22 +31,22 @@ pub trait Problem {
     /// The number of blocks of residuals.
     fn blocks(&self) -> usize;
 
-    /// The residuals of a block, always as many; `None` where they do not exist.
+    /// The residuals of a block, always the same number; `None` if they cannot be evaluated.
     fn residuals(&self, state: &Self::State, block: usize) -> Option<Vec<f64>>;
 
-    /// Whether a block depends on a parameter.
+    /// True if a block depends on a parameter.
     fn depends(&self, block: usize, parameter: usize) -> bool;
 
-    /// A change of a parameter over which the residuals are all but linear: the difference's step is 1e-3 of it.
+    /// A change of a parameter over which the residuals are nearly linear: the difference's step is 1e-3 of it.
     fn reach(&self, parameter: usize) -> f64;
 }
 
-/// A fit's result.
+/// Result of a fit.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// The parameters at the least sum of squares.
+    /// Parameters at the minimum of the sum of squares.
     pub parameters: Vec<f64>,
-    /// Their covariance; infinite on the diagonal (and 0 beside it) of what is not determined.
+    /// Covariance of the parameters; infinite on the diagonal (with 0 off the diagonal) for undetermined ones.
     pub covariance: Matrix,
     /// √(Σ r²/ν), in the residuals' unit.
     pub sigma: f64,
@@ -64,37 +64,37 @@ impl Fit {
     }
 }
 
-/// Why there is no fit.
+/// Reason why there is no fit.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FitError {
-    /// Too little was observed.
+    /// Too few observations.
     #[error(
         "{residuals} observed numbers do not determine {parameters} parameters: give more points or views, or fit fewer coefficients"
     )]
     Underdetermined {
-        /// Residuals.
+        /// Number of residuals.
         residuals: usize,
-        /// Parameters.
+        /// Number of parameters.
         parameters: usize,
     },
-    /// It cannot begin.
+    /// The initial guess cannot be evaluated.
     #[error("the fit's first guess cannot be evaluated: the points do not suit the model; choose another model")]
     BadInitialGuess,
-    /// It does not end.
+    /// No convergence.
     #[error(
         "the fit does not settle after {steps} steps: the model does not suit the points; choose another model, or fit fewer coefficients"
     )]
     NotConverged {
-        /// Steps taken.
+        /// Number of steps.
         steps: usize,
     },
 }
 
-/// Least relative gain of Σ r² that counts as progress.
+/// Minimum relative decrease of Σ r² that counts as progress.
 const GAIN: f64 = 1e-9;
 const STEPS: usize = 200;
 
-/// Fits from a first guess.
+/// Fits from an initial guess.
 ///
 /// # Errors
 /// [`FitError`].
@@ -120,7 +120,7 @@ pub fn fit<P: Problem>(problem: &P, start: &[f64]) -> Result<Fit, FitError> {
     }
     let (normal, _) = normal_equations(problem, &at, &residuals).ok_or(FitError::BadInitialGuess)?;
     let fit = finished(at, residuals, &normal, count);
-    // A valley without end: what is undetermined is said by its covariance.
+    // An unbounded valley: the covariance marks undetermined parameters.
     let open = (0..fit.parameters.len()).any(|i| fit.covariance.at(i, i).is_infinite());
     if open { Ok(fit) } else { Err(FitError::NotConverged { steps: STEPS }) }
 }
@@ -137,7 +137,7 @@ fn squares(residuals: &[Vec<f64>]) -> f64 {
 
 type Point = (Vec<f64>, Vec<Vec<f64>>);
 
-/// The first step, from a λ on, that lowers the sum of squares; `None` where none does.
+/// The first step, with increasing λ, that lowers the sum of squares; `None` if none does.
 fn improved<P: Problem>(
     problem: &P,
     at: &[f64],
@@ -174,7 +174,7 @@ fn step(normal: &Matrix, gradient: &[f64], lambda: f64) -> Option<Vec<f64>> {
     Some(step.iter().zip(&scale).map(|(d, s)| d * s).collect())
 }
 
-/// 1/√ of the diagonal; 0 for a parameter that nothing depends on.
+/// 1/√ of the diagonal; 0 for a parameter without effect.
 fn scales(normal: &Matrix) -> Vec<f64> {
     let inverse = |d: f64| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 };
     (0..normal.rows()).map(|i| inverse(normal.at(i, i))).collect()
@@ -185,10 +185,10 @@ fn scaled(normal: &Matrix, scale: &[f64]) -> Matrix {
     Matrix::from_rows(n, (0..n).map(|i| (0..n).map(|j| normal.at(i, j) * scale[i] * scale[j]).collect::<Vec<_>>()))
 }
 
-/// Columns of J of one block, by the number of their parameter.
+/// Columns of J of one block, with the index of their parameter.
 pub type Columns = Vec<(usize, Vec<f64>)>;
 
-/// Columns of J, block by block, of those on which a block depends; `None` where they cannot be evaluated.
+/// Columns of J, block by block, for the parameters on which a block depends; `None` if they cannot be evaluated.
 pub fn slopes<P: Problem>(problem: &P, at: &[f64]) -> Option<Vec<Columns>> {
     let blocks = problem.blocks();
     let here = problem.state(at)?;
@@ -237,7 +237,7 @@ fn finished(parameters: Vec<f64>, residuals: Vec<Vec<f64>>, normal: &Matrix, cou
     Fit { parameters, covariance, sigma, degrees_of_freedom, residuals }
 }
 
-/// Least eigenvalue of the scaled normal matrix that counts as an observation.
+/// Minimum eigenvalue of the scaled normal matrix of a determined direction.
 const LEAST: f64 = 1e-9;
 
 fn covariance(normal: &Matrix, variance: f64) -> Matrix {
@@ -248,7 +248,7 @@ fn covariance(normal: &Matrix, variance: f64) -> Matrix {
     let mut open = vec![false; n];
     for (value, vector) in found.values.iter().zip(&found.vectors) {
         if *value < LEAST {
-            // A part of 1e-3 in a unit vector: what this direction does not move beyond the other uncertainties.
+            // A component above 1e-3 of a unit vector: smaller ones do not affect a parameter beyond its other uncertainties.
             open.iter_mut().zip(vector).for_each(|(open, v)| *open |= v.abs() > 1e-3);
             continue;
         }
@@ -272,7 +272,7 @@ mod tests {
     use super::*;
     use etendue_core::maths::f64::exp;
 
-    /// y = a exp(−b t), with a third parameter that adds to a where `doubled`.
+    /// y = a exp(−b t), with a third parameter that adds to a if `doubled`.
     struct Decay {
         times: Vec<f64>,
         values: Vec<f64>,
@@ -331,7 +331,7 @@ mod tests {
             squares += (rate.value - 0.7) * (rate.value - 0.7);
             told += rate.standard_uncertainty * rate.standard_uncertainty;
         }
-        // Mean squares of 400 runs have a relative standard deviation of √(2/400) = 7 %; three of them, and curvature.
+        // Mean squares of 400 runs have a relative standard deviation of √(2/400) = 7 %; the limit is three of them, plus curvature.
         let ratio = squares / told;
         assert!((ratio - 1.0).abs() < 0.23, "{ratio}");
     }

@@ -3,28 +3,29 @@
 //! | fit | of | file |
 //! | --- | --- | --- |
 //! | [`levenberg`] | any residuals, by Levenberg and Marquardt | `levenberg.rs` |
-//! | [`Homography`] | plane to plane in perspective | here |
-//! | [`fit_mixed_model()`] | lines in coefficients, some of which are small | here |
+//! | [`Homography`] | perspective map from plane to plane | here |
+//! | [`fit_mixed_model()`] | linear models in which some coefficients are small | here |
 //!
-//! Plane to plane in perspective: x′ ~ H x.
+//! Homography: perspective map from plane to plane, x′ ~ H x.
 //!
-//! By the normalised direct linear transformation (Hartley & Zisserman, Multiple View Geometry, 2nd ed. 2004,
-//! algorithm 4.2), both sets moved to their centroid and scaled to a mean distance of √2.
+//! By the normalised direct linear transformation (Hartley & Zisserman, Multiple View Geometry, 2nd ed. 2004, algorithm 4.2),
+//! both sets moved to their centroid and scaled to a mean distance of √2.
 //!
-//! Linear least squares in which some coefficients are free and the others are small, by how much the observations say.
+//! Mixed model: linear least squares in which some coefficients are free and the others are small, with a scale estimated from
+//! the observations.
 //!
 //! y = X α + Z β + ε with ε of variance σ² and β of variance τ² = λ σ² each, independent and normal (a mixed linear model;
 //! Henderson 1975). For a λ the coefficients solve ([X Z]ᵀ[X Z] + diag(0, 1/λ)) θ = [X Z]ᵀ y with covariance σ² times the
-//! inverse, and the restricted likelihood (Patterson & Thompson 1971), σ² at its best, is
-//! −2 ln L = ν ln(yᵀ P y) + ln det C + m ln λ, ν = observations less free coefficients, C the matrix above, m the number of β,
-//! yᵀ P y = yᵀy − θ · [X Z]ᵀ y, σ² = yᵀ P y/ν.
+//! inverse, and the restricted likelihood (Patterson & Thompson 1971), σ² at its best, is −2 ln L = ν ln(yᵀ P y) + ln det C + m
+//! ln λ, ν = observations less free coefficients, C the matrix above, m the number of β, yᵀ P y = yᵀy − θ · [X Z]ᵀ y, σ² = yᵀ P
+//! y/ν.
 //!
-//! No single λ is taken: coefficients and covariance are the means over a ladder of λ (even in ln λ) by their likelihood, the
-//! spread of the coefficients over it included. So what the observations do not tell of β counts in the covariance by as much
-//! as what they do tell lets β be, from nothing (where α alone leaves noise) to all of it. The covariance is that of Student's
-//! distribution of ν degrees of freedom.
+//! No single λ is selected: coefficients and covariance are averages over a series of λ (uniform in ln λ), weighted by
+//! likelihood, with the spread of the coefficients over it included. So the undetermined part of β contributes to the covariance
+//! in proportion to the size of β that the determined part suggests: from nothing (if α alone leaves only noise) to all of it.
+//! The covariance is that of Student's distribution of ν degrees of freedom.
 //!
-//! Left out: correlated observations, several sizes of β.
+//! Limitations: no correlated observations, one scale for all β.
 
 pub mod levenberg;
 
@@ -35,23 +36,23 @@ use crate::linear::{Cholesky, Matrix, dot, eigen};
 
 pub use levenberg::{Fit, FitError, Problem, fit, slopes};
 
-/// A homography, with 1 at the lower right of its matrix where the origin is not at infinity.
+/// A homography, normalised to 1 at the lower right of its matrix unless the origin maps to infinity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Homography {
-    /// The matrix that takes (x, y, 1) to a multiple of (x′, y′, 1).
+    /// The matrix that maps (x, y, 1) to a multiple of (x′, y′, 1).
     pub matrix: DMat3,
 }
 
 impl Homography {
-    /// The point's image; `None` at infinity and beyond (where the third number is not positive).
+    /// The point's image; `None` at infinity and beyond (if the third coordinate is not positive).
     #[must_use]
     pub fn image(&self, point: DVec2) -> Option<DVec2> {
         let image = self.matrix * point.extend(1.0);
         (image.z > 0.0).then(|| image.truncate() / image.z)
     }
 
-    /// The homography nearest to pairs of points by the direct linear transformation; `None` where they do not determine one
-    /// (fewer than four, or too many on a line).
+    /// The homography nearest to pairs of points by the direct linear transformation; `None` if they do not determine one (fewer
+    /// than four, or too many on a line).
     #[must_use]
     pub fn direct(pairs: &[[DVec2; 2]]) -> Option<Self> {
         if pairs.len() < 4 {
@@ -71,7 +72,7 @@ impl Homography {
     }
 }
 
-/// The moving and scaling that brings points to the origin at a mean distance of √2.
+/// The translation and scaling that bring points to the origin at a mean distance of √2.
 fn normalisation(points: impl Iterator<Item = DVec2> + Clone) -> DMat3 {
     let count = points.clone().count() as f64;
     let centre = points.clone().sum::<DVec2>() / count;
@@ -80,7 +81,7 @@ fn normalisation(points: impl Iterator<Item = DVec2> + Clone) -> DMat3 {
     DMat3::from_cols(DVec3::X * scale, DVec3::Y * scale, (-centre * scale).extend(1.0))
 }
 
-/// The unit vector v of least |A v|; `None` where a second one is as good, to 1e-12 of the largest.
+/// The unit vector v of least |A v|; `None` if it is not unique, to 1e-12 of the largest.
 #[must_use]
 pub fn null_vector(a: &Matrix) -> Option<Vec<f64>> {
     let found = eigen(&a.gram());
@@ -89,7 +90,7 @@ pub fn null_vector(a: &Matrix) -> Option<Vec<f64>> {
     single.then(|| found.vectors[0].clone())
 }
 
-/// The coefficients, with what is known of them.
+/// The coefficients, with their covariance.
 #[derive(Clone, Debug)]
 pub struct MixedModelFit {
     /// The free coefficients, then the small ones.
@@ -102,12 +103,12 @@ pub struct MixedModelFit {
     pub tau: f64,
 }
 
-/// Steps of the ladder and its first exponent of 4: τ from a sixteenth of σ to two thousand times.
+/// Number of steps of the λ series and its first exponent of 4: τ from a sixteenth of σ to two thousand times.
 const RUNGS: i32 = 16;
 const FIRST: i32 = -4;
-/// Weight, over the largest, below which a rung is left out.
+/// Relative weight below which a step of the series is skipped.
 const MIN_WEIGHT: f64 = 1e-2;
-/// Rounding of an observation of size 1.
+/// Rounding error of an observation of size 1.
 const ROUNDING: f64 = 1e-12;
 
 /// A λ with its solution.
@@ -120,10 +121,10 @@ struct Rung {
     unlikely: f64,
 }
 
-/// The fit of `values` by the columns of `design`, the first `free` of which are free.
+/// Fits `values` by the columns of `design`, the first `free` of which are free.
 ///
 /// # Errors
-/// Where there are too few observations, or the free columns depend on one another.
+/// If there are too few observations, or the free columns are linearly dependent.
 pub fn fit_mixed_model(design: &Matrix, values: &[f64], free: usize) -> Result<MixedModelFit, FitError> {
     let few = || FitError::Underdetermined { residuals: values.len(), parameters: free };
     // Student's variance, ν/(ν − 2), needs more than two.
@@ -155,7 +156,7 @@ fn rung(normal: &Matrix, right: &[f64], size: f64, free: usize, freedom: f64, la
     Some(Rung { lambda, factor, parameters, variance: left / freedom, unlikely })
 }
 
-/// The mean over rungs, each with its weight.
+/// The weighted mean over the λ series.
 fn mean(rungs: &[(f64, &Rung)], freedom: f64) -> MixedModelFit {
     let count = rungs[0].1.parameters.len();
     let over = |value: &dyn Fn(&Rung) -> f64| rungs.iter().map(|(w, r)| w * value(r)).sum::<f64>();
@@ -200,7 +201,7 @@ mod tests {
         let pairs: Vec<_> = grid().map(|p| [p, truth.image(p).expect("before the plane")]).collect();
         let found = Homography::direct(&pairs).expect("determined");
         for [from, to] in &pairs {
-            // A thousand pixels, conditioned by normalisation: some hundred roundings.
+            // A thousand pixels, conditioned by normalisation: about a hundred roundings.
             assert!((found.image(*from).expect("finite") - *to).length() < 1e-9, "{found:?}");
         }
     }
@@ -211,7 +212,7 @@ mod tests {
         assert!(Homography::direct(&pairs).is_none() && Homography::direct(&pairs[..3]).is_none());
     }
 
-    /// A line with nine waves of a size upon it, at 40 places, with noise of 0.1.
+    /// A line plus nine waves of one amplitude, at 40 positions, with noise of 0.1.
     fn line(size: f64, seed: u64) -> (Matrix, Vec<f64>) {
         let mut word = seed.wrapping_mul(977) + 1;
         let mut draw = || {
@@ -229,7 +230,7 @@ mod tests {
         (Matrix::from_rows(11, rows), values)
     }
 
-    /// Errors of the slope in standard uncertainties, mean square; and the mean uncertainty.
+    /// Mean square error of the slope in standard uncertainties, and the mean uncertainty.
     fn slopes(size: f64) -> (f64, f64) {
         let found = (0..200).map(|seed| {
             let (design, values) = line(size, seed);
@@ -243,7 +244,7 @@ mod tests {
 
     #[test]
     fn the_uncertainty_follows_the_size_of_what_is_small() {
-        // Without waves the line's own: σ/√Σ(t − t̄)² = 0.1/√(40/12) = 0.055. A mean square of 200 has 10 %.
+        // Without waves the uncertainty is the line's own: σ/√Σ(t − t̄)² = 0.1/√(40/12) = 0.055. A mean square of 200 has 10 %.
         let (squares, u) = slopes(0.0);
         assert!((0.6..1.3).contains(&squares) && (0.05..0.09).contains(&u), "{squares} {u}");
         let (squares, large) = slopes(0.5);

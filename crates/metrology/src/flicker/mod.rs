@@ -1,29 +1,32 @@
-//! Flicker: light that goes up and down, as rows of a rolling shutter and frames of a sequence see it.
+//! Flicker: modulated light in the rows of a rolling shutter and the frames of a sequence.
 //!
-//! **Rows.** Row y of frame n is exposed from t = n/f_frame + y · t_row on, for the exposure t_e. The means of the rows are fitted by a level, a slope
-//! and a curvature over the rows (shading; left out where fewer than three periods are seen) and a Fourier series of the frequency f,
+//! **Rows.** Row y of frame n is exposed from t = n/f_frame + y · t_row on, for the exposure t_e. The means of the rows are
+//! fitted by a level, a slope and a curvature over the rows (shading; omitted for fewer than three periods) and a Fourier series
+//! of the frequency f,
 //!
 //! ```text
 //! s(y, n) = Σ_k c_k u^k + Σ_h a_h cos 2πhft + b_h sin 2πhft        u: −1 … 1 over the rows
 //! ```
 //!
-//! f where the fundamental explains most (periodogram, then least squares), and as many harmonics, at most seven, as the Bayesian
-//! information criterion (Schwarz 1978) supports. Frames of a known rate are fitted together, which tells f by the whole sequence;
-//! of an unknown rate each by itself. Nothing is found where the fundamental gains less on the criterion than chance gives among that
-//! many frequencies.
+//! f is the frequency whose fundamental explains most (periodogram, then least squares); the number of harmonics, at most seven,
+//! is the one that the Bayesian information criterion (Schwarz 1978) supports. Frames of a known rate are fitted together, so
+//! that the whole sequence determines f; frames of an unknown rate are fitted separately. No flicker is reported if the
+//! fundamental improves the criterion less than chance would among that many frequencies.
 //!
-//! **Modulation** by two names: (greatest − least)/(greatest + least), the flicker modulation index of IEEE P2020 and Michelson contrast,
-//! over rows from the fitted pulses or series and over frames from the extremes of their means; and the fundamental's amplitude over the mean.
+//! **Modulation** in two measures: (max − min)/(max + min), the flicker modulation index of IEEE P2020 and Michelson contrast,
+//! over rows from the fitted pulses or series and over frames from the extremes of their means; and the fundamental's amplitude
+//! over the mean.
 //!
-//! **The light itself.** An exposure takes the fundamental by sin(πft_e)/(πft_e), which is undone where the exposure is known and more
-//! than a twentieth is left. Pulses of a duty d are fitted as their exact means over the exposures (a trapezoid), with f, phase, duty, pulse and
-//! steady light free: they are told where the criterion prefers them to the series.
+//! **The light itself.** An exposure attenuates the fundamental by sin(πft_e)/(πft_e), which is corrected if the exposure is
+//! known and the factor exceeds a twentieth. Pulses of a duty cycle d are fitted as their exact means over the exposures (a
+//! trapezoid), with f, phase, duty cycle, pulse and constant light free; they are reported if the criterion prefers them to the
+//! series.
 //!
-//! **Frames alone** tell frequencies up to half the frame rate: f = |k f_frame ± f_seen| for any k = 0, 1, 2, …
+//! **Frames alone** determine frequencies only up to half the frame rate: f = |k f_frame ± f_seen| for any k = 0, 1, 2, …
 //!
-//! Uncertainty: of the fits, from their own residuals, of the series with what neighbouring ones share (noise of whole rows is in it, fixed patterns that look
-//! like bands are not); of extremes over frames from the scatter of columns, without the bias that noise gives to extremes.
-//! Left out: light on part of the region only, rows read in fields or upwards.
+//! Uncertainty: from the residuals of the fits, for the series with the correlation of neighbours (this includes row noise, but
+//! not fixed patterns that look like bands); for extremes over frames from the scatter of columns, without the bias of extremes
+//! due to noise. Limitations: light on only part of the region, rows read in fields or upwards.
 
 mod pulses;
 mod rows;
@@ -39,18 +42,18 @@ pub use pulses::PulseLight;
 pub use rows::{RowBands, RowFlicker};
 pub use series::{FlickerTiming, FrameFlicker, FrameFrequency};
 
-/// What flickers, and how.
+/// Flicker results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flicker {
     /// Mean over all frames, less black.
     pub level: Estimate,
-    /// Over the rows; `None` without a row time.
+    /// Flicker over the rows; `None` without a row time.
     pub rows: Option<RowFlicker>,
-    /// Over the frames; `None` of a single one.
+    /// Flicker over the frames; `None` for a single frame.
     pub frames: Option<FrameFlicker>,
 }
 
-/// Why flicker cannot be measured.
+/// Reason why flicker cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlickerError {
     /// A single frame without a row time.
@@ -58,26 +61,26 @@ pub enum FlickerError {
         "one frame says nothing of flicker where all rows are exposed together: give the time from row to row (`row_time_us`), or several frames"
     )]
     NoTime,
-    /// A time that is none.
+    /// An invalid time.
     #[error("found {what} of {value}: give a number above 0")]
     Timing {
-        /// Which.
+        /// Name of the time.
         what: &'static str,
-        /// Found, in its unit.
+        /// Value, in its unit.
         value: f64,
     },
     /// Too few rows.
     #[error("{rows} rows say too little of bands: give a region of {least} rows at least")]
     FewRows {
-        /// Found.
+        /// Number of rows.
         rows: usize,
-        /// Needed.
+        /// Minimum.
         least: usize,
     },
     /// Too narrow.
     #[error("a region of {columns} columns says nothing of its noise: give one of two at least")]
     Narrow {
-        /// Found.
+        /// Number of columns.
         columns: usize,
     },
     /// Frames differ in size.
@@ -86,7 +89,7 @@ pub enum FlickerError {
     /// Saturated pixels.
     #[error("{percent:.1} % of the region is saturated, which cuts the light's peaks: expose less")]
     Saturated {
-        /// Share of pixels.
+        /// Percentage of saturated pixels.
         percent: f64,
     },
     /// No light.
@@ -94,18 +97,18 @@ pub enum FlickerError {
     Dark {
         /// Mean of all frames.
         mean: f64,
-        /// Reading of no light.
+        /// Reading without light.
         black: f64,
     },
 }
 
-/// Least rows of a region whose bands are looked for.
+/// Minimum number of rows of a region for the detection of bands.
 const MIN_ROWS: usize = 16;
 
-/// Measures the flicker of an evenly lit region over frames.
+/// Measures the flicker of a uniformly lit region over frames.
 ///
 /// # Errors
-/// Where times are missing or wrong, or the region is too small, saturated or dark.
+/// If times are missing or wrong, or the region is too small, saturated or dark.
 pub fn measure_flicker(
     frames: &[Image],
     timing: &FlickerTiming,
@@ -151,7 +154,7 @@ fn check_frames(frames: &[Image], timing: &FlickerTiming, full_scale: Option<f64
     if timing.row_time_s.is_some() && rows < MIN_ROWS {
         return Err(FlickerError::FewRows { rows, least: MIN_ROWS });
     }
-    // Bands have plateaus of their own: only a known full scale tells of clipping.
+    // Bands have plateaus of their own: clipping can be detected only with a known full scale.
     let Some(full_scale) = full_scale else { return Ok(()) };
     let shares = frames.iter().map(|frame| saturated_fraction(frame.samples(), Some(full_scale)));
     let share = shares.fold(0.0, f64::max);

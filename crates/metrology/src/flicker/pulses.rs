@@ -1,4 +1,4 @@
-//! Pulses as exposures see them: a trapezoid over time.
+//! Pulses as integrated by exposures: a trapezoid over time.
 
 use core::f64::consts::PI;
 
@@ -9,18 +9,18 @@ use super::time_series::{FourierFit, TimeSeries, explained};
 use crate::Estimate;
 use crate::fit::{Fit, Problem, fit};
 
-/// Light of pulses.
+/// Pulsed light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PulseLight {
-    /// Share of the period that a pulse lasts.
+    /// Duty cycle: fraction of the period that a pulse lasts.
     pub duty: Estimate,
-    /// Mean light of the pulses over that of all, the steady light included.
+    /// Mean light of the pulses relative to the total, including constant light.
     pub share: Estimate,
-    /// (greatest − least)/(greatest + least) of what exposures see of them.
+    /// (max − min)/(max + min) as integrated by the exposures.
     pub modulation: Estimate,
 }
 
-/// Pulses that were fitted.
+/// Fitted pulses.
 #[derive(Clone, Copy)]
 pub(super) struct FittedPulses {
     pub(super) light: PulseLight,
@@ -29,10 +29,10 @@ pub(super) struct FittedPulses {
     pub(super) squares: f64,
 }
 
-/// Duties that are tried first.
+/// Number of initial duty cycles.
 const DUTIES: u32 = 39;
 
-/// Where the parameters stand: level, pulses over level, frequency, phase of a pulse's middle (periods), duty, then shading.
+/// Indices of the parameters: level, pulses over level, frequency, phase of a pulse's middle (periods), duty cycle, then shading.
 const SHARE: usize = 1;
 const FREQUENCY: usize = 2;
 const PHASE: usize = 3;
@@ -48,14 +48,15 @@ struct PulseProblem<'a> {
     start: Vec<f64>,
 }
 
-/// How far beyond 1 the share of pulses may lie where the duty is not yet fitted.
+/// Allowed excess of the pulse fraction above 1 before the duty cycle is fitted.
 const SHARE_SLACK: f64 = 0.1;
 
-/// Fits pulses, beginning with the frequency and phase of a Fourier series; `None` where none fit, or two kinds fit alike.
+/// Fits pulses, starting with the frequency and phase of a Fourier series; `None` if none fit, or if two different solutions fit
+/// equally well.
 pub(super) fn fitted(series: &TimeSeries, fourier: &FourierFit, exposure_s: f64) -> Option<FittedPulses> {
     let frequency_hz = fourier.frequency_hz.value;
     let x = PI * frequency_hz * exposure_s;
-    // An exposure beyond a period turns the fundamental over.
+    // An exposure longer than a period inverts the fundamental.
     let turned = if sin(x) < 0.0 { 0.5 } else { 0.0 };
     let middle = fourier.peak_periods() + 0.5 * frequency_hz * exposure_s + turned;
     let shading = series.level_columns(fourier.shading).split_off(1);
@@ -64,7 +65,8 @@ pub(super) fn fitted(series: &TimeSeries, fourier: &FourierFit, exposure_s: f64)
         PulseProblem { series, values, times: series.times().collect(), shading, exposure_s, start: Vec::new() };
     let of = |i: u32| problem.begun(frequency_hz, middle, f64::from(i + 1) / f64::from(DUTIES + 1));
     let (start, _) = (0..DUTIES).filter_map(of).min_by(|a, b| a.1.total_cmp(&b.1))?;
-    // Exposures of half a period see pulses of duty d as those of duty 1 − d about the same middle, less a steady light.
+    // Exposures of half a period cannot distinguish pulses of duty cycle d from those of duty cycle 1 − d with the same middle,
+    // less a constant light.
     let [middle, duty] = [PHASE, DUTY].map(|i| start[i]);
     let dual = problem.begun(frequency_hz, middle, 1.0 - duty).map(|(dual, _)| dual);
     let found: Vec<FittedPulses> =
@@ -78,25 +80,26 @@ pub(super) fn fitted(series: &TimeSeries, fourier: &FourierFit, exposure_s: f64)
 }
 
 impl FittedPulses {
-    /// Whether two fits are of different pulses, and not twice the same minimum.
+    /// True if two fits describe different pulses, not the same minimum.
     fn is_another(&self, other: &Self) -> bool {
         (self.light.duty.value - other.light.duty.value).abs() > 1e-3
     }
 
-    /// Whether the readings, `count` of them, do not prefer one fit by two standard deviations.
+    /// True if the readings, `count` of them, do not prefer one fit by two standard deviations.
     fn fits_alike(&self, other: &Self, count: usize) -> bool {
         (self.squares - other.squares).abs() < 4.0 * self.squares.min(other.squares) / count as f64
     }
 }
 
-/// What exposures of k T + r see of pulses of mean 1: of their light from k d T + max(0, r − (1 − d) T) to k d T + min(r, d T).
+/// Extremes of exposures of k T + r to pulses of mean 1: their light is between k d T + max(0, r − (1 − d) T) and k d T + min(r,
+/// d T).
 fn extremes(frequency_hz: f64, duty: f64, exposure_s: f64) -> [f64; 2] {
     let periods = exposure_s * frequency_hz;
     let (whole, rest) = (periods.floor(), periods - periods.floor());
     [(rest - (1.0 - duty)).max(0.0), rest.min(duty)].map(|part| (whole * duty + part) / (periods * duty))
 }
 
-/// With the covariance of share, frequency and duty.
+/// Modulation, with the covariance of pulse fraction, frequency and duty cycle.
 fn modulation_of(found: &Fit, exposure_s: f64) -> Estimate {
     let of = |p: [f64; 3]| {
         let [low, high] = extremes(p[1], p[2], exposure_s).map(|seen| 1.0 - p[0] + p[0] * seen);
@@ -117,8 +120,8 @@ fn modulation_of(found: &Fit, exposure_s: f64) -> Estimate {
 }
 
 impl PulseProblem<'_> {
-    /// The fit from a start; `None` where it finds none, or a light below nothing between the pulses (a share above 1 by more than three standard
-    /// uncertainties).
+    /// The fit from a start; `None` if it fails, or if the light between the pulses is negative (a pulse fraction above 1 by more
+    /// than three standard uncertainties).
     fn fit_from(&mut self, start: Vec<f64>) -> Option<FittedPulses> {
         self.start = start;
         let found = fit(&*self, &self.start).ok()?;
@@ -135,14 +138,15 @@ impl PulseProblem<'_> {
         Waveform::pulses(&pulses).ok().map(|waveform| waveform.later((middle - 0.5 * duty) / frequency_hz))
     }
 
-    /// What the exposures see of pulses of mean 1.
+    /// Light that the exposures receive from pulses of mean 1.
     fn seen(&self, waveform: &Waveform) -> Option<Vec<f64>> {
         let over =
             |(time_s, _): &(f64, f64)| Some(waveform.mean(TimeInterval::new(*time_s, time_s + self.exposure_s)?));
         self.times.iter().map(over).collect()
     }
 
-    /// Parameters of a duty, and the sum of squares that they leave; `None` where the pulses would take light away, or the rest would be below nothing.
+    /// Parameters for a duty cycle, and the sum of squares of their residuals; `None` if the pulses or the remaining light would be
+    /// negative.
     fn begun(&self, frequency_hz: f64, middle: f64, duty: f64) -> Option<(Vec<f64>, f64)> {
         let seen = self.seen(&Self::waveform(frequency_hz, middle, duty)?)?;
         let columns = [&[vec![1.0; seen.len()], seen], &self.shading[..]].concat();

@@ -9,39 +9,38 @@ use super::series::{FlickerTiming, weighted_mean};
 use super::time_series::{FourierFit, TimeSeries, criterion};
 use crate::Estimate;
 
-/// Least share of the fundamental that an exposure must leave for it to be undone.
+/// Minimum attenuation factor of the fundamental by an exposure that is still corrected.
 const LEAST_LEFT: f64 = 0.05;
 
 /// Bands over the rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowFlicker {
-    /// What goes up and down; `None` where nothing does that chance would not.
+    /// Detected bands; `None` if none are significant.
     pub found: Option<RowBands>,
-    /// The lowest frequency that can be told, Hz: of one and a half periods in all.
+    /// Lowest detectable frequency, Hz: one and a half periods in all.
     pub lowest_hz: f64,
-    /// The highest, Hz: of two rows a period.
+    /// Highest detectable frequency, Hz: two rows per period.
     pub highest_hz: f64,
 }
 
-/// What goes up and down over the rows.
+/// Modulation over the rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowBands {
     /// Frequency of the light, Hz.
     pub frequency_hz: Estimate,
-    /// Rows from one band to the next.
+    /// Rows per period of the bands.
     pub period_rows: Estimate,
-    /// (greatest − least)/(greatest + least) over a period, as rows see it.
+    /// (max − min)/(max + min) over a period, in the rows.
     pub modulation: Estimate,
-    /// Amplitude of the fundamental over the mean, as rows see it.
+    /// Amplitude of the fundamental over the mean, in the rows.
     pub amplitude_ratio: Estimate,
-    /// The same of the light itself; `None` where the exposure is not known or leaves too little.
+    /// The same for the light itself; `None` if the exposure is not known or attenuates too much.
     pub light_amplitude_ratio: Option<Estimate>,
-    /// Share of the period that a pulse lasts, and the share of all light that pulses; `None` where the light is none of pulses, or the
-    /// exposure is not known.
+    /// Duty cycle, and pulsed fraction of the light; `None` if the light is not pulsed, or the exposure is not known.
     pub pulses: Option<PulseLight>,
-    /// Harmonics that were fitted, the fundamental among them.
+    /// Number of fitted harmonics, including the fundamental.
     pub harmonics: usize,
-    /// Whether shading over the rows was fitted with them.
+    /// True if shading over the rows was fitted as well.
     pub shading: bool,
 }
 
@@ -78,14 +77,14 @@ fn bands(series: &TimeSeries, timing: &FlickerTiming) -> Option<RowBands> {
     })
 }
 
-/// The fundamental before the exposure.
+/// The fundamental before integration by the exposure.
 fn undone(fit: &FourierFit, exposure_s: f64) -> Option<Estimate> {
     let x = PI * fit.frequency_hz.value * exposure_s;
     let left = (sin(x) / x).abs();
     (left >= LEAST_LEFT).then(|| fit.amplitude_ratio().scaled(1.0 / left))
 }
 
-/// Pulses, where the criterion prefers them to the series.
+/// Pulses, if the criterion prefers them to the series.
 fn pulses(series: &TimeSeries, fit: &FourierFit, exposure_s: f64) -> Option<(PulseLight, Estimate)> {
     let found = pulses::fitted(series, fit, exposure_s)?;
     let of_series = criterion(fit.squares, fit.count, fit.parameters);
@@ -93,7 +92,7 @@ fn pulses(series: &TimeSeries, fit: &FourierFit, exposure_s: f64) -> Option<(Pul
     (of_pulses < of_series).then_some((found.light, found.frequency_hz))
 }
 
-/// Of frames at unknown times: the mean of each quantity over those that have it.
+/// For frames at unknown times: the mean of each quantity over the frames that have it.
 fn joined(each: &[RowBands]) -> Option<RowBands> {
     let first = each.first()?;
     if each.len() == 1 {

@@ -1,4 +1,4 @@
-//! From frames to numbers over time.
+//! Conversion of frames to time series.
 
 use super::time_series::TimeSeries;
 use crate::{Estimate, Image};
@@ -9,7 +9,7 @@ pub(super) fn row_means(frame: &Image, black: f64) -> Vec<f64> {
     frame.samples().chunks_exact(frame.width()).map(mean).collect()
 }
 
-/// Mean of a frame, less black; its uncertainty from the scatter of its columns, which see the same bands.
+/// Mean of a frame, less black; its uncertainty is from the scatter of its columns, which contain the same bands.
 pub(super) fn frame_mean(frame: &Image, black: f64) -> Estimate {
     let (columns, rows) = (frame.width(), frame.height());
     let column = |x: usize| (0..rows).map(|y| f64::from(frame.at(x, y))).sum::<f64>() / rows as f64 - black;
@@ -19,14 +19,14 @@ pub(super) fn frame_mean(frame: &Image, black: f64) -> Estimate {
     Estimate::new(mean, (squares / ((columns - 1) * columns) as f64).sqrt())
 }
 
-/// Mean of several.
+/// Mean of several estimates.
 pub(super) fn mean_of(all: &[Estimate]) -> Estimate {
     let count = all.len() as f64;
     let squares: f64 = all.iter().map(|e| e.standard_uncertainty * e.standard_uncertainty).sum();
     Estimate::new(all.iter().map(|e| e.value).sum::<f64>() / count, squares.sqrt() / count)
 }
 
-/// Mean of several of one quantity, by what each knows of it.
+/// Mean of several estimates of one quantity, weighted by their uncertainties.
 pub(super) fn weighted_mean(all: &[Estimate]) -> Option<Estimate> {
     let weight = |e: &Estimate| 1.0 / (e.standard_uncertainty * e.standard_uncertainty);
     let total: f64 = all.iter().map(weight).sum();
@@ -34,35 +34,34 @@ pub(super) fn weighted_mean(all: &[Estimate]) -> Option<Estimate> {
     known.then(|| Estimate::new(all.iter().map(|e| e.value * weight(e)).sum::<f64>() / total, 1.0 / total.sqrt()))
 }
 
-/// Least frames in which a frequency is looked for.
+/// Minimum number of frames for the detection of a frequency.
 const MIN_FRAMES: usize = 8;
 
-/// How frames differ.
+/// Differences between frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFlicker {
-    /// (greatest − least)/(greatest + least) of the frames' means.
+    /// (max − min)/(max + min) of the frames' means.
     pub modulation: Estimate,
-    /// The frequency at which frames go up and down; `None` where the frame rate is not known, frames are few, or nothing does that
-    /// chance would not.
+    /// The frequency of the modulation over frames; `None` if the frame rate is not known, frames are few, or none is significant.
     pub frequency: Option<FrameFrequency>,
-    /// How often bands of the rows' frequency come back to their place a second, Hz, by the frame rate: what is left of the
-    /// frequency over whole frame rates.
+    /// Beat frequency, Hz, at which bands of the rows' frequency return to their place: the difference of the frequency from the
+    /// nearest multiple of the frame rate.
     pub beat_hz: Option<Estimate>,
 }
 
-/// The frequency at which frames go up and down.
+/// The frequency of the modulation over frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFrequency {
-    /// As seen, up to half the frame rate, Hz.
+    /// Apparent frequency, up to half the frame rate, Hz.
     pub seen_hz: Estimate,
     /// Amplitude of the fundamental over the mean.
     pub amplitude_ratio: Estimate,
-    /// The frame rate, Hz: the light's frequency is a multiple of it plus or minus what is seen.
+    /// Frame rate, Hz: the light's frequency is a multiple of it plus or minus the apparent one.
     pub frame_rate_hz: f64,
 }
 
 impl FrameFrequency {
-    /// Frequencies that look alike, with how many frame rates they are beyond: the lowest so many.
+    /// Indistinguishable frequencies (aliases), with their multiple of the frame rate: the lowest `count`.
     #[must_use]
     pub fn alike(&self, count: usize) -> Vec<(u32, f64)> {
         let orders = (0_u32..).flat_map(|k| {
@@ -98,13 +97,13 @@ fn extremes(means: &[Estimate]) -> Estimate {
     Estimate::new((high.value - low.value) / total, u)
 }
 
-/// When rows and frames were exposed.
+/// Exposure times of rows and frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlickerTiming {
-    /// From one row of the images to the next, s; `None` where all rows are exposed together.
+    /// Time from one row of the images to the next, s; `None` if all rows are exposed together.
     pub row_time_s: Option<f64>,
-    /// Frames a second; `None` where it is not known.
+    /// Frames per second; `None` if not known.
     pub frame_rate_hz: Option<f64>,
-    /// How long each row is exposed, s; `None` where it is not known.
+    /// Exposure of each row, s; `None` if not known.
     pub exposure_s: Option<f64>,
 }

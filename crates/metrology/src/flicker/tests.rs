@@ -1,4 +1,4 @@
-//! Lights of known frequency, modulation and duty, by sums over moments of each row's exposure, with noise.
+//! Lights of known frequency, modulation and duty cycle, by sums over moments of each row's exposure, with noise.
 
 use super::*;
 use core::f64::consts::{PI, TAU};
@@ -10,7 +10,7 @@ const COLUMNS: usize = 24;
 const BLACK: f64 = 64.0;
 const LEVEL: f64 = 1000.0;
 
-/// A sequence through a rolling shutter.
+/// A sequence with a rolling shutter.
 #[derive(Clone, Copy)]
 struct Shot {
     rows: usize,
@@ -64,7 +64,7 @@ fn mains(frequency_hz: f64, depth: f64) -> impl Fn(f64) -> f64 {
     move |time_s| 1.0 + depth * cos(TAU * frequency_hz * time_s + 0.7)
 }
 
-/// Of mean 1, on a steady light.
+/// Pulses on a constant light, with a total mean of 1.
 fn pulses(frequency_hz: f64, duty: f64, share: f64) -> impl Fn(f64) -> f64 {
     move |time_s| {
         let phase = (frequency_hz * time_s + 0.37).rem_euclid(1.0);
@@ -76,7 +76,7 @@ fn bands(flicker: &Flicker) -> RowBands {
     flicker.rows.as_ref().and_then(|rows| rows.found.clone()).expect("bands")
 }
 
-/// Within four standard uncertainties, which themselves are small.
+/// Asserts agreement within four standard uncertainties, which themselves must be small.
 fn knows(estimate: Estimate, expected: f64, relative: f64) {
     let Estimate { value, standard_uncertainty: u } = estimate;
     assert!((value - expected).abs() <= 4.0 * u + 1e-4 * expected, "{value} ± {u} is not {expected}");
@@ -90,7 +90,7 @@ fn mains_light_is_found_in_one_frame() {
         let found = bands(&shot.measured(3, mains(frequency_hz, depth)));
         let x = PI * frequency_hz * exposure_s;
         let seen = depth * (sin(x) / x).abs();
-        // Of 24 columns with a noise of 2 %: 0.4 % a row.
+        // 24 columns with a noise of 2 %: 0.4 % per row.
         knows(found.frequency_hz, frequency_hz, 0.02);
         knows(found.amplitude_ratio, seen, 0.1);
         knows(found.modulation, seen, 0.1);
@@ -112,7 +112,7 @@ fn pulses_have_their_duty_whether_shorter_or_longer_than_the_exposure() {
         let found = bands(&Shot { exposure_s, ..SHOT }.measured(5, pulses(frequency_hz, duty, share)));
         knows(found.frequency_hz, frequency_hz, 0.01);
         let light = found.pulses.expect("pulses");
-        // Sums over 2 000 moments tell edges to 5e-4 of the exposure.
+        // Sums over 2 000 moments resolve edges to 5e-4 of the exposure.
         knows(light.duty, duty, 0.1);
         knows(light.share, share, 0.1);
         // The closed form of pulses over exposures.
@@ -124,7 +124,8 @@ fn pulses_have_their_duty_whether_shorter_or_longer_than_the_exposure() {
     }
 }
 
-/// Exposures of half a period see pulses of duty 0.3 as they would see those of 0.7 about the same middles on a light below nothing.
+/// With exposures of half a period, pulses of duty cycle 0.3 are equivalent to pulses of 0.7 with the same middles plus a
+/// negative light.
 #[test]
 fn exposures_of_half_a_period_do_not_find_light_below_nothing() {
     let shot = Shot { exposure_s: 1.0 / 400.0, ..SHOT };
@@ -133,7 +134,7 @@ fn exposures_of_half_a_period_do_not_find_light_below_nothing() {
         knows(light.duty, duty, 0.1);
         knows(light.share, 1.0, 0.1);
     }
-    // Of a weaker share both are possible: nothing is stated.
+    // For a weaker fraction both are possible: nothing is stated.
     assert!(bands(&shot.measured(5, pulses(200.0, 0.3, 0.4))).pulses.is_none());
 }
 
@@ -151,7 +152,7 @@ fn frames_of_a_known_rate_tell_the_frequency_by_the_whole_sequence() {
     knows(bands(&alone).frequency_hz, 100.37, 0.02);
 }
 
-/// A small lamp: 40 rows of 30 µs see a tenth of a period of 83 Hz in each frame.
+/// A small lamp: in each frame, 40 rows of 30 µs cover a tenth of a period of 83 Hz.
 #[test]
 fn few_rows_of_many_frames_tell_a_slow_frequency() {
     let shot = Shot { rows: 40, frames: 40, row_time_s: 30e-6, exposure_s: 1e-3, ..SHOT };
@@ -160,7 +161,8 @@ fn few_rows_of_many_frames_tell_a_slow_frequency() {
     knows(found.pulses.expect("pulses").duty, 0.3, 0.05);
 }
 
-/// Few rows of few frames do not tell 110 Hz from 70, which frames of 30.03 Hz see at the opposite phases: the frequency is told rightly or not at all.
+/// Few rows of few frames do not distinguish 110 Hz from 70 Hz, which have opposite phases in frames at 30.03 Hz: the frequency
+/// is reported correctly or not at all.
 #[test]
 fn frequencies_that_frames_see_alike_are_not_mistaken() {
     let shot = Shot { rows: 24, frames: 4, row_time_s: 60e-6, frame_rate_hz: 30.03, exposure_s: 10e-3, noise: 40.0 };
@@ -192,7 +194,7 @@ fn frames_alone_tell_a_frequency_and_those_that_look_alike() {
     knows(frames.modulation, (high - low) / (2.0 + high + low), 0.05);
 }
 
-/// Shading over the rows, as a lens leaves it, is no flicker, and does not hide it.
+/// Lens shading over the rows is not reported as flicker, and does not hide it.
 #[test]
 fn shading_is_told_from_bands() {
     let vignetted = |seed, light: &dyn Fn(f64) -> f64| {
@@ -219,7 +221,7 @@ fn steady_light_has_no_bands() {
     }
 }
 
-/// Of light that goes up and down more slowly than one and a half periods over the rows, no frequency is made up.
+/// No frequency is reported for light with less than one and a half periods over the rows.
 #[test]
 fn a_frequency_of_too_few_periods_is_not_told() {
     let shot = Shot { rows: 200, row_time_s: 80e-6, ..SHOT };
@@ -250,7 +252,7 @@ fn what_cannot_be_measured_is_refused() {
     assert!(matches!(dark, Some(FlickerError::Dark { .. })));
 }
 
-/// Of 100 seeds 95 are expected within 1.96 standard uncertainties, standard deviation 2.2.
+/// 95 of 100 seeds are expected within 1.96 standard uncertainties, with a standard deviation of 2.2.
 #[test]
 fn uncertainties_cover_the_truth() {
     let shot = Shot { rows: 400, noise: 60.0, ..SHOT };

@@ -1,4 +1,4 @@
-//! Numbers over time, and the frequency that explains them.
+//! Time series, and the frequency that explains them.
 
 use core::f64::consts::TAU;
 
@@ -7,27 +7,28 @@ use etendue_core::maths::f64::{atan2, hypot, ln, sin_cos};
 use crate::Estimate;
 use crate::linear::{Cholesky, Matrix};
 
-/// Harmonics tried, the fundamental among them.
+/// Maximum number of harmonics, including the fundamental.
 const MAX_HARMONICS: usize = 7;
-/// Periods from which on shading is told from bands.
+/// Minimum number of periods that distinguishes shading from bands.
 const PERIODS_FOR_SHADING: f64 = 3.0;
-/// Whole frame rates, to either side, by which a frequency may have been mistaken.
+/// Maximum error of a frequency, in multiples of the frame rate to either side, that is considered.
 const MAX_ALIKE: f64 = 64.0;
-/// Periods from which on a frequency is told.
+/// Minimum number of periods of a detectable frequency.
 const MIN_PERIODS: f64 = 1.5;
-/// What the fundamental must gain on the criterion besides the frequencies tried, and a frequency beside those that frames see alike: by chance in one of 150.
+/// Minimum improvement of the criterion by the fundamental, in addition to that for the number of frequencies tried, and by a
+/// frequency relative to its aliases over frames: exceeded by chance in one of 150.
 const LEAST_GAIN: f64 = 10.0;
 
-/// Blocks of numbers at even steps: rows of frames, or frames.
+/// Blocks of numbers at equal steps: rows of frames, or frames.
 #[derive(Clone, Debug)]
 pub(super) struct TimeSeries {
-    /// When each block begins, s, and its numbers.
+    /// Start of each block, s, and its numbers.
     pub(super) blocks: Vec<(f64, Vec<f64>)>,
-    /// From one number of a block to the next, s.
+    /// Time from one number of a block to the next, s.
     pub(super) step_s: f64,
 }
 
-/// A level, its shading, and a Fourier series, fitted.
+/// A fitted level, its shading, and a Fourier series.
 #[derive(Clone, Debug)]
 pub(super) struct FourierFit {
     pub(super) frequency_hz: Estimate,
@@ -35,13 +36,13 @@ pub(super) struct FourierFit {
     pub(super) shading: bool,
     coefficients: Vec<f64>,
     covariance: Matrix,
-    /// Sum of squared residuals, and how many numbers and parameters there are.
+    /// Sum of squared residuals, and the numbers of values and parameters.
     pub(super) squares: f64,
     pub(super) count: usize,
     pub(super) parameters: usize,
 }
 
-/// What the criterion says of a fit: less is better.
+/// Information criterion of a fit: less is better.
 pub(super) fn criterion(squares: f64, count: usize, parameters: usize) -> f64 {
     let n = count as f64;
     n * ln((squares / n).max(f64::MIN_POSITIVE)) + parameters as f64 * ln(n)
@@ -68,7 +69,7 @@ impl TimeSeries {
         last - self.blocks.first().map_or(0.0, |(start_s, _)| *start_s) + self.block_length_s()
     }
 
-    /// Each number's time (s), and its place in its block, −1 … 1.
+    /// Time (s) of each number, and its position in its block, −1 … 1.
     pub(super) fn times(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.blocks.iter().flat_map(move |(start_s, values)| {
             let middle = 0.5 * (values.len() as f64 - 1.0);
@@ -80,7 +81,7 @@ impl TimeSeries {
         self.blocks.iter().flat_map(|(_, values)| values.iter().copied())
     }
 
-    /// A level, and with shading a slope and a curvature over the block whose mean is 0.
+    /// A level, and with shading a slope and a curvature over the block with zero mean.
     pub(super) fn level_columns(&self, shading: bool) -> Vec<Vec<f64>> {
         let u: Vec<f64> = self.times().map(|(_, u)| u).collect();
         let mean = u.iter().map(|u| u * u).sum::<f64>() / u.len() as f64;
@@ -113,13 +114,13 @@ impl TimeSeries {
         self.fit(&self.columns(frequency_hz, harmonics, shading)).map_or(f64::INFINITY, |fit| fit.squares)
     }
 
-    /// The least frequency that can be told, Hz.
+    /// The lowest detectable frequency, Hz.
     pub(super) fn lowest_hz(&self) -> f64 {
         MIN_PERIODS / self.length_s()
     }
 
-    /// The frequency that explains most, with its harmonics; `None` where none explains more than chance would, or what does cannot be
-    /// told from others.
+    /// The frequency that explains most, with its harmonics; `None` if none is significant, or if it cannot be distinguished from
+    /// others.
     pub(super) fn found(&self, highest_hz: f64) -> Option<FourierFit> {
         let told = |fit: &FourierFit| {
             fit.frequency_hz.value >= self.lowest_hz() && fit.frequency_hz.standard_uncertainty.is_finite()
@@ -144,7 +145,8 @@ impl TimeSeries {
         self.finished(frequency_hz, harmonics, shading)
     }
 
-    /// That of the frequencies that blocks see alike which explains most; `None` where another explains as much but for chance.
+    /// The one of the frequencies indistinguishable between blocks that explains most; `None` if another explains as much within
+    /// chance.
     fn told_apart(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> Option<f64> {
         let alike = self.alike(frequency_hz).into_iter().filter(|f| (0.5 / self.length_s()..=highest_hz).contains(f));
         let all: Vec<(f64, f64)> = alike.map(|f| (f, self.best_harmonics(f, highest_hz, shading).1)).collect();
@@ -154,7 +156,7 @@ impl TimeSeries {
         (next - best.1 > LEAST_GAIN).then_some(best.0)
     }
 
-    /// The frequency with as many harmonics as the criterion supports, each of which may move it.
+    /// The frequency with as many harmonics as the criterion supports, each of which may shift it.
     fn with_harmonics(&self, start_hz: f64, reach_hz: f64, highest_hz: f64, shading: bool) -> Option<(f64, usize)> {
         let level = if shading { 3 } else { 1 };
         let next = |f: &mut f64, h: usize| {
@@ -169,7 +171,7 @@ impl TimeSeries {
         MAX_HARMONICS.min((highest_hz / frequency_hz) as usize).min(self.count() / 6).max(1)
     }
 
-    /// How many harmonics the criterion supports, and what it says of them.
+    /// Number of harmonics that the criterion supports, and the value of the criterion.
     fn best_harmonics(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> (usize, f64) {
         let level = if shading { 3 } else { 1 };
         let of = |h: usize| criterion(self.squares(frequency_hz, h, shading), self.count(), level + 1 + 2 * h);
@@ -178,8 +180,8 @@ impl TimeSeries {
             .fold((1, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
     }
 
-    /// Frequencies that blocks at even steps see at the same phases, or at the opposite ones: only within the blocks do they differ.
-    /// The fundamental alone may prefer a wrong one of a light with harmonics.
+    /// Frequencies with the same phases, or the opposite ones, at the starts of blocks at equal steps: they differ only within the
+    /// blocks. For a light with harmonics the fundamental alone may prefer a wrong one.
     fn alike(&self, frequency_hz: f64) -> Vec<f64> {
         let [first, second, ..] = &self.blocks[..] else { return vec![frequency_hz] };
         let rate_hz = 1.0 / (second.0 - first.0);
@@ -190,7 +192,7 @@ impl TimeSeries {
         orders.flat_map(|order| [order + beyond, order - beyond]).collect()
     }
 
-    /// Whether the fundamental gains more than the best of so many frequencies would by chance.
+    /// True if the fundamental improves the criterion more than the best of this many frequencies would by chance.
     fn is_significant(&self, frequency_hz: f64, shading: bool, highest_hz: f64) -> bool {
         let Some(level) = self.fit(&self.level_columns(shading)) else { return false };
         let (n, tried) = (self.count() as f64, (highest_hz * self.length_s()).max(1.0));
@@ -199,7 +201,7 @@ impl TimeSeries {
         level.squares > 0.0 && n * ln(level.squares / squares) > 3.0 * ln(n) + 2.0 * ln(tried) + LEAST_GAIN
     }
 
-    /// The greatest of the periodogram: coarse over the blocks, each by itself, then about it over all of them together.
+    /// The maximum of the periodogram: coarse over the blocks separately, then near it over all of them together.
     fn strongest(&self, highest_hz: f64, shading: bool) -> Option<f64> {
         let level = self.fit(&self.level_columns(shading))?;
         let columns = self.level_columns(shading);
@@ -224,7 +226,7 @@ impl TimeSeries {
         })
     }
 
-    /// Of each block, as if it began at the time 0.
+    /// Transform of each block, as if it started at time 0.
     fn transforms<'a>(&'a self, rest: &'a [f64], frequency_hz: f64) -> impl Iterator<Item = [f64; 2]> + 'a {
         let (sin, cos) = sin_cos(-TAU * frequency_hz * self.step_s);
         let mut next = 0;
@@ -240,7 +242,7 @@ impl TimeSeries {
         })
     }
 
-    /// The least sum of squares within a reach, by golden section.
+    /// The minimum of the sum of squares within a range, by golden section.
     fn refined(&self, start_hz: f64, reach_hz: f64, harmonics: usize, shading: bool) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_895;
         let (mut low, mut high) = ((start_hz - reach_hz).max(0.05 * start_hz), start_hz + reach_hz);
@@ -262,7 +264,7 @@ impl TimeSeries {
         0.5 * (low + high)
     }
 
-    /// The fit of a frequency, whose uncertainty is that of the sum of squares' curvature.
+    /// The fit at a frequency, with the uncertainty from the curvature of the sum of squares.
     fn finished(&self, frequency_hz: f64, harmonics: usize, shading: bool) -> Option<FourierFit> {
         let fit = self.fit(&self.columns(frequency_hz, harmonics, shading))?;
         let (count, parameters) = (self.count(), fit.coefficients.len() + 1);
@@ -282,8 +284,8 @@ impl TimeSeries {
 }
 
 impl TimeSeries {
-    /// By how much errors that neighbours share, as where a series cannot follow an edge, count more than independent ones:
-    /// (1 + ρ)/(1 − ρ) of their correlation ρ, at least 1 (as for a first-order autoregression).
+    /// Variance factor for correlated errors of neighbours (for example where a series cannot follow an edge): (1 + ρ)/(1 − ρ) with
+    /// their correlation ρ, at least 1 (as for a first-order autoregression).
     fn alikeness(&self, residuals: &[f64]) -> f64 {
         let mut next = 0;
         let (mut products, mut squares) = (0.0, 0.0);
@@ -293,21 +295,21 @@ impl TimeSeries {
             products += part.array_windows().map(|[a, b]| a * b).sum::<f64>();
             squares += part.iter().map(|r| r * r).sum::<f64>();
         }
-        // What chance makes of independent errors is left out.
+        // Correlations that independent errors show by chance are ignored.
         let correlation = if squares > 0.0 { products / squares } else { 0.0 };
         let chance = 2.0 / (residuals.len() as f64).sqrt();
         if correlation > chance { (1.0 + correlation) / (1.0 - correlation).max(1e-6) } else { 1.0 }
     }
 }
 
-/// The place from `low` to `high`, in even steps, of the greatest value; `None` where there is no step.
+/// The position from `low` to `high`, in equal steps, of the maximum; `None` if there is no step.
 fn best(low: f64, high: f64, step: f64, value: impl Fn(f64) -> f64) -> Option<f64> {
     let steps = ((high - low) / step).floor();
     let places = (0..=steps.max(-1.0) as i64).map(|i| low + i as f64 * step);
     places.map(|place| (place, value(place))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
 }
 
-/// Coefficients of columns that explain values best.
+/// Coefficients of the columns that fit the values best.
 fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<LeastSquares> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut normal = Matrix::zeros(columns.len(), columns.len());
@@ -329,13 +331,13 @@ fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<LeastSquares> {
     Some(LeastSquares { coefficients, squares, residuals, inverse: factor.inverse() })
 }
 
-/// Coefficients of columns that explain the series best, and what they leave, as a sum of squares.
+/// Coefficients of the columns that fit the series best, and the sum of squares of the residuals.
 pub(super) fn explained(series: &TimeSeries, columns: &[Vec<f64>]) -> Option<(Vec<f64>, f64)> {
     series.fit(columns).map(|fit| (fit.coefficients, fit.squares))
 }
 
 impl FourierFit {
-    /// Where the harmonics begin among the coefficients.
+    /// Index of the first harmonic among the coefficients.
     fn first(&self) -> usize {
         if self.shading { 3 } else { 1 }
     }
@@ -345,7 +347,7 @@ impl FourierFit {
         self.coefficients[0]
     }
 
-    /// Parameters of the level and the shading.
+    /// Number of parameters of the level and the shading.
     pub(super) fn level_parameters(&self) -> usize {
         self.first()
     }
@@ -361,13 +363,13 @@ impl FourierFit {
         Estimate::new(amplitude / mean, self.uncertainty(&slopes))
     }
 
-    /// When the fundamental is greatest, periods after the time 0.
+    /// Time of the fundamental's maximum, in periods after time 0.
     pub(super) fn peak_periods(&self) -> f64 {
         let first = self.first();
         atan2(self.coefficients[first + 1], self.coefficients[first]) / TAU
     }
 
-    /// (greatest − least)/(greatest + least) of the fitted series.
+    /// (max − min)/(max + min) of the fitted series.
     pub(super) fn michelson(&self) -> Estimate {
         const PHASES: u32 = 720;
         let at = |slopes: &[f64]| slopes.iter().zip(&self.coefficients).map(|(s, c)| s * c).sum::<f64>();
@@ -382,7 +384,7 @@ impl FourierFit {
         Estimate::new((high - low) / total, self.uncertainty(&slopes))
     }
 
-    /// What each coefficient gives the series at a phase, without shading.
+    /// Contribution of each coefficient to the series at a phase, without shading.
     fn slopes_at(&self, phase: f64) -> Vec<f64> {
         let mut slopes = vec![0.0; self.coefficients.len()];
         slopes[0] = 1.0;

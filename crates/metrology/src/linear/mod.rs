@@ -1,20 +1,20 @@
-//! Small dense linear algebra in `f64`: what fits of some hundred parameters need.
+//! Small dense linear algebra in `f64`, for fits of a few hundred parameters.
 //!
-//! | what | for | file |
+//! | item | purpose | file |
 //! | --- | --- | --- |
 //! | [`Matrix`] | row-major storage | here |
 //! | [`Cholesky`] | normal equations, covariance | here |
-//! | [`Orthogonal`] | least squares whose conditioning counts | `orthogonal.rs` |
-//! | [`eigen()`] | null vectors, what a fit cannot tell | `orthogonal.rs` |
+//! | [`Orthogonal`] | ill-conditioned least squares | `orthogonal.rs` |
+//! | [`eigen()`] | null vectors, undetermined directions of a fit | `orthogonal.rs` |
 //!
 //! Golub & Van Loan, Matrix Computations (4th ed., 2013): algorithms 4.2.1, 5.2.1 and 8.5.2. Sums run in index order.
-//! Left out: pivoting, sparse matrices, anything of more than some thousand columns.
+//! Limitations: no pivoting, no sparse matrices, not for more than a few thousand columns.
 
 mod orthogonal;
 
 pub use orthogonal::{Eigen, Orthogonal, Solution, eigen};
 
-/// A matrix, row by row.
+/// A matrix, stored row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
     rows: usize,
@@ -23,13 +23,13 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Zeros.
+    /// A matrix of zeros.
     #[must_use]
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self { rows, columns, values: vec![0.0; rows * columns] }
     }
 
-    /// The matrix whose rows are given, each of `columns` numbers. Panics where one is longer or shorter.
+    /// The matrix with these rows, each of `columns` numbers. Panics if one is longer or shorter.
     #[must_use]
     pub fn from_rows<R: AsRef<[f64]>>(columns: usize, rows: impl IntoIterator<Item = R>) -> Self {
         let mut made = Self::zeros(0, columns);
@@ -41,25 +41,25 @@ impl Matrix {
         made
     }
 
-    /// Rows.
+    /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Columns.
+    /// Number of columns.
     #[must_use]
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// The number in row `i`, column `j`.
+    /// Element in row `i`, column `j`.
     #[must_use]
     pub fn at(&self, i: usize, j: usize) -> f64 {
         self.values[i * self.columns + j]
     }
 
-    /// The number in row `i`, column `j`, to be changed.
+    /// Mutable element in row `i`, column `j`.
     pub fn at_mut(&mut self, i: usize, j: usize) -> &mut f64 {
         &mut self.values[i * self.columns + j]
     }
@@ -102,7 +102,7 @@ impl Matrix {
         Self::from_rows(other.columns, (0..self.rows).map(|i| other.times(self.row(i))))
     }
 
-    /// The same, `factor` times.
+    /// The product with a scalar.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Self {
         self.values.iter_mut().for_each(|value| *value *= factor);
@@ -128,8 +128,8 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    /// Factors a symmetric matrix; `None` where a pivot is less than `least` of its diagonal element: there the columns before
-    /// it explain the column, to rounding.
+    /// Factors a symmetric matrix; `None` if a pivot is less than `least` of its diagonal element: there the column depends
+    /// linearly on those before it, to rounding.
     #[must_use]
     pub fn of(a: &Matrix, least: f64) -> Option<Self> {
         let n = a.rows();
@@ -150,7 +150,7 @@ impl Cholesky {
         Some(Self { lower })
     }
 
-    /// x of A x = b.
+    /// Solves A x = b.
     #[must_use]
     pub fn solve(&self, b: &[f64]) -> Vec<f64> {
         let n = b.len();
@@ -176,7 +176,7 @@ impl Cholesky {
     #[must_use]
     pub fn inverse(&self) -> Matrix {
         let n = self.lower.rows();
-        // Row j holds column j of L⁻¹, from the diagonal on.
+        // Row j contains column j of L⁻¹, from the diagonal on.
         let mut columns = Matrix::zeros(n, n);
         for j in 0..n {
             for i in j..n {
@@ -190,10 +190,10 @@ impl Cholesky {
     }
 }
 
-/// A pivot below this share of its diagonal element is rounding: the equations do not determine their unknowns.
+/// Minimum pivot relative to its diagonal element; below it the equations do not determine their unknowns.
 const MIN_PIVOT: f64 = 1e-12;
 
-/// AᵀWA and AᵀWb, gathered row by row.
+/// Normal equations AᵀWA and AᵀWb, accumulated row by row.
 #[derive(Clone, Debug)]
 pub(crate) struct Normal {
     matrix: Matrix,
@@ -201,18 +201,18 @@ pub(crate) struct Normal {
 }
 
 impl Normal {
-    /// For so many unknowns.
+    /// For this number of unknowns.
     pub(crate) fn new(unknowns: usize) -> Self {
         Self { matrix: Matrix::zeros(unknowns, unknowns), right: vec![0.0; unknowns] }
     }
 
-    /// Takes in the equation row · x = b of a weight.
+    /// Adds the equation row · x = b with a weight.
     pub(crate) fn add(&mut self, row: &[f64], b: f64, weight: f64) {
         let places: Vec<usize> = (0..row.len()).collect();
         self.add_at(&places, row, b, weight);
     }
 
-    /// The same for a row that is zero but at some places.
+    /// The same for a row that is zero except at some indices.
     pub(crate) fn add_at(&mut self, places: &[usize], values: &[f64], b: f64, weight: f64) {
         for (i, a) in places.iter().zip(values) {
             let weighted = weight * a;
@@ -221,7 +221,7 @@ impl Normal {
         }
     }
 
-    /// The solution; `None` where the equations do not determine it.
+    /// The solution; `None` if the equations do not determine it.
     pub(crate) fn solve(&self) -> Option<Vec<f64>> {
         Some(Cholesky::of(&self.matrix, MIN_PIVOT)?.solve(&self.right))
     }
@@ -243,7 +243,7 @@ mod tests {
         let want = [[9.0, -36.0, 30.0], [-36.0, 192.0, -180.0], [30.0, -180.0, 180.0]];
         for (i, row) in want.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
-                // Condition number 524: some hundred roundings of the largest element.
+                // Condition number 524: about a hundred roundings of the largest element.
                 assert!((inverse.at(i, j) - value).abs() < 1e-10, "{i} {j}");
             }
         }

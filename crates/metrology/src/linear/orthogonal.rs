@@ -1,18 +1,18 @@
-//! Least squares by Householder reflections: the conditioning of A, not of AᵀA.
+//! Least squares by Householder reflections, with the conditioning of A, not of AᵀA.
 
 use etendue_core::maths::f64::hypot;
 
 use super::{Matrix, dot};
 
-/// A factored design matrix A = Q R of at least as many rows as columns.
+/// A factored design matrix A = Q R with at least as many rows as columns.
 #[derive(Clone, Debug)]
 pub struct Orthogonal {
-    /// R above the diagonal and on it, the reflections' vectors below (their heads apart).
+    /// R on and above the diagonal, the reflections' vectors below it (their heads are stored separately).
     packed: Matrix,
     heads: Vec<f64>,
 }
 
-/// Least squares' answer.
+/// Solution of a least-squares problem.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// The parameters.
@@ -22,8 +22,8 @@ pub struct Solution {
 }
 
 impl Orthogonal {
-    /// Factors; `None` where there are fewer rows than columns, or a column is explained by those before it to within
-    /// `least` of its length.
+    /// Factors; `None` if there are fewer rows than columns, or if a column depends linearly on those before it to within `least`
+    /// of its length.
     #[must_use]
     pub fn of(a: &Matrix, least: f64) -> Option<Self> {
         let (m, n) = (a.rows(), a.columns());
@@ -50,7 +50,7 @@ impl Orthogonal {
         Some(Self { packed, heads })
     }
 
-    /// The parameters that come nearest to `b`.
+    /// The least-squares solution for `b`.
     #[must_use]
     pub fn solve(&self, b: &[f64]) -> Solution {
         let (m, n) = (self.packed.rows(), self.packed.columns());
@@ -90,7 +90,7 @@ impl Matrix {
     }
 }
 
-/// From row k on: a column reflected at the plane across v = (head, column below the diagonal).
+/// Reflects a column, from row k on, at the plane perpendicular to v = (head, column below the diagonal).
 fn reflect(column: &[f64], head: f64, k: usize, value: impl Fn(usize) -> f64) -> Vec<f64> {
     let below = &column[k + 1..];
     let v_v = head * head + below.iter().map(|v| v * v).sum::<f64>();
@@ -101,16 +101,16 @@ fn reflect(column: &[f64], head: f64, k: usize, value: impl Fn(usize) -> f64) ->
         .collect()
 }
 
-/// Eigenvalues in rising order with their unit vectors.
+/// Eigenvalues in increasing order with their unit vectors.
 #[derive(Clone, Debug)]
 pub struct Eigen {
     /// The eigenvalues.
     pub values: Vec<f64>,
-    /// The vector of each.
+    /// Eigenvector of each.
     pub vectors: Vec<Vec<f64>>,
 }
 
-/// All eigenvalues of a symmetric matrix, to some roundings of the largest.
+/// All eigenvalues of a symmetric matrix, to a few roundings of the largest.
 #[must_use]
 pub fn eigen(a: &Matrix) -> Eigen {
     const SWEEPS: usize = 60;
@@ -137,7 +137,7 @@ pub fn eigen(a: &Matrix) -> Eigen {
     }
 }
 
-/// Makes the element (p, q) zero; false where it is already, to rounding. Rows of `vectors` are the vectors.
+/// Sets the element (p, q) to zero; false if it is zero already, to rounding. Rows of `vectors` are the vectors.
 fn rotate(a: &mut Matrix, vectors: &mut Matrix, p: usize, q: usize) -> bool {
     let (off, difference) = (a.at(p, q), a.at(q, q) - a.at(p, p));
     if off.abs() <= 1e-17 * (a.at(p, p).abs() + a.at(q, q).abs()) || off.abs() < f64::MIN_POSITIVE {

@@ -1,33 +1,35 @@
 //! Opto-electronic conversion function: readings against exposure.
 //!
-//! ISO 14524:2009 (focal-plane OECF) from pictures of one surface at many exposures, or from steps of known luminance in one
-//! picture; figure 13 of Gruyer, Grapinet & De Souza uses fifteen exposures of a back-lit panel. What is found:
+//! ISO 14524:2009 (focal-plane OECF) from images of one surface at many exposures, or from steps of known luminance in one image;
+//! figure 13 of Gruyer, Grapinet & De Souza uses fifteen exposures of a back-lit panel. Results:
 //!
 //! ```text
-//! points      mean reading against exposure, with its standard uncertainty ([`patch_statistics`](crate::patch_statistics)) and what rounding leaves
+//! points      mean reading against exposure, with its standard uncertainty ([`patch_statistics`](crate::patch_statistics)) and
+//! the rounding error
 //!             ([`rounding_variance`])
 //! curve       monotone cubic through the points (Fritsch & Carlson 1980), and its slope (incremental gain)
 //! linearity   straight line y = a + b H over 5…95 % of the range, weights 1/(y − black)² (EMVA 1288): largest relative deviation
-//! range       exposure at saturation over that of SNR 1, from the noise of the points (ISO 15739, 6.3: signal over temporal noise
+//! range       exposure at saturation over that of SNR 1, from the noise of the points (ISO 15739, 6.3: signal over temporal
+//! noise
 //!             referred to the exposure: H (dy/dH)/σ)
 //! ```
 //!
-//! Saturation is the first point that rises by less than a tenth of what the straight part would, or more than a thousandth of whose
-//! pixels are at full scale, where that is known.
+//! Saturation is the first point that rises by less than a tenth of the slope of the straight part, or with more than a
+//! thousandth of its pixels at full scale, if that is known.
 //!
-//! Refused: fewer than three exposures, exposures that are no positive numbers or equal, readings that fall.
+//! Refused: fewer than three exposures, exposures that are not positive or are equal, decreasing readings.
 //!
-//! The mean of the readings of noisy light through a curve.
+//! Mean reading of noisy light through a curve:
 //!
-//! A pixel of light L + σ z, z normal, reads y(L + σ z), and the mean of many is not y(L): a curve that bends, such as the end of a tone curve or a saturation, moves it. σ follows
-//! from the readings' own standard deviation s, which is measured,
+//! A pixel of light L + σ z, z normal, reads y(L + σ z), and the mean of many is not y(L): a bent curve, such as the end of a
+//! tone curve or a saturation, shifts it. σ follows from the measured standard deviation s of the readings,
 //!
 //! ```text
 //! ∫ y(L + σ z)² φ(z) dz − (∫ y(L + σ z) φ(z) dz)² = s²        mean = ∫ y(L + σ z) φ(z) dz
 //! ```
 //!
-//! by 161 steps of the trapezoidal rule over |z| ≤ 5 (its error for smooth curves is beyond rounding; a knee of slopes m₁ and m₂ within leaves (m₁ − m₂) σ h²/8 at most, h 1/16: 5·10⁻⁴ of
-//! the bend over σ).
+//! by 161 steps of the trapezoidal rule over |z| ≤ 5 (its error for smooth curves is below rounding; a knee of slopes m₁ and m₂
+//! inside leaves (m₁ − m₂) σ h²/8 at most, h 1/16: 5·10⁻⁴ of the bend over σ).
 
 pub mod response;
 #[cfg(test)]
@@ -47,15 +49,15 @@ pub struct ExposurePoint {
     pub exposure: f64,
     /// Mean reading.
     pub reading: Estimate,
-    /// Standard deviation of a single pixel's reading over time (or within the surface), where it is known.
+    /// Standard deviation of a single pixel's reading over time (or within the surface), if known.
     pub noise: Option<f64>,
-    /// Whether pixels are saturated, which lowers mean and noise.
+    /// True if pixels are saturated, which lowers mean and noise.
     pub clipped: bool,
 }
 
 impl ExposurePoint {
-    /// Mean and scatter of an even surface, whose errors are alike in blocks of `shared_px` × `shared_px` pixels (1: in none); `full_scale` is
-    /// the reading of a saturated pixel.
+    /// Mean and scatter of a uniform surface with equal errors in blocks of `shared_px` × `shared_px` pixels (1: none);
+    /// `full_scale` is the reading of a saturated pixel.
     #[must_use]
     pub fn of(exposure: f64, surface: &Image, full_scale: Option<f64>, shared_px: usize) -> Self {
         let patch = patch_statistics(surface, shared_px);
@@ -71,9 +73,9 @@ impl ExposurePoint {
     }
 }
 
-/// The variance that rounding to whole numbers leaves in a mean of many readings, given the variance of a single one. Noise of about a step
-/// smooths rounding away; of none 1/12 is left. With σ the noise before rounding, the mean of y + rounding error over the phase of y varies
-/// by Σ_k exp(−4π² k² σ²)/(2π² k²) (Widrow & Kollár 2008).
+/// The variance that rounding to integers leaves in a mean of many readings, from the variance of a single one. Noise of about
+/// one step averages rounding out; without noise 1/12 remains. With σ the noise before rounding, the mean of y + rounding error
+/// over the phase of y varies by Σ_k exp(−4π² k² σ²)/(2π² k²) (Widrow & Kollár 2008).
 #[must_use]
 pub fn rounding_variance(variance: f64) -> f64 {
     const TERMS: i32 = 200;
@@ -93,29 +95,29 @@ pub struct Oecf {
 /// A straight line through the points below saturation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linearity {
-    /// Reading of no exposure.
+    /// Reading at zero exposure.
     pub offset: f64,
-    /// Reading a unit of exposure.
+    /// Reading per unit of exposure.
     pub slope: f64,
     /// Relative deviation of each point from the line.
     pub deviations: Vec<f64>,
-    /// The largest magnitude among the points of the fit.
+    /// The largest magnitude among the fitted points.
     pub largest: f64,
 }
 
-/// Why there is no tone curve.
+/// Reason why there is no tone curve.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OecfError {
     /// Too few points.
     #[error("a tone curve needs at least three exposures, not {0}: give more pictures or steps")]
     TooFew(usize),
-    /// An exposure is no positive number.
+    /// An exposure is not a positive number.
     #[error("exposures must be positive numbers, not {0}")]
     Exposure(f64),
-    /// Two points share their exposure.
+    /// Two points have equal exposures.
     #[error("two points share the exposure {0}: give each exposure once")]
     Twice(f64),
-    /// More exposure, lower reading.
+    /// Higher exposure, lower reading.
     #[error(
         "the reading falls from {from:.2} to {to:.2} between the exposures {low} and {high}: are the exposures in the wrong order?"
     )]
@@ -132,16 +134,16 @@ pub enum OecfError {
     /// Readings do not change.
     #[error("the readings do not change with the exposure: is every picture saturated, or the same?")]
     Flat,
-    /// The least exposure is saturated.
+    /// The lowest exposure is saturated.
     #[error("even the least exposure, {0}, is saturated: expose less")]
     Saturated(f64),
 }
 
 impl Oecf {
-    /// The curve through points in any order.
+    /// Creates the curve from points in any order.
     ///
     /// # Errors
-    /// Where there are too few, exposures are unusable, or readings fall by more than four standard uncertainties.
+    /// If there are too few, exposures are unusable, or readings decrease by more than four standard uncertainties.
     pub fn new(mut points: Vec<ExposurePoint>) -> Result<Self, OecfError> {
         if points.len() < 3 {
             return Err(OecfError::TooFew(points.len()));
@@ -166,19 +168,19 @@ impl Oecf {
         Ok(Self { points, slopes, saturation })
     }
 
-    /// The points, least exposure first.
+    /// The points, lowest exposure first.
     #[must_use]
     pub fn points(&self) -> &[ExposurePoint] {
         &self.points
     }
 
-    /// The first saturated point; the number of points where none is.
+    /// Index of the first saturated point; the number of points if none is.
     #[must_use]
     pub fn saturation(&self) -> usize {
         self.saturation
     }
 
-    /// The reading at an exposure within the range; its nearest end's beyond.
+    /// The reading at an exposure within the range; that of the nearest end outside it.
     #[must_use]
     pub fn reading(&self, exposure: f64) -> f64 {
         let (k, t, width) = self.place(exposure);
@@ -197,7 +199,7 @@ impl Oecf {
         6.0 * t * (1.0 - t) * rise / width + (1.0 - t) * (1.0 - 3.0 * t) * m + t * (3.0 * t - 2.0) * n
     }
 
-    /// The interval of an exposure, where in it, and its width.
+    /// The interval of an exposure, the position in it, and its width.
     fn place(&self, exposure: f64) -> (usize, f64, f64) {
         let above = self.points.partition_point(|p| p.exposure <= exposure);
         let k = above.clamp(1, self.points.len() - 1) - 1;
@@ -205,8 +207,7 @@ impl Oecf {
         (k, ((exposure - self.points[k].exposure) / width).clamp(0.0, 1.0), width)
     }
 
-    /// The straight line over the points of 5 to 95 % of the range above `black`, below saturation; `None` with fewer than three of
-    /// them.
+    /// The straight line over the points of 5 to 95 % of the range above `black`, below saturation; `None` for fewer than three.
     #[must_use]
     pub fn linearity(&self, black: f64) -> Option<Linearity> {
         let top = self.points[self.saturation.min(self.points.len()) - 1].reading.value - black;
@@ -226,8 +227,8 @@ impl Oecf {
         Some(Linearity { offset, slope, deviations: self.points.iter().map(deviation).collect(), largest })
     }
 
-    /// Exposure at saturation (or the highest) over that at which the signal equals the noise; `None` where noise is unknown, or
-    /// above the signal even at the lowest exposure is not reached: then the noise of the lowest point is carried down.
+    /// Exposure at saturation (or the highest) over that at which the signal equals the noise. `None` if the noise is unknown. If
+    /// the signal exceeds the noise even at the lowest exposure, the noise of the lowest point is extrapolated.
     #[must_use]
     pub fn dynamic_range(&self) -> Option<f64> {
         let snr = |p: &ExposurePoint| Some(p.exposure * self.gain(p.exposure) / p.noise.filter(|n| *n > 0.0)?);
@@ -235,7 +236,7 @@ impl Oecf {
         let top = self.points[self.saturation.clamp(1, self.points.len()) - 1].exposure;
         let first = ratios.first()?;
         let least = if *first >= 1.0 {
-            // Below the first point noise and gain stay: SNR falls in proportion.
+            // Below the first point noise and gain are constant: SNR falls in proportion.
             self.points[0].exposure / first
         } else {
             let k = ratios.windows(2).position(|pair| pair[0] < 1.0 && pair[1] >= 1.0)?;
@@ -253,14 +254,14 @@ fn rises(a: ExposurePoint, b: ExposurePoint) -> Result<(), OecfError> {
     }
     let (from, to) = (a.reading.value, b.reading.value);
     let u = a.reading.standard_uncertainty.max(b.reading.standard_uncertainty);
-    // Saturated means jitter by less than a thousandth.
+    // Saturated means vary by less than a thousandth.
     if to < from - 4.0 * u - 1e-3 * from.abs() {
         return Err(OecfError::Falls { low: a.exposure, high: b.exposure, from, to });
     }
     Ok(())
 }
 
-/// Fritsch and Carlson's slopes: harmonic means of the secants, 0 where the curve turns or stays.
+/// Slopes of Fritsch and Carlson: harmonic means of the secants, 0 at extrema and on plateaus.
 fn monotone_slopes(points: &[ExposurePoint]) -> Vec<f64> {
     let secant = |pair: &[ExposurePoint]| {
         (pair[1].reading.value - pair[0].reading.value) / (pair[1].exposure - pair[0].exposure)
@@ -275,7 +276,7 @@ fn monotone_slopes(points: &[ExposurePoint]) -> Vec<f64> {
         let (w, v) = (2.0 * width(k) + width(k - 1), width(k) + 2.0 * width(k - 1));
         (w + v) / (w / a + v / b)
     };
-    // Three-point slopes at the ends, as far as the curve stays monotone.
+    // Three-point slopes at the ends, limited to keep the curve monotone.
     let end = |near: usize, far: usize| {
         let (a, b) = (width(near), width(far));
         let slope = ((2.0 * a + b) * secants[near] - a * secants[far]) / (a + b);
@@ -295,7 +296,7 @@ fn monotone_slopes(points: &[ExposurePoint]) -> Vec<f64> {
         .collect()
 }
 
-/// The first point from which on the curve stays: its rise is below a tenth of the median secant before it.
+/// The first point of the plateau: its rise is below a tenth of the median secant before it.
 fn saturation(points: &[ExposurePoint]) -> usize {
     let top = points[points.len() - 1].reading.value;
     let range = top - points[0].reading.value;
@@ -307,13 +308,13 @@ fn saturation(points: &[ExposurePoint]) -> usize {
     (1..points.len() - 1).find(stays).unwrap_or(points.len())
 }
 
-/// The mean reading of light whose readings scatter by `noise`.
+/// The mean reading of light whose readings have the standard deviation `noise`.
 pub fn noisy_mean(curve: impl Fn(f64) -> f64, light: f64, noise: f64) -> f64 {
     let of = |sigma: f64| moments(&curve, light, sigma);
     if noise <= 0.0 || noise.is_nan() {
         return curve(light);
     }
-    // Upwards until the readings scatter enough; never where the curve is flat.
+    // Increase σ until the readings scatter enough; never if the curve is flat.
     let mut high = 1e-6 * light.abs().max(1e-6);
     while of(high).1 < noise {
         high *= 2.0;

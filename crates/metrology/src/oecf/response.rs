@@ -1,56 +1,57 @@
-//! A camera's response from differently exposed pictures of one scene, exposures known only relatively.
+//! Response of a camera from differently exposed images of one scene, with relatively known exposures.
 //!
-//! Mitsunaga & Nayar (1999): the light of a pixel is a polynomial of its reading, so that pictures q and q + 1 of exposure ratio R
+//! Mitsunaga & Nayar (1999): the light of a pixel is a polynomial of its reading, so that images q and q + 1 of exposure ratio R
 //! agree:
 //!
 //! ```text
 //! f(M) = Σ c_n Mⁿ, f(1) = 1        minimise Σ (f(M_q) − R f(M_(q+1)))²/σ²        M: reading over full scale
 //! ```
 //!
-//! Each pair's variance follows from the reading's own, f'(M)² σ_M², by reweighting; what the readings' noise adds to the normal
-//! equations' squares is subtracted from them (errors in variables, Fuller 1987), σ_M² being that of the pairs' disagreement. With `refine` the ratios
-//! are found too, in turns with the coefficients, from a rough start (aperture rings, shutters); then the response is known but for a
-//! power, as the authors show, and only noise or curvature fixes it: prefer exposures that are known.
+//! Each pair's variance follows from that of the readings, f'(M)² σ_M², by reweighting. The contribution of the readings' noise
+//! to the squares of the normal equations is subtracted (errors in variables, Fuller 1987), with σ_M² from the disagreement of
+//! the pairs. With `refine` the ratios are estimated too, alternating with the coefficients, from approximate values (aperture
+//! rings, shutters). The response is then determined only up to a power, as the authors show, and only noise or curvature fixes
+//! it: known exposures are preferable.
 //!
-//! The degree is the lowest of those up to `degree` that the next one does not better by more than two standard deviations.
-//! Refused: fewer than two pictures, pictures of equal exposure, too few usable pixels.
+//! The degree is the lowest, up to `degree`, that the next one does not improve by more than two standard deviations. Refused:
+//! fewer than two images, images of equal exposure, too few usable pixels.
 
 use super::OecfError;
 use crate::linear::{Matrix, Normal};
 use crate::{Estimate, Image};
 
-/// A response: light over its largest, as a polynomial of the reading over full scale.
+/// A response: light relative to its maximum, as a polynomial of the reading over full scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
     /// c₀ … c_N.
     pub coefficients: Vec<f64>,
     /// Covariance of c₁ … c_N.
     covariance: Matrix,
-    /// Exposure of each picture over the first's.
+    /// Exposure of each image over the first's.
     pub ratios: Vec<f64>,
-    /// Root mean square disagreement of pairs, of the largest light.
+    /// Root mean square disagreement of pairs, relative to the maximum light.
     pub residual: f64,
 }
 
-/// How a response is searched.
+/// Settings of a response estimation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResponseSettings {
     /// Reading of a saturated pixel.
     pub full_scale: f64,
-    /// Reading of no light.
+    /// Reading without light.
     pub black: f64,
-    /// The largest degree that is tried.
+    /// Maximum degree.
     pub degree: usize,
-    /// Whether the exposure ratios are found as well.
+    /// True to estimate the exposure ratios as well.
     pub refine: bool,
 }
 
-/// Readings used: away from black and saturation, share of the range.
+/// Range of readings used: away from black and saturation, as fractions of the range.
 const USABLE: core::ops::Range<f64> = 0.02..0.98;
-/// Pixels used of each pair, spread evenly.
+/// Pixels used from each pair, uniformly distributed.
 const PIXELS: usize = 20_000;
 
-/// A pair of readings of one pixel, and which pictures they are of.
+/// A pair of readings of one pixel, with the indices of their images.
 #[derive(Clone, Copy)]
 struct Pair {
     low: f64,
@@ -58,10 +59,10 @@ struct Pair {
     pictures: (usize, usize),
 }
 
-/// The response of the camera that took pictures of one scene at the given exposures.
+/// Estimates the response of the camera from images of one scene at the given exposures.
 ///
 /// # Errors
-/// Where there are too few pictures, pixels or exposures.
+/// If there are too few images, pixels or exposures.
 pub fn camera_response(pictures: &[(f64, &Image)], settings: &ResponseSettings) -> Result<Response, OecfError> {
     let mut sorted: Vec<(f64, &Image)> = pictures.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -104,13 +105,13 @@ fn pairs(pictures: &[(f64, &Image)], settings: &ResponseSettings) -> Vec<Pair> {
     pairs
 }
 
-/// The lowest degree that suffices.
+/// The lowest sufficient degree.
 fn search(pairs: &[Pair], exposures: &[f64], most: usize) -> Result<Response, OecfError> {
     let mut best: Option<Response> = None;
     for degree in 1..=most.max(1) {
         let Some(next) = fitted(pairs, exposures, degree, 0.0) else { continue };
         let free = pairs.len() as f64;
-        // The scatter of a variance over so many pairs.
+        // Standard deviation of a variance over this many pairs.
         let better =
             |b: &Response| next.residual * next.residual < b.residual * b.residual * (1.0 - 2.0 * (2.0 / free).sqrt());
         if best.as_ref().is_none_or(better) {
@@ -126,7 +127,7 @@ fn search(pairs: &[Pair], exposures: &[f64], most: usize) -> Result<Response, Oe
     Ok(best)
 }
 
-/// The polynomial of a degree, readings of a given noise variance.
+/// The polynomial of a degree, for readings of a given noise variance.
 fn fitted(pairs: &[Pair], exposures: &[f64], degree: usize, noise: f64) -> Option<Response> {
     let mut response = Response {
         coefficients: [0.0, 1.0].into_iter().chain(core::iter::repeat_n(0.0, degree - 1)).collect(),
@@ -146,7 +147,7 @@ fn fitted(pairs: &[Pair], exposures: &[f64], degree: usize, noise: f64) -> Optio
             squares += weight * residual * residual;
             weights += 1.0;
             normal.add(&row, -constant, weight);
-            // What the noise of the two readings adds to the squares.
+            // Contribution of the noise of the two readings to the squares.
             normal.add(&gradient(pair.high, degree, 1.0), -1.0, -weight * noise);
             normal.add(&gradient(pair.low, degree, ratio), -ratio, -weight * noise);
         }
@@ -161,8 +162,8 @@ fn fitted(pairs: &[Pair], exposures: &[f64], degree: usize, noise: f64) -> Optio
     Some(response)
 }
 
-/// The equation f(M_high) − R f(M_low) = 0 with f(M) = M + Σ_(n ≥ 2) c_n (Mⁿ − M) + …: as a row of c₁ … c_N and a constant. c₁ is
-/// replaced by 1 − Σ c_n, so that f(1) = 1: its own column holds a weak tie to that value.
+/// The equation f(M_high) − R f(M_low) = 0 with f(M) = M + Σ_(n ≥ 2) c_n (Mⁿ − M) + …, as a row of c₁ … c_N and a constant. c₁ is
+/// replaced by 1 − Σ c_n, so that f(1) = 1: its own column is a weak tie to that value.
 fn equation(pair: &Pair, exposures: &[f64], degree: usize) -> (Vec<f64>, f64) {
     let ratio = exposures[pair.pictures.1] / exposures[pair.pictures.0];
     let constant = pair.high - ratio * pair.low;
@@ -171,7 +172,7 @@ fn equation(pair: &Pair, exposures: &[f64], degree: usize) -> (Vec<f64>, f64) {
     ((1..=degree).map(term).collect(), constant)
 }
 
-/// How a pair's row changes with a reading: n Mⁿ⁻¹ − 1.
+/// Derivative of a pair's row by a reading: n Mⁿ⁻¹ − 1.
 fn gradient(reading: f64, degree: usize, ratio: f64) -> Vec<f64> {
     let power = |n: usize| (1..n).fold(1.0, |p, _| p * reading);
     (1..=degree).map(|n| if n == 1 { 0.0 } else { ratio * (n as f64 * power(n) - 1.0) }).collect()
@@ -196,7 +197,7 @@ impl Response {
         self.coefficients[1] = 1.0 - rest;
     }
 
-    /// Light of a reading over full scale, of the largest light.
+    /// Light of a reading over full scale, relative to the maximum light.
     #[must_use]
     pub fn light(&self, reading: f64) -> f64 {
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * reading + c)

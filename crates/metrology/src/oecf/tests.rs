@@ -6,7 +6,7 @@ use super::response::{ResponseSettings, camera_response};
 use super::*;
 use crate::Image;
 
-// Known curves, known cameras.
+// Tests with known curves and known cameras.
 
 fn point(exposure: f64, reading: f64) -> ExposurePoint {
     ExposurePoint { exposure, reading: Estimate::new(reading, 0.01), noise: Some(2.0), clipped: false }
@@ -53,7 +53,7 @@ fn curves_that_are_none_are_refused() {
     assert_eq!(of(&[point(1.0, 255.0), point(2.0, 255.0), point(3.0, 255.0)]), Err(OecfError::Flat));
 }
 
-/// Noise at the full scale is cut: the mean is still rising there, but no longer right.
+/// Noise at full scale is clipped: the mean is still rising there, but no longer correct.
 #[test]
 fn clipped_light_is_no_part_of_the_straight_line() {
     let shot = |i: u32| {
@@ -71,7 +71,7 @@ fn clipped_light_is_no_part_of_the_straight_line() {
     assert!(Oecf::new(points[13..].iter().chain(&points[12..13]).copied().collect()).is_err());
 }
 
-/// A scene of all lights, by a camera of a given curve with noise of 0.2 %.
+/// A scene of all light levels, captured by a camera with a given curve and noise of 0.2 %.
 fn picture(exposure: f64, curve: impl Fn(f64) -> f64, frame: u32) -> Image {
     let normal = Normal::new(0.0, 0.002).expect("a width");
     let sample = |i: usize| {
@@ -95,7 +95,7 @@ fn the_response_comes_back_from_relative_exposures() {
     for i in 1..=20 {
         let m = f64::from(i) * 0.05;
         let found = response.estimate(m);
-        // Half a per cent of full scale is what the bench asks.
+        // The requirement is half a per cent of full scale.
         assert!(
             (found.value - decode(m)).abs() < 0.005,
             "{m}: {found:?} for {} of degree {}",
@@ -111,7 +111,7 @@ fn the_response_comes_back_from_relative_exposures() {
     assert_eq!(camera_response(&given[..1], &settings), Err(OecfError::TooFew(1)));
 }
 
-/// Means of rounded normal noise about all phases of a step, by the normal distribution: the variance of their errors.
+/// Means of rounded normal noise over all phases of a step, from the normal distribution: the variance of their errors.
 #[test]
 fn what_rounding_leaves_follows_from_the_noise() {
     for sigma in [0.1, 0.3, 0.5] {

@@ -1,4 +1,4 @@
-//! Levels of light in order, and the points that the standard's fits use.
+//! Sorted light levels, and the points that the standard's fits use.
 //!
 //! DSNU and PRNU.
 //!
@@ -14,14 +14,14 @@ use super::{LevelStatistics, TransferError};
 use crate::Estimate;
 use crate::estimate::{propagate, root};
 
-/// One level of light.
+/// One light level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
     /// Exposure time, s.
     pub exposure_s: f64,
-    /// Photons a pixel; 0 without light.
+    /// Photons per pixel; 0 without light.
     pub photons: f64,
-    /// What its frames say.
+    /// Statistics of its frames.
     pub statistics: LevelStatistics,
 }
 
@@ -30,19 +30,19 @@ pub struct Level {
 pub struct TransferData {
     bright: Vec<Level>,
     dark: Vec<Level>,
-    /// For each bright level the dark one of its exposure time.
+    /// Index of the dark level with the same exposure time, for each bright level.
     dark_of: Vec<usize>,
     saturation: usize,
     saturation_reached: bool,
 }
 
 impl TransferData {
-    /// Puts levels in order and finds the saturation point: the level of most temporal variance, searched downwards from the
-    /// brightest until the variance has fallen over two levels (a single dip is noise), EMVA 1288, section 6.6. Levels whose variance
-    /// is below half of the largest are saturated through and through, and no dip among them ends the search.
+    /// Sorts levels and finds the saturation point: the level of largest temporal variance, searched downwards from the brightest
+    /// until the variance has decreased over two levels (a single dip is noise), EMVA 1288, section 6.6. Levels with less than half
+    /// of the largest variance are fully saturated, and dips among them do not end the search.
     ///
     /// # Errors
-    /// Where an exposure time has no dark level, light is no positive number, or fewer than three levels lie below 70 % of
+    /// If an exposure time has no dark level, light is not a positive number, or fewer than three levels are below 70 % of
     /// saturation.
     pub fn new(levels: &[Level]) -> Result<Self, TransferError> {
         if let Some(level) = levels.iter().find(|l| !(l.photons >= 0.0 && l.photons.is_finite())) {
@@ -81,7 +81,7 @@ impl TransferData {
         &self.bright
     }
 
-    /// Levels without light, shortest exposure first; those of one exposure time are one.
+    /// Levels without light, shortest exposure first; those of one exposure time are merged.
     #[must_use]
     pub fn dark(&self) -> &[Level] {
         &self.dark
@@ -97,14 +97,14 @@ impl TransferData {
         self.dark_of[level]
     }
 
-    /// Which level is the saturation point.
+    /// Index of the saturation point.
     #[must_use]
     pub fn saturation(&self) -> usize {
         self.saturation
     }
 
-    /// Whether the variance falls beyond the saturation point. Where it does not, saturation lies at or above the brightest
-    /// level, and capacity and dynamic range are lower bounds.
+    /// True if the variance decreases beyond the saturation point. Otherwise saturation is at or above the brightest level, and
+    /// capacity and dynamic range are lower bounds.
     #[must_use]
     pub fn saturation_reached(&self) -> bool {
         self.saturation_reached
@@ -116,13 +116,13 @@ impl TransferData {
         self.bright[level].statistics.mean_dn.value - self.dark_of(level).statistics.mean_dn.value
     }
 
-    /// The levels from the dimmest to the last one up to 70 % of saturation: of the fits for K and R.
+    /// Number of levels from the dimmest to the last one up to 70 % of saturation: those of the fits for K and R.
     #[must_use]
     pub fn sensitivity_end(&self) -> usize {
         self.last_up_to(0.7) + 1
     }
 
-    /// The levels from 5 % to 95 % of saturation: of the linearity fit.
+    /// Levels from 5 % to 95 % of saturation: those of the linearity fit.
     #[must_use]
     pub fn linearity_range(&self) -> core::ops::Range<usize> {
         let least = 0.05 * self.signal_dn(self.saturation);
@@ -135,11 +135,11 @@ impl TransferData {
         (0..self.bright.len()).rev().find(|i| self.signal_dn(*i) <= most).unwrap_or(0)
     }
 
-    /// The saturation point's light. The variance grows with the light as far as saturation and falls steeply beyond, so the level of
-    /// most variance is most often the last one before it. For levels a few standard deviations of the charge apart the true
-    /// maximum lies evenly from 0.15 of a step below the level to 0.85 above (wells that clip a Gaussian, steps of 3 to 16
-    /// standard deviations); ± 0.82 of a step holds 95 % of that, so 0.42 of a step is stated as the standard uncertainty. Where the
-    /// brightest level is the point itself, the step before it stands for the next one.
+    /// Light at the saturation point. The variance increases with the light up to saturation and decreases steeply beyond, so the
+    /// level of largest variance is usually the last one before it. For levels a few standard deviations of the charge apart, the
+    /// true maximum is uniformly distributed from 0.15 of a step below the level to 0.85 above (wells that clip a Gaussian, steps
+    /// of 3 to 16 standard deviations). ± 0.82 of a step contains 95 % of that, so the standard uncertainty is 0.42 of a step. If
+    /// the brightest level is the point itself, the step before it is used instead of the next one.
     pub(super) fn saturation_photons(&self) -> Estimate {
         let last = self.bright.len() - 1;
         let above = (self.saturation + 1).min(last);
@@ -148,7 +148,7 @@ impl TransferData {
     }
 }
 
-/// Levels without light at one exposure time as a single one: several of them tell nothing of how the dark grows with time.
+/// Merges levels without light at one exposure time: they give no information on the growth of the dark signal with time.
 fn pooled(levels: &[Level]) -> Level {
     let count = levels.len() as f64;
     let mean = |of: fn(&LevelStatistics) -> Estimate| {
@@ -182,18 +182,18 @@ pub struct Nonuniformity {
     pub dsnu_e: Parts<Estimate>,
     /// Dark signal nonuniformity, DN.
     pub dsnu_dn: Parts<Estimate>,
-    /// Photo response nonuniformity, of the mean.
+    /// Photo response nonuniformity, relative to the mean.
     pub prnu: Parts<Estimate>,
-    /// Temporal noise that rows share in the dark, DN (no figure of the standard).
+    /// Temporal row noise in the dark, DN (not a figure of the standard).
     pub row_noise_dn: f64,
-    /// Temporal noise that columns share in the dark, DN (no figure of the standard).
+    /// Temporal column noise in the dark, DN (not a figure of the standard).
     pub column_noise_dn: f64,
 }
 
 /// DSNU and PRNU from stacks without light and at about half of saturation.
 ///
 /// # Errors
-/// Where the bright stack is saturated or no brighter than the dark one.
+/// If the bright stack is saturated or no brighter than the dark one.
 pub fn nonuniformity(
     dark: &Pattern,
     bright: &Pattern,

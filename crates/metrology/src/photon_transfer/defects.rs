@@ -1,23 +1,22 @@
-//! Defect pixels: how many pixels lie how far off.
+//! Defect pixels: distribution of the deviations of pixels.
 //!
-//! EMVA 1288 release 3.1 (section 4.4; 8.4 how to) and 4.0, defect pixel characterisation, which leaves it to the application where a pixel
-//! counts as defective and asks for two histograms of the average pictures instead:
+//! EMVA 1288 release 3.1 (section 4.4; 8.4 how to) and 4.0, defect pixel characterisation. The standard leaves the limit of a
+//! defective pixel to the application and requests two histograms of the averaged images instead:
 //!
-//! - the **logarithmic** one of deviations from the mean, in at most 256 bins of equal width, a whole
-//!   number of steps of the averages, beside the normal distribution:
-//!   what lies above it are pixels of another kind;
-//! - the **accumulated** one: the share of pixels that are farther off than x, to read from it how many defects a limit makes.
+//! - the **logarithmic** one of deviations from the mean, in at most 256 bins of equal width, a whole number of steps of the
+//!   averages, with the normal distribution: pixels above it are defective;
+//! - the **accumulated** one: the fraction of pixels that deviate by more than x, which gives the number of defects for a limit.
 //!
-//! Without light: ȳ_dark − μ_dark, DN. Of the response: (ȳ_50 − ȳ_dark)/(μ_50 − μ_dark) − 1, %. The normal distribution has the
-//! deviation 1.4826 times the median magnitude, which hot pixels do not widen (the standard: the part of the spectrogram that is white).
-//! Averages of L frames have temporal noise of variance σ²/L left in them. Left out: the standard's high-pass filter, which takes
-//! uneven light away; measure with even light.
+//! Without light: ȳ_dark − μ_dark, DN. For the response: (ȳ_50 − ȳ_dark)/(μ_50 − μ_dark) − 1, %. The normal distribution has the
+//! standard deviation 1.4826 times the median magnitude, which hot pixels do not affect (the standard: the white part of the
+//! spectrogram). Averages of L frames still contain temporal noise of variance σ²/L. Limitations: no high-pass filter of the
+//! standard against non-uniform light; use uniform illumination.
 
 use etendue_core::maths::f64::exp;
 
 use super::Stack;
 
-/// Most bins.
+/// Maximum number of bins.
 const BINS: usize = 256;
 /// The standard deviation of a normal distribution over its median magnitude: 1/Φ⁻¹(3/4).
 const NORMAL: f64 = 1.482_602_2;
@@ -25,20 +24,20 @@ const NORMAL: f64 = 1.482_602_2;
 /// Histograms of deviations from their mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviations {
-    /// Middle of each bin, and its pixels.
+    /// Centre of each bin, and its number of pixels.
     pub bins: Vec<(f64, u64)>,
     /// Width of a bin.
     pub width: f64,
-    /// Standard deviation of the normal distribution through the middle.
+    /// Standard deviation of the normal distribution that fits the centre.
     pub sigma: f64,
-    /// Pixels in all.
+    /// Total number of pixels.
     pub pixels: usize,
-    /// x, and the share of pixels farther from the mean than x.
+    /// x, and the fraction of pixels that deviate by more than x from the mean.
     pub accumulated: Vec<(f64, f64)>,
 }
 
 impl Deviations {
-    /// What pixels deviate by from the mean without light, DN.
+    /// Deviations of pixels from the mean without light, DN.
     #[must_use]
     pub fn of_dark(dark: &Stack) -> Self {
         let average = dark.average();
@@ -46,7 +45,7 @@ impl Deviations {
         Self::of(average.iter().map(|y| y - mean).collect(), step_dn(&[dark]))
     }
 
-    /// What their responses deviate by from the mean response, %.
+    /// Deviations of responses from the mean response, %.
     #[must_use]
     pub fn of_response(dark: &Stack, bright: &Stack) -> Self {
         let signal: Vec<f64> = bright.average().iter().zip(&dark.average()).map(|(b, d)| b - d).collect();
@@ -55,7 +54,7 @@ impl Deviations {
         Self::of(signal.iter().map(|s| 100.0 * (s / mean - 1.0)).collect(), step)
     }
 
-    /// Bins are whole numbers of the step by which averages of whole numbers differ: others would hold now more, now fewer of them.
+    /// Bin widths are whole multiples of the step of averages of integers: otherwise bins would contain varying numbers of steps.
     fn of(deviations: Vec<f64>, step: f64) -> Self {
         let pixels = deviations.len();
         let (low, high) = deviations.iter().fold((0.0_f64, 0.0_f64), |(l, h), d| (l.min(*d), h.max(*d)));
@@ -82,7 +81,7 @@ impl Deviations {
         }
     }
 
-    /// Pixels that the normal distribution has in a bin about x.
+    /// Expected pixels of the normal distribution in a bin about x.
     #[must_use]
     pub fn normal(&self, x: f64) -> f64 {
         let z = x / self.sigma;
@@ -90,7 +89,7 @@ impl Deviations {
     }
 }
 
-/// The median of sorted magnitudes, spread evenly over the step that they are known to.
+/// The median of sorted magnitudes, distributed uniformly over their step.
 fn median(sorted: &[f64], step: f64) -> f64 {
     let from = sorted[sorted.len() / 2] - 0.5 * step;
     let below = sorted.partition_point(|d| *d < from);
@@ -98,7 +97,7 @@ fn median(sorted: &[f64], step: f64) -> f64 {
     from + step * (0.5 * sorted.len() as f64 - below as f64) / within as f64
 }
 
-/// The step of averages of whole numbers, and of their difference.
+/// The step of averages of integers, and of their difference.
 fn step_dn(stacks: &[&Stack]) -> f64 {
     let frames: Vec<usize> = stacks.iter().map(|s| s.frames()).collect();
     let same = frames.windows(2).all(|pair| pair[0] == pair[1]);
@@ -114,17 +113,17 @@ mod tests {
     #[test]
     fn hot_pixels_stand_above_the_normal_distribution() {
         const COUNT: usize = 40_000;
-        // The quantiles of a normal distribution of deviation 2, and twenty pixels at 30.
+        // The quantiles of a normal distribution of standard deviation 2, and twenty pixels at 30.
         let mut values: Vec<f64> = (0..COUNT).map(|i| 2.0 * quantile((i as f64 + 0.5) / COUNT as f64)).collect();
         values[..20].fill(30.0);
         let found = Deviations::of(values, 1e-6);
-        // The median of a fine grid of quantiles; twenty of forty thousand move it by 5·10⁻⁴.
+        // The median of a fine grid of quantiles; twenty of forty thousand shift it by 5·10⁻⁴.
         assert!((found.sigma - 2.0).abs() < 3e-3, "{}", found.sigma);
         assert_eq!(found.bins.iter().map(|b| b.1).sum::<u64>(), COUNT as u64);
         let (x, counted) = *found.bins.last().expect("bins");
         assert!(counted == 20 && found.normal(x) < 1e-30, "{counted}");
         let (x, counted) = found.bins[found.bins.iter().position(|b| b.0 > 0.0).expect("a middle")];
-        // A bin holds hundreds of quantiles: to one on either side.
+        // A bin contains hundreds of quantiles: ± one.
         assert!((counted as f64 / found.normal(x) - 1.0).abs() < 0.02, "{counted} {}", found.normal(x));
         let beyond = found.accumulated.iter().find(|(x, _)| *x > 10.0).expect("as far as 30");
         assert!((beyond.1 - 20.0 / COUNT as f64).abs() < 1e-9, "{beyond:?}");
@@ -138,7 +137,7 @@ mod tests {
         let found = Deviations::of((0..COUNT).map(value).collect(), 1.0 / 30.0);
         assert!((found.width - 1.0 / 30.0).abs() < 1e-12, "{}", found.width);
         for (x, counted) in found.bins.iter().filter(|(x, _)| x.abs() < 0.8) {
-            // σ by the median to some hundredths; a distribution's value in the middle of a bin for its mean over it.
+            // σ from the median to a few hundredths; the density at the centre of a bin instead of its mean over it.
             assert!((*counted as f64 / found.normal(*x) - 1.0).abs() < 0.05, "{x}: {counted}");
         }
     }

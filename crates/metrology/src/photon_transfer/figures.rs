@@ -1,4 +1,4 @@
-//! The figures of a photon transfer measurement.
+//! Figures of a photon transfer measurement.
 //!
 //! With x = μ_y − μ_y.dark and the levels up to 70 % of saturation (EMVA 1288 release 3.1 and 4.0 linear, sections 6.4–6.7, 7):
 //!
@@ -12,11 +12,11 @@
 //! ```
 //!
 //! Standard uncertainties: the law of propagation through every mean and variance of every level, bright and dark, and the
-//! spacing of levels about saturation; the choice of levels is held. The linearity error and its extremes state none: a mean of magnitudes
-//! and extremes of noisy numbers are never 0, however straight the sensor is. What noise alone makes of a straight one's
-//! error, √(2/π) times the mean standard uncertainty of the deviations, is told beside them. The covariance of a level's mean with its variance (the shot noise's skewness) is left out: it is
-//! below a per cent of either. The uncertainty of the photon scale itself is not in η, μ_p.min and μ_p.sat: add what the
-//! light's calibration states.
+//! spacing of levels near saturation, for a fixed choice of levels. The linearity error and its extremes have none: a mean of
+//! magnitudes and extremes of noisy numbers are never 0, even for a linear sensor. The error of a linear sensor due to noise
+//! alone, √(2/π) times the mean standard uncertainty of the deviations, is reported with them. The covariance of a level's mean
+//! with its variance (skewness of the shot noise) is neglected: it is below a per cent of either. η, μ_p.min and μ_p.sat exclude
+//! the uncertainty of the photon scale itself: add that of the light's calibration.
 
 use super::{TransferData, TransferError};
 use crate::Estimate;
@@ -24,19 +24,19 @@ use crate::estimate::{propagate, propagate_curved};
 
 /// Quantisation noise, DN².
 const QUANTISATION_DN2: f64 = 1.0 / 12.0;
-/// The least dark variance that the standard lets count, DN²: below it quantisation rules.
+/// Minimum dark variance of the standard, DN²: below it quantisation dominates.
 const MIN_DARK_VARIANCE_DN2: f64 = 0.24;
 
-/// What a photon transfer curve says.
+/// Results of a photon transfer curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     /// Overall system gain K, DN/e⁻.
     pub gain_dn_per_e: Estimate,
-    /// Responsivity R, DN a photon.
+    /// Responsivity R, DN per photon.
     pub responsivity_dn_per_photon: Estimate,
     /// Quantum efficiency η.
     pub quantum_efficiency: Estimate,
-    /// Temporal dark noise σ_y.dark at no exposure time, DN.
+    /// Temporal dark noise σ_y.dark at zero exposure time, DN.
     pub dark_noise_dn: Estimate,
     /// Temporal dark noise σ_d, e⁻.
     pub dark_noise_e: Estimate,
@@ -54,34 +54,34 @@ pub struct Figures {
     pub dynamic_range: Estimate,
     /// Mean of the magnitudes of relative deviations from the straight line, 5…95 % of saturation.
     pub linearity_error: f64,
-    /// The same that a straight sensor has on average, by the noise of its levels.
+    /// Expected value of the same for a linear sensor with the noise of its levels.
     pub linearity_error_of_noise: f64,
     /// Most negative relative deviation.
     pub linearity_error_min: f64,
     /// Most positive relative deviation.
     pub linearity_error_max: f64,
-    /// Dark mean at no exposure time, DN.
+    /// Dark mean at zero exposure time, DN.
     pub dark_level_dn: Estimate,
-    /// Dark current from the dark mean, e⁻/s; none for fewer than three exposure times.
+    /// Dark current from the dark mean, e⁻/s; `None` for fewer than three exposure times.
     pub dark_current_mean_e_per_s: Option<Estimate>,
-    /// Dark current from the dark variance, e⁻/s; none for fewer than three exposure times.
+    /// Dark current from the dark variance, e⁻/s; `None` for fewer than three exposure times.
     pub dark_current_variance_e_per_s: Option<Estimate>,
 }
 
 /// A level's signal-to-noise ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnrPoint {
-    /// Photons a pixel.
+    /// Photons per pixel.
     pub photons: f64,
     /// Signal over temporal noise.
     pub snr: Estimate,
 }
 
 impl TransferData {
-    /// The figures of the standard.
+    /// Computes the figures of the standard.
     ///
     /// # Errors
-    /// Where readings do not grow with light, or their variance not with the signal.
+    /// If readings do not increase with light, or their variance not with the signal.
     pub fn figures(&self) -> Result<Figures, TransferError> {
         let inputs = self.inputs();
         let values = |x: &[f64]| Values::new(self, x).figures();
@@ -118,7 +118,7 @@ impl TransferData {
         })
     }
 
-    /// Signal over temporal noise of every level of light.
+    /// Signal over temporal noise of every light level.
     #[must_use]
     pub fn snr(&self) -> Vec<SnrPoint> {
         let point = |i: usize| {
@@ -137,7 +137,7 @@ impl TransferData {
         pairs.chain([self.saturation_photons()]).collect()
     }
 
-    /// √(2/π) of the mean standard uncertainty of the deviations: what noise makes of their mean magnitude.
+    /// √(2/π) times the mean standard uncertainty of the deviations: the expected mean magnitude due to noise.
     fn linearity_noise(&self, inputs: &[Estimate]) -> f64 {
         let range = self.linearity_range();
         let deviations = propagate_curved(inputs, |x| Values::new(self, x).deviations(range.clone()));
@@ -152,8 +152,8 @@ impl TransferData {
     }
 }
 
-/// The signal-to-noise ratio that the linear model predicts for μ_e electrons, with dark noise σ_d (e⁻) and gain K; with
-/// DSNU (e⁻) and PRNU it is the total one.
+/// The signal-to-noise ratio of the linear model for μ_e electrons, with dark noise σ_d (e⁻) and gain K; with DSNU (e⁻) and PRNU
+/// it is the total one.
 #[must_use]
 pub fn model_snr(electrons: f64, dark_noise_e: f64, gain_dn_per_e: f64, dsnu_e: f64, prnu: f64) -> f64 {
     let quantisation = QUANTISATION_DN2 / (gain_dn_per_e * gain_dn_per_e);
@@ -216,8 +216,8 @@ impl<'a> Values<'a> {
         ]
     }
 
-    /// Intercept and slope over exposure time of the dark means and of the dark variances; for fewer than three times the
-    /// values of the shortest.
+    /// Intercept and slope over exposure time of the dark means and of the dark variances; for fewer than three times the values at
+    /// the shortest.
     fn dark_lines(&self) -> (f64, f64, f64, f64) {
         let levels = self.data.dark();
         if levels.len() < 3 {

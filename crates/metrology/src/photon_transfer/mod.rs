@@ -1,26 +1,26 @@
-//! Photon transfer after EMVA 1288, release 4.0, linear model (the figures of 3.1 among them).
+//! Photon transfer after EMVA 1288, release 4.0, linear model (including the figures of 3.1).
 //!
 //! ```text
 //! μ_e = η μ_p        μ_y = μ_y.dark + K μ_e        σ_y² = K² σ_d² + 1/12 + K (μ_y − μ_y.dark)
 //! ```
 //!
-//! | module | finds |
+//! | module | content |
 //! | --- | --- |
-//! | [`Stack`] | mean and temporal variance of one level of light, from frames fed one at a time |
+//! | [`Stack`] | mean and temporal variance of one light level, from frames added one at a time |
 //! | [`Pattern`] | spatial variances of a stack, with row, column and pixel parts |
 //! | [`TransferData`] | saturation, K, η, dark noise, thresholds, dynamic range, linearity, dark current: [`Figures`] |
 //! | [`nonuniformity()`] | DSNU and PRNU |
-//! | [`temperature`] | how the dark current grows with temperature |
+//! | [`temperature`] | growth of the dark current with temperature |
 //! | [`spatial`] | power spectra of rows and columns |
 //! | [`Deviations`] | histograms of defect pixels |
-//! | [`Outliers`] | hot and dead pixels: places, share, mean current |
+//! | [`Outliers`] | hot and dead pixels: positions, fraction, mean current |
 //!
-//! Units: readings DN, light photons a pixel and exposure, charge e⁻, time s. Where only relative light is known (an
-//! exposure series under a steady lamp of unknown strength), "photons" are any unit of light, and η and the thresholds in
-//! photons mean nothing; all figures in e⁻ and DN hold.
+//! Units: readings DN, light photons per pixel and exposure, charge e⁻, time s. If only relative light is known (an exposure
+//! series under a constant light of unknown strength), "photons" are any unit of light, and η and the thresholds in photons are
+//! meaningless; all figures in e⁻ and DN are valid.
 //!
-//! Left out: the general model of release 4.0 (cameras that are not linear), multi-channel and polarisation cameras as wholes (measure one
-//! colour's pixels at a time), spectral sensitivity.
+//! Limitations: no general model of release 4.0 (cameras that are not linear), no multi-channel and polarisation cameras as a
+//! whole (measure the pixels of one colour at a time), no spectral sensitivity.
 
 mod data;
 mod defects;
@@ -39,7 +39,7 @@ pub use outliers::{DarkStack, FEWEST, Outliers, dead_pixels, hot_pixels};
 pub use spatial::{Parts, Pattern};
 pub use stack::{LevelStatistics, Stack};
 
-/// Why frames cannot be measured.
+/// Reason why frames cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TransferError {
     /// Frames of different sizes.
@@ -50,13 +50,13 @@ pub enum TransferError {
     Size {
         /// Width and height of the frame.
         size: (usize, usize),
-        /// Width and height of those before it.
+        /// Width and height of the frames before it.
         expected: (usize, usize),
     },
     /// A reading is NaN or infinite.
     #[error("a frame holds readings that are no numbers: give finite values")]
     NotFinite,
-    /// Two frames are the same.
+    /// Two frames are equal.
     #[error(
         "two frames are copies of one another, pixel by pixel: noise cannot be measured from copies; give frames taken one after another"
     )]
@@ -64,13 +64,13 @@ pub enum TransferError {
     /// A level with one frame.
     #[error("temporal noise needs at least two frames of two or more pixels a level, not {frames} frame(s)")]
     TooFewFrames {
-        /// How many there are.
+        /// Number of frames.
         frames: usize,
     },
-    /// Too few rows or columns to tell them apart.
+    /// Too few rows or columns to separate them.
     #[error("a pattern's row and column parts need at least 3 × 3 pixels, not {width} × {height}")]
     TooSmall {
-        /// Pixels a row.
+        /// Pixels per row.
         width: usize,
         /// Rows.
         height: usize,
@@ -80,24 +80,24 @@ pub enum TransferError {
         "no dark frames were given for an exposure time of {exposure_s} s: every exposure time needs a level without light"
     )]
     NoDark {
-        /// The exposure time.
+        /// Exposure time.
         exposure_s: f64,
     },
-    /// A curve of too few points.
+    /// A curve with too few points.
     #[error(
         "a photon transfer curve needs at least three levels of light below 70 % of saturation, not {levels}: give more exposures"
     )]
     TooFewLevels {
-        /// How many there are.
+        /// Number of levels.
         levels: usize,
     },
-    /// The light of a level is no positive number.
+    /// The light of a level is not a positive number.
     #[error("a level's light must be a positive number, not {0}")]
     Light(f64),
-    /// Readings do not grow with the light.
+    /// Readings do not increase with the light.
     #[error("the readings do not grow with the light: is the sensor saturated throughout, or are levels mixed up?")]
     NoResponse,
-    /// Variance does not grow with the signal.
+    /// Variance does not increase with the signal.
     #[error(
         "the temporal variance does not grow with the signal: photon transfer needs linear raw frames with their shot noise, not processed or averaged pictures"
     )]
@@ -112,19 +112,19 @@ pub enum TransferError {
         /// Mean at the saturation point.
         saturation_dn: f64,
     },
-    /// Two stacks that must share their size and do not, or a bright one that is no brighter.
+    /// Two stacks of different sizes, or a bright one that is no brighter.
     #[error("the bright stack is no brighter than the dark one: PRNU needs one at about half of saturation")]
     NotBrighter,
     /// Dark currents at too few temperatures.
     #[error("the dark current's growth needs at least three different temperatures, not {0}")]
     TooFewTemperatures(usize),
-    /// A temperature that cannot be.
+    /// An impossible temperature.
     #[error("{0} °C is no temperature: expected numbers above -273.15")]
     NoTemperature(f64),
-    /// A dark current without an uncertainty to weigh it by.
+    /// A dark current without an uncertainty for its weight.
     #[error("the dark current at {0} °C has no known uncertainty to weigh it by: give more pixels or exposure times")]
     DarkCurrentUnknown(f64),
-    /// No dark current grows.
+    /// No growth of the dark current.
     #[error("the dark currents are not above zero on the whole: give longer exposures or warmer sensors")]
     NoDarkCurrent,
 }

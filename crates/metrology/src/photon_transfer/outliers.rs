@@ -1,52 +1,55 @@
-//! Pixels of another kind: hot ones, which have far more dark current than most, and dead ones, which do not answer to light.
+//! Defective pixels: hot ones, with far more dark current than most, and dead ones, which do not respond to light.
 //!
 //! ```text
 //! hot:   I = (ȳ_long − ȳ_short)/(K (t_long − t_short)) above T = max(6 σ_I, 10 ⟨I⟩)       σ_I: 1.4826 times the median deviation
-//!        m = Σ (min(I, C) − T)/n_below       share = n/N exp(T/m)
+//!        m = Σ (min(I, C) − T)/n_below       fraction = n/N exp(T/m)
 //! dead:  (ȳ_bright − ȳ_dark) below half of its mean
 //! ```
 //!
-//! Additional currents are taken to be exponential, as `hot` of a camera file is: m is the maximum of the likelihood where currents above C
-//! (saturated pixels) are known to be no less (censored, Deemer & Votaw 1955), and what lies below T is added by the same law. Uncertainty: of numbers n as
-//! √n, of m as m/√n_below. Pixels that touch in rows or columns, a saturated one among them, are one hot pixel whose charge ran over, the middle one of those that are saturated (charge runs over to both sides). Fewer than five are counted and no share is told of them.
+//! Additional currents are assumed to be exponentially distributed, as in `hot` of a camera file: m is the maximum-likelihood
+//! estimate with currents above C (saturated pixels) censored, i.e. known to be no less (Deemer & Votaw 1955). The part below T
+//! is extrapolated by the same law. Uncertainty: √n for a number n, m/√n_below for m.
+//!
+//! A group of adjacent pixels (in rows or columns) that contains a saturated one counts as one hot pixel with blooming, at the
+//! middle one of the saturated pixels (charge overflows to both sides). Fewer than five are counted, but no fraction is reported.
 
 use etendue_core::maths::f64::exp;
 
 use super::Stack;
 use crate::Estimate;
 
-/// Fewer tell no share.
+/// Minimum number for a fraction.
 pub const FEWEST: usize = 5;
-/// The standard deviation of a normal distribution over its median magnitude.
+/// Standard deviation of a normal distribution over its median magnitude.
 const NORMAL: f64 = 1.482_602_2;
 
-/// Pixels far from the others.
+/// Defective pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outliers {
-    /// Columns and rows of the stack, from 0.
+    /// Columns and rows in the stack, from 0.
     pub places: Vec<[usize; 2]>,
-    /// Their part of all pixels; `None` of fewer than [`FEWEST`].
+    /// Fraction of all pixels; `None` for fewer than [`FEWEST`].
     pub share: Option<Estimate>,
-    /// Hot ones: mean of their additional current, e⁻/s.
+    /// Mean additional current of hot pixels, e⁻/s.
     pub mean_e_s: Option<Estimate>,
-    /// The limit beyond which a pixel was counted: e⁻/s, or a part of the mean response.
+    /// Detection limit: e⁻/s, or a fraction of the mean response.
     pub limit: f64,
-    /// Hot ones: what their additional currents add to the mean current of all pixels, e⁻/s.
+    /// Contribution of the hot pixels' additional currents to the mean current of all pixels, e⁻/s.
     pub added_e_s: f64,
     /// Spread of the other pixels' currents, e⁻/s, noise included: 1.4826 times their median deviation.
     pub spread_e_s: f64,
 }
 
-/// Frames without light of one exposure.
+/// Frames without light at one exposure.
 #[derive(Clone, Copy, Debug)]
 pub struct DarkStack<'a> {
-    /// The frames.
+    /// Frames.
     pub frames: &'a Stack,
-    /// Their exposure, s.
+    /// Exposure, s.
     pub exposure_s: f64,
 }
 
-/// Hot pixels, by the averages of stacks without light of a long and a short exposure, s.
+/// Hot pixels, from the averages of stacks without light at a long and a short exposure, s.
 #[must_use]
 pub fn hot_pixels(
     long: &DarkStack<'_>,
@@ -80,7 +83,7 @@ pub fn hot_pixels(
     let mean = excess / below as f64;
     let u_mean = mean / (below as f64).sqrt();
     let all = found.len() as f64;
-    // A law that is followed so far below what was seen of it tells nothing.
+    // Extrapolation this far below the observed currents is not meaningful.
     if limit > mean {
         return Some(none);
     }
@@ -90,8 +93,8 @@ pub fn hot_pixels(
     Some(Outliers { share, mean_e_s, ..none })
 }
 
-/// Of pixels (rising places, row by row) that touch in rows or columns, where saturated ones are among them, the middle one of these alone: what the others
-/// have ran over from it, to both sides alike.
+/// For adjacent pixels (increasing index, row by row) that include saturated ones: only the middle one of the saturated ones, as
+/// the charge of the others overflowed from it, equally to both sides.
 fn without_overflow(above: &[usize], width: usize, is_full: impl Fn(usize) -> bool) -> Vec<usize> {
     let mut found = Vec::new();
     let mut seen = vec![false; above.len()];
@@ -127,7 +130,7 @@ fn without_overflow(above: &[usize], width: usize, is_full: impl Fn(usize) -> bo
     found
 }
 
-/// Dead pixels, by the averages of stacks with light and without.
+/// Dead pixels, from the averages of stacks with light and without.
 #[must_use]
 pub fn dead_pixels(dark: &Stack, bright: &Stack) -> Outliers {
     const HALF: f64 = 0.5;
@@ -140,7 +143,7 @@ pub fn dead_pixels(dark: &Stack, bright: &Stack) -> Outliers {
     Outliers { places, share, mean_e_s: None, limit: HALF, added_e_s: 0.0, spread_e_s: 0.0 }
 }
 
-/// The median; sorts.
+/// The median; sorts the values.
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
@@ -167,7 +170,7 @@ mod tests {
     fn hot_pixels_have_their_share_and_mean_although_some_are_saturated() {
         const COUNT: usize = 40_000;
         const HOT: usize = 400;
-        // Hot ones, a hundred apart, do not touch.
+        // Hot ones, a hundred apart, are not adjacent.
         const WIDTH: usize = 160;
         // 1 e⁻/s with some scatter, and an exponential of 2 000 e⁻/s by its quantiles; 2 s at 0.5 DN/e⁻ are 1 DN for 1 e⁻/s.
         let quantile = |i: usize| -2000.0 * ln(1.0 - (i as f64 + 0.5) / HOT as f64);
@@ -183,7 +186,7 @@ mod tests {
         assert!((390..=HOT).contains(&found.places.len()) && found.places[0] == [40, 1], "{:?}", &found.places[..2]);
         let (share, mean) = (found.share.expect("many"), found.mean_e_s.expect("many"));
         assert!((share.value / 0.01 - 1.0).abs() < 0.01, "{share:?}");
-        // A hundredth of the pixels adds 20 e⁻/s; what saturates is cut.
+        // A hundredth of the pixels adds 20 e⁻/s; saturation limits it.
         assert!((15.0..20.0).contains(&found.added_e_s) && found.spread_e_s < 0.2, "{found:?}");
         assert!((mean.value / 2000.0 - 1.0).abs() < 0.02 && mean.standard_uncertainty < 120.0, "{mean:?}");
     }
@@ -191,14 +194,14 @@ mod tests {
     #[test]
     fn charge_that_ran_over_is_one_hot_pixel() {
         let mut long = vec![65.0; 2000];
-        // Five lone ones, and one whose column it filled: three full pixels, two half full ones above them and one below.
+        // Five single ones, and one that filled its column: three full pixels, two half full ones above them and one below.
         [5, 99, 430, 931, 1900].iter().for_each(|i| long[*i] = 800.0);
         [990, 1010, 1030].iter().for_each(|i| long[*i] = 4095.0);
         [(950, 700.0), (970, 1500.0), (1050, 2300.0)].iter().for_each(|(i, v)| long[*i] = *v);
         let found = hot_pixels(&dark(&stack(&long, 20), 2.5), &dark(&stack(&[64.0; 2000], 20), 0.5), 0.5, Some(4095.0));
         let found = found.expect("two exposures");
         assert_eq!(found.places, [[5, 0], [19, 4], [10, 21], [11, 46], [10, 50], [0, 95]]);
-        // The charge is there, wherever it was made.
+        // The charge is counted, wherever it was generated.
         let added = (5.0 * 735.0 + 3.0 * 4030.0 + 635.0 + 1435.0 + 2235.0) / 2000.0;
         assert!((found.added_e_s - added).abs() < 1e-9, "{}", found.added_e_s);
     }

@@ -1,4 +1,4 @@
-//! What differs from pixel to pixel and stays: variances over the picture with the temporal part removed.
+//! Fixed patterns: spatial variances of an image with the temporal part removed.
 //!
 //! EMVA 1288 release 4.0 (linear), section on spatial nonuniformity. M rows, N columns, L frames, ȳ the average frame:
 //!
@@ -11,52 +11,51 @@
 //! s_pix² = MN (s² − s_cav² − s_rav²)/D
 //! ```
 //!
-//! The standard takes σ²/N for σ_r² and σ²/M for σ_c², right for noise that is independent from pixel to pixel; here they
-//! are measured, so that rows whose offset jumps from frame to frame do not count as a fixed pattern. Where there is no such
-//! noise the two agree.
+//! The standard uses σ²/N for σ_r² and σ²/M for σ_c², which is correct for independent pixel noise. Here they are measured, so
+//! that temporal row noise does not count as a fixed pattern. Without such noise the two agree.
 //!
-//! Uncertainty. All of these are linear in three mean squares of the analysis of variance (rows, columns, residual), which
-//! for normal patterns are independent scaled χ² of M − 1, N − 1 and (M − 1)(N − 1) degrees of freedom: exact up to the
-//! temporal terms, which are added as independent. The residual's is widened by its measured kurtosis (hot pixels). It is the uncertainty
-//! of the **population** that this sensor is a sample of: compare it with declared parameters.
+//! Uncertainty. All of these are linear in three mean squares of the analysis of variance (rows, columns, residual), which for
+//! normal patterns are independent scaled χ² of M − 1, N − 1 and (M − 1)(N − 1) degrees of freedom: exact except for the temporal
+//! terms, which are added as independent. The uncertainty of the residual is increased by its measured kurtosis (hot pixels). It
+//! is the uncertainty for the **population** of which this sensor is a sample: use it for comparisons with declared parameters.
 //!
-//! Power spectra of rows and columns of a picture, to see periodic patterns in.
+//! Power spectra of the rows and columns of an image, which reveal periodic patterns.
 //!
-//! EMVA 1288 release 3.1 and 4.0, section on spectrograms: the Fourier transform of each row of the average picture less its mean, over
-//! √N, its squared magnitudes averaged over the rows:
+//! EMVA 1288 release 3.1 and 4.0, section on spectrograms: the Fourier transform of each row of the averaged image less its mean,
+//! over √N; the squared magnitudes are averaged over the rows:
 //!
 //! ```text
-//! p[k] = ⟨|Σ_n (y[n] − ȳ) exp(−2πi k n/N)|²/N⟩      k = 0 … N/2, frequency k/N cycles a pixel
+//! p[k] = ⟨|Σ_n (y[n] − ȳ) exp(−2πi k n/N)|²/N⟩      k = 0 … N/2, frequency k/N cycles per pixel
 //! ```
 //!
-//! White noise of variance s² has p = s² at every frequency. What L frames leave of temporal noise σ² is its white level σ²/L, which the
-//! standard draws as a line.
+//! White noise of variance s² has p = s² at every frequency. The remaining temporal noise σ² of L frames is the white level σ²/L,
+//! which the standard draws as a line.
 
 use super::{Stack, TransferError};
 use crate::{Estimate, fourier::transform};
 
-/// Variances, DN², of a pattern and of its parts.
+/// Variances, DN², of a pattern and its components.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parts<T> {
-    /// All of it.
+    /// Total.
     pub total: T,
-    /// From row to row.
+    /// Row to row.
     pub row: T,
-    /// From column to column.
+    /// Column to column.
     pub column: T,
-    /// From pixel to pixel.
+    /// Pixel to pixel.
     pub pixel: T,
 }
 
 impl<T> Parts<T> {
-    /// The parts in one order: total, row, column, pixel.
+    /// Maps the components in a fixed order: total, row, column, pixel.
     pub fn map<U>(self, f: impl FnMut(T) -> U) -> Parts<U> {
         let [total, row, column, pixel] = [self.total, self.row, self.column, self.pixel].map(f);
         Parts { total, row, column, pixel }
     }
 }
 
-/// A stack's fixed pattern in the terms of the analysis of variance.
+/// Fixed pattern of a stack, as an analysis of variance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pattern {
     rows: f64,
@@ -73,10 +72,10 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Of a stack of frames.
+    /// Analyses a stack of frames.
     ///
     /// # Errors
-    /// Where there are fewer than two frames, or fewer than three rows or columns.
+    /// If there are fewer than two frames, or fewer than three rows or columns.
     pub fn of(stack: &Stack) -> Result<Self, TransferError> {
         let (width, height) = (stack.width(), stack.height());
         let temporal = stack.temporal()?;
@@ -110,7 +109,7 @@ impl Pattern {
         self.parts_with(|k| self.spread(k) * self.squares[k] * self.squares[k])
     }
 
-    /// This pattern's variances less those of `dark`, which shares its offsets: the dark pattern's own scatter is in both and
+    /// Variances of this pattern less those of `dark`, which shares its offsets: the scatter of the dark pattern is in both and
     /// cancels.
     #[must_use]
     pub fn less(&self, dark: &Self) -> Parts<Estimate> {
@@ -130,7 +129,7 @@ impl Pattern {
         }
     }
 
-    /// Temporal variance that whole rows and whole columns share, DN²: that of their averages beyond σ²/N and σ²/M.
+    /// Temporal variance shared by whole rows and by whole columns, DN²: that of their averages beyond σ²/N and σ²/M.
     #[must_use]
     pub fn shared_temporal_dn2(&self) -> (f64, f64) {
         let [pixel, row, column] = self.temporal;
@@ -141,7 +140,7 @@ impl Pattern {
         self.parts(self.squares, self.temporal)
     }
 
-    /// What time leaves in a mean square: the expectation of its temporal part.
+    /// Expected temporal part of a mean square.
     fn remainder(&self, k: usize) -> f64 {
         let [pixel, row, column] = self.temporal;
         [row * self.columns, column * self.rows, pixel][k] / self.frames
@@ -151,13 +150,13 @@ impl Pattern {
         [self.rows - 1.0, self.columns - 1.0, (self.rows - 1.0) * (self.columns - 1.0)][k]
     }
 
-    /// Var(mean square) over its square.
+    /// Relative variance of a mean square: Var(mean square) over its square.
     fn spread(&self, k: usize) -> f64 {
         let tails = if k == 2 { self.kurtosis.max(0.0) / (self.rows * self.columns) } else { 0.0 };
         2.0 / self.degrees_of_freedom(k) + tails
     }
 
-    /// The variances, given mean squares and temporal variances: linear in both.
+    /// The variances from mean squares and temporal variances: linear in both.
     fn parts(&self, squares: [f64; 3], temporal: [f64; 3]) -> Parts<f64> {
         let (m, n, frames) = (self.rows, self.columns, self.frames);
         let dof: [f64; 3] = core::array::from_fn(|k| self.degrees_of_freedom(k));
@@ -200,7 +199,7 @@ impl Pattern {
         }
     }
 
-    /// χ² of (L − 1) times as many numbers as there are averages.
+    /// χ² with (L − 1) times the number of averages as degrees of freedom.
     fn variance_of_temporal(&self, k: usize) -> f64 {
         let numbers = [self.rows * self.columns, self.rows, self.columns][k];
         2.0 * self.temporal[k] * self.temporal[k] / (numbers * (self.frames - 1.0))
@@ -220,7 +219,7 @@ fn deviations(average: &[f64], width: usize, mean: f64) -> (Vec<f64>, Vec<f64>) 
     (rows, columns)
 }
 
-/// Second and fourth moments of what rows and columns do not explain.
+/// Second and fourth moments of the residual after rows and columns.
 struct Residual {
     second: f64,
     fourth: f64,
@@ -245,7 +244,7 @@ fn residual(average: &[f64], rows: &[f64], columns: &[f64], mean: f64) -> Residu
     Residual { second: second / count, fourth: fourth / count }
 }
 
-/// The spectrum along rows (horizontal) of a picture given row by row, DN².
+/// The spectrum along rows (horizontal) of an image stored row by row, DN².
 #[must_use]
 pub fn horizontal(picture: &[f64], width: usize) -> Vec<f64> {
     let mean = picture.iter().sum::<f64>() / picture.len() as f64;
@@ -290,7 +289,7 @@ mod tests {
         // An amplitude of 2 in one of 30 lines: (2/2)² · 30.
         assert!((power[4] - 30.0).abs() < 1e-10, "{power:?}");
         assert!(power.iter().enumerate().all(|(k, p)| k == 4 || p.abs() < 1e-10));
-        // Along columns nothing changes: all of it at frequency 0.
+        // Constant along columns: all power is at frequency 0.
         assert!(vertical(&picture, width).iter().skip(1).all(|p| p.abs() < 1e-10));
     }
 }

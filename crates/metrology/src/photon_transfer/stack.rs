@@ -1,22 +1,23 @@
-//! Frames of one level of light, fed one at a time.
+//! Frames of one light level, added one at a time.
 //!
-//! Kept per pixel are the sum and the sum of squares of its readings (16 bytes), whatever the number of frames L; per row
-//! and per column the same of their averages. With v the unbiased variance over the L frames of a pixel,
+//! The sum and the sum of squares of the readings are stored per pixel (16 bytes), independent of the number of frames L; the
+//! same for the averages of each row and column. With v the unbiased variance over the L frames of a pixel,
 //!
 //! ```text
 //! σ² = ⟨v⟩ − Var_l(ȳ_l)            EMVA 1288 (release 4.0 linear), temporal variance; for L = 2 it is
 //!                                  ⟨(a − b)²⟩/2 − (ā − b̄)²/2
 //! ```
 //!
-//! The second term is the lamp's drift, common to all pixels. Uncertainties: that of σ² from the scatter of v over the pixels
-//! (no assumption on the noise's distribution), that of the mean from σ²/(n L); noise that whole rows or columns share, which averages
-//! over their number only, is in both: with σ_r² the temporal variance of the averages of M rows, and what of it rows share, ς² = σ_r² − σ²/N,
+//! The second term is the drift of the light, common to all pixels. Uncertainties: that of σ² from the scatter of v over the
+//! pixels (no assumption on the noise distribution), that of the mean from σ²/(n L). Both include row and column noise, which
+//! averages only over the number of rows or columns: with σ_r² the temporal variance of the averages of M rows, and its shared
+//! part ς² = σ_r² − σ²/N,
 //!
 //! ```text
-//! u²(mean) = max(σ²/(M N), σ_r²/M, σ_c²/N)/L        u²(σ²) = Var(v)/(M N) + 2 ς⁴/(M (L − 1)), and so for columns
+//! u²(mean) = max(σ²/(M N), σ_r²/M, σ_c²/N)/L        u²(σ²) = Var(v)/(M N) + 2 ς⁴/(M (L − 1)), and likewise for columns
 //! ```
 //!
-//! The lamp's drift is not in them.
+//! They exclude the drift of the light.
 
 use std::collections::HashSet;
 
@@ -32,11 +33,11 @@ pub struct Stack {
     sums: Sums,
     rows: Sums,
     columns: Sums,
-    /// Of frames that are not all one value.
+    /// Fingerprints of frames that are not constant.
     fingerprints: Vec<u64>,
 }
 
-/// Σ x and Σ x² of many numbers at once.
+/// Σ x and Σ x² of many numbers.
 #[derive(Clone, Debug)]
 struct Sums {
     first: Vec<f64>,
@@ -55,7 +56,7 @@ impl Sums {
         }
     }
 
-    /// Adds to the sum of a number, whose variance stays.
+    /// Adds a constant to all readings of one number; its variance is unchanged.
     fn shift(&mut self, i: usize, change: f64, frames: f64) {
         let (before, after) = (self.first[i], self.first[i] + change);
         self.first[i] = after;
@@ -73,7 +74,7 @@ impl Sums {
     }
 }
 
-/// What a level's frames say over time.
+/// Temporal statistics of a level's frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LevelStatistics {
     /// Mean over all pixels and frames, DN.
@@ -83,7 +84,7 @@ pub struct LevelStatistics {
 }
 
 impl Stack {
-    /// No frames yet.
+    /// A stack without frames.
     #[must_use]
     pub fn new(width: usize, height: usize) -> Self {
         Self {
@@ -97,11 +98,11 @@ impl Stack {
         }
     }
 
-    /// Takes a frame in.
+    /// Adds a frame.
     ///
     /// # Errors
-    /// Where it has another size, holds a reading that is no number, or equals an earlier frame pixel by pixel (frames
-    /// of one value throughout, black or saturated, may be equal).
+    /// If it has another size, contains a reading that is not finite, or equals an earlier frame pixel by pixel (constant frames,
+    /// black or saturated, may be equal).
     pub fn push(&mut self, frame: &Image) -> Result<(), TransferError> {
         let (size, expected) = ((frame.width(), frame.height()), (self.width, self.height));
         if size != expected {
@@ -126,19 +127,19 @@ impl Stack {
         Ok(())
     }
 
-    /// Pixels a row.
+    /// Pixels per row.
     #[must_use]
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// Number of rows.
     #[must_use]
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// How many frames there were.
+    /// Number of frames.
     #[must_use]
     pub fn frames(&self) -> usize {
         self.frame_means.len()
@@ -150,21 +151,21 @@ impl Stack {
         &self.frame_means
     }
 
-    /// Marks of the frames that are not all one value: equal marks, equal frames.
+    /// Fingerprints of the frames that are not constant: equal fingerprints mean equal frames.
     #[must_use]
     pub fn fingerprints(&self) -> &[u64] {
         &self.fingerprints
     }
 
-    /// The average frame, DN, row by row.
+    /// The averaged frame, DN, row by row.
     #[must_use]
     pub fn average(&self) -> Vec<f64> {
         let frames = self.frames() as f64;
         self.sums.first.iter().map(|sum| sum / frames).collect()
     }
 
-    /// The stack in which some places (column, row) have the readings of the nearest pixel of their row that is none of them. What rows, columns and frames share over time
-    /// stays as it is; a row that has no other pixel does, too.
+    /// The stack with the readings at some positions (column, row) replaced by those of the nearest other pixel of the row.
+    /// Temporal row, column and frame noise is unchanged; so is a row without another pixel.
     #[must_use]
     pub fn replacing(&self, places: &[[usize; 2]]) -> Self {
         let taken: HashSet<[usize; 2]> = places.iter().copied().collect();
@@ -185,10 +186,10 @@ impl Stack {
         stack
     }
 
-    /// Mean and temporal variance.
+    /// Returns mean and temporal variance.
     ///
     /// # Errors
-    /// Where there are fewer than two frames, or fewer than two pixels.
+    /// If there are fewer than two frames, or fewer than two pixels.
     pub fn statistics(&self) -> Result<LevelStatistics, TransferError> {
         let frames = self.at_least_two()?;
         let pixels = self.sums.first.len() as f64;
@@ -216,7 +217,7 @@ impl Stack {
         Ok([&self.sums, &self.rows, &self.columns].map(|sums| (sums.mean_variance(frames) - drift).max(0.0)))
     }
 
-    /// Variance of the frames' means over the frames.
+    /// Variance of the frame means over the frames.
     fn drift_variance(&self) -> f64 {
         etendue_stats::Moments::of(self.frame_means.iter().copied()).variance().unwrap_or(0.0)
     }
@@ -246,8 +247,8 @@ fn averages(samples: &[f32], width: usize) -> (Vec<f64>, Vec<f64>) {
     (rows, columns)
 }
 
-/// A number that equal frames share and different ones, but for an accident of 2⁻⁶⁴, do not (multiply and rotate, after
-/// the mixing of Steele, Lea & Flood 2014).
+/// A hash that is equal for equal frames and differs for different ones, except with a probability of 2⁻⁶⁴ (multiply and rotate,
+/// after the mixing of Steele, Lea & Flood 2014).
 fn fingerprint(samples: &[f32]) -> u64 {
     const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
     samples.iter().fold(samples.len() as u64, |mark, sample| {
@@ -276,11 +277,11 @@ mod tests {
         // d²/2 = 0.5, 4.5, 0, 8: variance of their mean by hand.
         let deviations = [0.5 - 3.25, 4.5 - 3.25, 0.0 - 3.25, 8.0_f64 - 3.25];
         let want = deviations.iter().map(|d| d * d).sum::<f64>() / 12.0;
-        // Columns share 1.125 − 1.25/2 of it: 2 · 0.5²/2.
+        // The part shared by columns is 1.125 − 1.25/2: 2 · 0.5²/2.
         assert!((statistics.variance_dn2.standard_uncertainty - (want + 0.25).sqrt()).abs() < 1e-12);
     }
 
-    /// Rows that jump as wholes: 64 columns tell no more than one.
+    /// Offsets of whole rows: 64 columns give no more information than one.
     #[test]
     fn noise_that_rows_share_averages_over_rows_only() {
         let frame = |jumps: [f32; 4]| image(64, &jumps.map(|jump| [jump; 64]).concat());
@@ -290,12 +291,12 @@ mod tests {
         // Variances 2, 2, 8, 8 of the rows: 5 on average, of 4 rows in 2 frames.
         let statistics = stack.statistics().expect("two frames");
         assert!((statistics.mean_dn.standard_uncertainty - (5.0_f64 / 8.0).sqrt()).abs() < 1e-12);
-        // What rows share is nearly all of it: 2 · 5²/4, less 5/64 of their averages.
+        // The part shared by rows is nearly all of it: 2 · 5²/4, less 5/64 of their averages.
         let shared = 5.0 * (1.0 - 1.0 / 64.0);
         assert!(statistics.variance_dn2.standard_uncertainty > (2.0 * shared * shared / 4.0_f64).sqrt());
     }
 
-    /// As if the frames had been taken with the neighbour's readings there, but for what rows and columns share over time.
+    /// As if the frames had been captured with the neighbour's readings there, except for temporal row and column noise.
     #[test]
     fn places_take_the_readings_of_their_neighbours() {
         let frames = [[1.0_f32, 2.0, 3.0, 40.0, 5.0, 7.0], [2.0, 5.0, 3.0, 80.0, 6.0, 6.0]];
@@ -319,7 +320,7 @@ mod tests {
         assert!((mean(&found) - mean(&expected)).abs() < 1e-12);
         let before = stack(&frames).rows.variances(2.0).collect::<Vec<_>>();
         assert!(found.rows.variances(2.0).zip(before).all(|(a, b)| (a - b).abs() < 1e-9));
-        // A row without another pixel stays.
+        // A row without another pixel is unchanged.
         assert_eq!(stack(&frames).replacing(&[[0, 0], [1, 0], [2, 0]]).average(), stack(&frames).average());
     }
 
@@ -332,7 +333,7 @@ mod tests {
         assert_eq!(stack.push(&frame), Err(TransferError::Copies));
         assert!(matches!(stack.push(&image(4, &[1.0; 8])), Err(TransferError::Size { .. })));
         assert_eq!(stack.push(&image(2, &[1.0, f32::NAN, 0.0, 0.0])), Err(TransferError::NotFinite));
-        // A saturated pair is no pair of copies.
+        // Two saturated frames do not count as copies.
         let mut stack = Stack::new(2, 2);
         let white = image(2, &[255.0; 4]);
         stack.push(&white).and_then(|()| stack.push(&white)).expect("all one value");

@@ -1,4 +1,4 @@
-//! How the dark current grows with the sensor's temperature.
+//! Growth of the dark current with the sensor temperature.
 //!
 //! ```text
 //! doubling:    I = I_ref 2^((T − T_ref)/T_d)                                   EMVA 1288, section 7
@@ -6,10 +6,10 @@
 //! E_g = 1.1557 − 7.021·10⁻⁴ T²/(T + 1108) eV
 //! ```
 //!
-//! (T in kelvin in the laws of silicon; Varshni's form with the constants of Pyxel's dark-current model.) Each law is fitted to the currents themselves
-//! (not to their logarithms: currents that noise makes negative count as well) by least squares, weights from their uncertainties;
-//! χ² over its degrees of freedom says which one fits. The doubling
-//! temperature of the laws without one of their own is that at T_ref.
+//! (T in kelvin in the laws of silicon; Varshni's form with the constants of Pyxel's dark-current model.) Each law is fitted to
+//! the currents themselves, not to their logarithms, so that currents that are negative due to noise count as well. The fit is
+//! least squares with weights from the uncertainties; χ² over its degrees of freedom shows which law fits. The doubling
+//! temperature of the generation and diffusion laws is that at T_ref.
 
 use core::f64::consts::LN_2;
 
@@ -23,10 +23,10 @@ const BOLTZMANN_EV_PER_K: f64 = 8.617_333_262e-5;
 /// 0 °C in kelvin.
 pub const ZERO_CELSIUS_K: f64 = 273.15;
 
-/// A law of growth.
+/// A growth law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law {
-    /// It doubles every so many kelvin.
+    /// Doubling per constant temperature step.
     Doubling,
     /// Generation in the depleted silicon.
     Generation,
@@ -35,10 +35,10 @@ pub enum Law {
 }
 
 impl Law {
-    /// All of them.
+    /// All laws.
     pub const ALL: [Self; 3] = [Self::Doubling, Self::Generation, Self::Diffusion];
 
-    /// ln of the law's shape at a temperature; the doubling law has a free slope and is not asked.
+    /// ln of the law's shape at a temperature; not used for the doubling law, whose slope is free.
     fn ln_shape(self, temperature_c: f64) -> f64 {
         let kelvin = temperature_c + ZERO_CELSIUS_K;
         let gap_ev = 1.1557 - 7.021e-4 * kelvin * kelvin / (kelvin + 1108.0);
@@ -53,13 +53,13 @@ impl Law {
 /// A law fitted to dark currents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
-    /// Which one.
+    /// Law.
     pub law: Law,
     /// Dark current at the reference temperature, e⁻/s.
     pub reference_e_per_s: Estimate,
-    /// Kelvin to its doubling, at the reference temperature; known exactly to the laws of silicon.
+    /// Temperature rise that doubles it, K, at the reference temperature; exact for the laws of silicon.
     pub doubling_k: Estimate,
-    /// Sum of squared deviations over uncertainties.
+    /// Sum of squared deviations relative to the uncertainties.
     pub chi_square: f64,
     /// Points less parameters.
     pub degrees_of_freedom: usize,
@@ -68,7 +68,7 @@ pub struct Growth {
 /// Fits a law to (temperature in °C, dark current in e⁻/s).
 ///
 /// # Errors
-/// Where there are fewer than three different temperatures, one is no temperature, a current has no uncertainty, or none is above zero.
+/// If there are fewer than three different temperatures, one is impossible, a current has no uncertainty, or none is above zero.
 pub fn fit(law: Law, currents: &[(f64, Estimate)], reference_c: f64) -> Result<Growth, TransferError> {
     check(currents)?;
     let points: Vec<Point> = currents.iter().map(|(t, e)| Point::new(law, *t, *e, reference_c)).collect();
@@ -108,7 +108,7 @@ fn check(currents: &[(f64, Estimate)]) -> Result<(), TransferError> {
     if temperatures.len() < 3 { Err(TransferError::TooFewTemperatures(temperatures.len())) } else { Ok(()) }
 }
 
-/// A current, what the law makes of one at the reference temperature but for its own slope, and its weight.
+/// A current, its shape factor relative to the reference temperature without the law's slope, and its weight.
 struct Point {
     from_reference_k: f64,
     current: f64,
@@ -131,7 +131,7 @@ impl Point {
     }
 }
 
-/// The current at the reference temperature that fits best with a slope; `None` where it is not above zero.
+/// The best-fitting current at the reference temperature for a slope; `None` if it is not above zero.
 fn scale(points: &[Point], slope: f64) -> Option<f64> {
     let sum = |f: &dyn Fn(&Point, f64) -> f64| points.iter().map(|p| f(p, p.model(0.0, slope))).sum::<f64>();
     let best = sum(&|p, m| p.weight * m * p.current) / sum(&|p, m| p.weight * m * m);
@@ -152,7 +152,8 @@ fn normal(points: &[Point], ln_reference: f64, slope: f64) -> [f64; 3] {
     })
 }
 
-/// ln I_ref and ln 2 over the doubling temperature: the best of slopes from halving to doubling every kelvin, then by Gauss and Newton.
+/// ln I_ref and ln 2 over the doubling temperature: the best of slopes from halving to doubling per kelvin, then by Gauss and
+/// Newton.
 fn growing(points: &[Point]) -> Option<[f64; 2]> {
     let slopes = (-70..=70).map(|i| 0.01 * f64::from(i));
     let tried = slopes.filter_map(|slope| Some([ln(scale(points, slope)?), slope]));
@@ -191,7 +192,7 @@ mod tests {
         assert!((growth.doubling_k.value / 8.0 - 1.0).abs() < 1e-12 && growth.chi_square < 1e-18);
         let silicon = series(|t| exp(30.0 + Law::Generation.ln_shape(t)));
         assert!(fit(Law::Generation, &silicon, 30.0).expect("a fit").chi_square < 1e-18);
-        // One doubling temperature cannot hold from 20 to 80 °C.
+        // One doubling temperature cannot be valid from 20 to 80 °C.
         for law in [Law::Doubling, Law::Diffusion] {
             assert!(fit(law, &silicon, 30.0).expect("a fit").chi_square > 30.0, "{law:?}");
         }
@@ -227,7 +228,7 @@ mod tests {
         assert_eq!(fit(Law::Diffusion, &none, 30.0), Err(TransferError::NoDarkCurrent));
     }
 
-    /// A cold current that noise makes negative counts: left out, it would pull the doubling temperature up.
+    /// A cold current that is negative due to noise counts: omitting it would increase the doubling temperature.
     #[test]
     fn negative_currents_count() {
         let mut noisy = series(|t| exp((t - 30.0) / 8.0 * LN_2));

@@ -1,4 +1,4 @@
-//! A sensor simulated by brute force must give its parameters back, within the uncertainties stated.
+//! A measurement of a simulated sensor must return its parameters, within the stated uncertainties.
 
 use super::*;
 use crate::{Estimate, Image};
@@ -12,7 +12,7 @@ const DARK_NOISE_E: f64 = 8.0;
 const DARK_CURRENT_E_PER_S: f64 = 4000.0;
 const BLACK_DN: f64 = 40.0;
 const FULL_WELL_E: f64 = 9000.0;
-/// Patterns of rows, columns and pixels: e⁻ in the dark, shares of the response.
+/// Patterns of rows, columns and pixels: e⁻ in the dark, fractions of the response.
 const DSNU_E: [f64; 3] = [6.0, 5.0, 9.0];
 const PRNU: [f64; 3] = [0.008, 0.006, 0.012];
 const SIZE: usize = 32;
@@ -88,10 +88,10 @@ fn quadrature(parts: [f64; 3]) -> f64 {
     parts.iter().map(|p| p * p).sum::<f64>().sqrt()
 }
 
-/// (name, what was measured, what was declared).
+/// (name, measured value, declared value).
 fn compared(sensor: &Sensor) -> Vec<(&'static str, Estimate, f64)> {
     let (f, n) = sensor.measure();
-    // The pixels at hand respond by their own mean, not by that of all sensors.
+    // The mean response is that of the simulated pixels, not of the population of sensors.
     let response = 1.0 + sensor.response.iter().sum::<f64>() / sensor.response.len() as f64;
     let current = |e: Option<Estimate>| e.expect("many exposure times");
     vec![
@@ -134,9 +134,9 @@ fn capacity_range_and_linearity_are_those_declared() {
     assert!((figures.threshold_e.value / threshold - 1.0).abs() < 0.05, "{:?}", figures.threshold_e);
     let range = figures.dynamic_range.value * figures.threshold_e.value / saturation.value;
     assert!((range - 1.0).abs() < 1e-12 && (figures.snr_max.value - saturation.value.sqrt()).abs() < 1e-9);
-    // Means are known to σ/√(2 n) of up to 80 e⁻: 0.1 % at the dim end.
+    // Means have an uncertainty of σ/√(2 n) with σ up to 80 e⁻: 0.1 % at the dark end.
     assert!(figures.linearity_error < 2e-3, "{figures:?}");
-    // Straight, so the error is that of noise: a mean of some ten magnitudes scatters by a quarter of itself.
+    // The sensor is linear, so the error is due to noise: a mean of about ten magnitudes scatters by a quarter of itself.
     assert!((figures.linearity_error / figures.linearity_error_of_noise - 1.0).abs() < 0.75, "{figures:?}");
     assert!(figures.linearity_error_min <= 0.0 && figures.linearity_error_max >= 0.0);
     let half = data.snr()[STEPS as usize / 2];
@@ -157,7 +157,7 @@ fn rows_that_jump_are_no_fixed_pattern() {
     }
     let pattern = Pattern::of(&stack).expect("a pattern");
     let row = pattern.variances_dn2().row;
-    // By the standard's subtraction 9/16 DN² would be left.
+    // The standard's subtraction would leave 9/16 DN².
     assert!(row.value.abs() < 3.0 * row.standard_uncertainty && row.standard_uncertainty < 0.2, "{row:?}");
     let (shared, columns) = pattern.shared_temporal_dn2();
     // 64 · 15 numbers: 5 %.
@@ -171,10 +171,10 @@ fn nonsense_is_refused() {
     assert_eq!(TransferData::new(&levels[..2]), Err(TransferError::TooFewLevels { levels: 1 }));
     let bright: Vec<Level> = levels.iter().copied().filter(|l| l.photons > 0.0).collect();
     assert!(matches!(TransferData::new(&bright), Err(TransferError::NoDark { .. })));
-    // One reading whatever the light.
+    // The same reading for every light level.
     let stuck: Vec<Level> = levels.iter().map(|l| Level { statistics: levels[1].statistics, ..*l }).collect();
     assert_eq!(TransferData::new(&stuck), Err(TransferError::NoResponse));
-    // Averaged frames: no noise that grows.
+    // Averaged frames: the noise does not increase.
     let quiet = |l: &Level| {
         let statistics = LevelStatistics { variance_dn2: Estimate::new(1.0, 0.01), ..l.statistics };
         Level { statistics, ..*l }
@@ -189,7 +189,7 @@ fn nonsense_is_refused() {
     assert_eq!(nonuniformity(&dark, &dark, gain, &data), Err(TransferError::NotBrighter));
 }
 
-/// Light is changed, not time: four dark levels of one exposure are one, and tell no dark current.
+/// The light is varied, not the time: four dark levels of one exposure are merged, and give no dark current.
 #[test]
 fn dark_levels_of_one_exposure_are_one() {
     let sensor = Sensor::new(7);
@@ -200,7 +200,7 @@ fn dark_levels_of_one_exposure_are_one() {
     assert_eq!(data.dark().len(), 1);
     let figures = data.figures().expect("figures");
     assert_eq!(figures.dark_current_mean_e_per_s, None);
-    // The dark current's own shot noise within the exposure is in it.
+    // It includes the shot noise of the dark current within the exposure.
     let expected = (DARK_NOISE_E * DARK_NOISE_E + DARK_CURRENT_E_PER_S * exposure_s).sqrt();
     let e_n = figures.dark_noise_e.normalised_error(Estimate::new(expected, 0.0));
     assert!(e_n.abs() < 1.5, "{:?}, expected {expected}", figures.dark_noise_e);

@@ -1,13 +1,15 @@
-//! What blurs edges beyond the pixels' own aperture: a Gaussian spread, and what neighbouring pixels exchange.
+//! Blur of edges beyond the pixel aperture: a Gaussian spread, and crosstalk between neighbouring pixels.
 //!
 //! ```text
 //! R(f) = A(f) exp(−2π² s f²) (1 − 2 a (1 − cos(2π f cos θ)))
 //! ```
 //!
-//! A the aperture of full square pixels, s the variance of the spread along the normal (px²), a the part of a pixel's light that each of the two
-//! neighbours across the edge gets, θ from the normal to the nearest of rows and columns. s and a are fitted to the response of each edge by least squares,
-//! weights by its uncertainties; both may come out negative by noise. What is stated is their mean over edges with the standard error of the mean, widened for few edges so that
-//! twice of it holds 95 % (Student's t). The standard error knows what differs from edge to edge; a spread of another shape than a Gaussian's shows in [`Blur::misfit`] alone.
+//! A is the aperture of full square pixels, s the variance of the spread along the normal (px²), a the fraction of a pixel's
+//! light that each of the two neighbours across the edge receives, θ the angle from the normal to the nearest of rows and
+//! columns. s and a are fitted to the response of each edge by least squares, weighted by its uncertainties; noise can make both
+//! negative. The result is their mean over edges with the standard error of the mean, widened for few edges so that twice of it
+//! covers 95 % (Student's t). The standard error includes differences between edges; a spread that is not Gaussian affects only
+//! [`Blur::misfit`].
 
 use std::f64::consts::PI;
 
@@ -17,25 +19,25 @@ use etendue_stats::{Moments, normal, student};
 use super::{Sfr, SfrPoint};
 use crate::Estimate;
 
-/// The highest frequency that is fitted, cycles a pixel: beyond it the aperture leaves little.
+/// Maximum fitted frequency, cycles per pixel: above it the aperture leaves little signal.
 const MOST: f64 = 0.8;
-/// No response is known better.
+/// Minimum uncertainty of a response.
 const LEAST_U: f64 = 1e-4;
 
-/// The blur of edges of one direction.
+/// Blur of edges of one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blur {
     /// Variance of the spread, px².
     pub variance_px2: Estimate,
-    /// Part of a pixel's light that each neighbour across the edge gets.
+    /// Fraction of a pixel's light that each neighbour across the edge receives.
     pub exchange: Estimate,
-    /// The largest difference of the mean response from the model up to half a cycle a pixel.
+    /// Maximum difference of the mean response from the model up to half a cycle per pixel.
     pub misfit: f64,
-    /// Edges that it was measured by.
+    /// Number of edges.
     pub edges: usize,
 }
 
-/// The blur of edges of one direction; `None` of fewer than three edges, or where a response does not determine it.
+/// The blur of edges of one direction; `None` for fewer than three edges, or if a response does not determine it.
 #[must_use]
 pub fn blur(edges: &[&Sfr]) -> Option<Blur> {
     if edges.len() < 3 {
@@ -55,19 +57,19 @@ pub fn blur(edges: &[&Sfr]) -> Option<Blur> {
     Some(Blur { variance_px2, exchange, misfit, edges: edges.len() })
 }
 
-/// Of several edges.
+/// Mean over several edges.
 fn mean(found: &[[f64; 2]], k: usize) -> Estimate {
     let moments = Moments::of(found.iter().map(|pair| pair[k]));
     let error = moments.variance_of_mean().unwrap_or(f64::INFINITY).sqrt();
     Estimate::new(moments.mean(), error * widening(found.len() as f64 - 1.0))
 }
 
-/// Student's t of 95 % over the normal one.
+/// Student's t at 95 % relative to the normal quantile.
 fn widening(freedom: f64) -> f64 {
     student::critical(0.05, freedom) / normal::quantile(0.975)
 }
 
-/// Response and its derivatives by s and a.
+/// Response and its derivatives by s and a, of the model.
 fn model(f: f64, angle_deg: f64, [s, a]: [f64; 2]) -> (f64, [f64; 2]) {
     let (across, along) = sin_cos(angle_deg.to_radians());
     let aperture = (sinc(f * along) * sinc(f * across)).abs();

@@ -1,38 +1,39 @@
-//! How well the coefficients of a profile are known.
+//! Uncertainty of the coefficients of a profile.
 //!
-//! With B the inverse of XᵀX, x_i the row of a pixel, e_i its residual and h_i = x_iᵀ B x_i its leverage (White 1980, MacKinnon & White
-//! 1985; Conley 1999 for noise that neighbours share):
+//! With B the inverse of XᵀX, x_i the row of a pixel, e_i its residual and h_i = x_iᵀ B x_i its leverage (White 1980, MacKinnon &
+//! White 1985; Conley 1999 for noise that neighbours share):
 //!
 //! ```text
-//! C = B (Σ_i Σ_l ε_i ε_{i+l} x_i x_{i+l}ᵀ) B       ε_i = e_i/(1 − h_i)^κ; l: 0 and the shifts of up to one pixel more than those at which
+//! C = B (Σ_i Σ_l ε_i ε_{i+l} x_i x_{i+l}ᵀ) B       ε_i = e_i/(1 − h_i)^κ; l: 0 and the shifts of up to one pixel more than those
+//! at which
 //!                                                 |Σ e_i e_{i+l}| > 4 √(Σ e_i² e_{i+l}²), four pixels at most
 //! κ                                               1/2 without such shifts, 1 with them (a fit follows shared noise more)
 //! ```
 //!
-//! The limit is four standard deviations of independent noise whatever its strength from pixel to pixel: rendered pictures without sensor noise have
-//! nearly all of theirs in the few pixels that the edge crosses, and say far less of shifts than their number of pixels.
-//! Raw pictures have no such shifts; demosaicing, noise reduction and scaling spread noise over neighbours, and C knows at which frequencies
-//! they have raised it and at which lowered. Cut after some pixels C may lose its sign where residuals are no noise (steps that splines cannot
-//! follow): a variance below a tenth of that without shifts is taken to be the latter.
+//! The limit is four standard deviations of independent noise of any, even varying, strength: rendered images without sensor
+//! noise have nearly all of it in the few pixels that the edge crosses, so that the effective number of pixels is small. Raw
+//! images have no such shifts. Demosaicing, noise reduction and scaling spread noise over neighbours; C includes the frequencies
+//! at which they raised and lowered it. As the sum is truncated after a few pixels, C may become negative if residuals are not
+//! noise (steps that splines cannot follow): a variance below a tenth of that without shifts is replaced by the latter.
 
 use super::knots::{Row, Sample};
 use crate::{Image, linear::Matrix};
 
-/// The farthest shift, px, and the least correlation that counts, of its own standard deviation without any.
+/// Maximum shift, px, and minimum significant correlation, in its own standard deviations for independent noise.
 const FARTHEST: isize = 4;
 const SIGNIFICANT: f64 = 4.0;
 
-/// The covariance with shared noise, where there is any, and without.
+/// Covariance with shared noise, if any, and without.
 pub(super) struct Covariance {
     shared: Option<Matrix>,
     own: Matrix,
 }
 
-/// The least share of the variance without shared noise that is believed.
+/// Minimum accepted fraction of the variance without shared noise.
 const MIN_SHARE: f64 = 0.1;
 
 impl Covariance {
-    /// Of coefficients that fit samples with these residuals; `inverse` is B.
+    /// Covariance of coefficients fitted to samples with these residuals; `inverse` is B.
     pub(super) fn new(rows: &[Row], samples: &[Sample], residuals: &[f64], image: &Image, inverse: &Matrix) -> Self {
         let neighbours = Neighbours::new(samples, image);
         let shifts = neighbours.correlated(residuals);
@@ -48,7 +49,7 @@ impl Covariance {
         Self { shared, own: sandwich(rows, &residuals, |_| Vec::new(), inverse) }
     }
 
-    /// The variance of a sum of the coefficients by weight.
+    /// Variance of a weighted sum of the coefficients.
     pub(super) fn variance(&self, weights: &[f64]) -> f64 {
         let own = self.own.form(weights).max(0.0);
         let shared = self.shared.as_ref().map(|c| c.form(weights));
@@ -78,7 +79,7 @@ fn sandwich(rows: &[Row], residuals: &[f64], near: impl Fn(usize) -> Vec<usize>,
     inverse.times_symmetric(&meat).times_symmetric(inverse)
 }
 
-/// Which sample each pixel is.
+/// Index of the sample of each pixel.
 struct Neighbours {
     width: isize,
     samples: Vec<Option<usize>>,
@@ -98,7 +99,7 @@ impl Neighbours {
         (0..self.width).contains(&column).then(|| self.samples.get(place).copied().flatten())?
     }
 
-    /// Shifts within the reach of those at which noise is alike, or opposite.
+    /// Shifts within the reach of those with correlated or anticorrelated noise.
     fn correlated(&self, residuals: &[f64]) -> Vec<(isize, isize)> {
         let pixels: Vec<usize> = (0..self.samples.len()).filter(|p| self.samples[*p].is_some()).collect();
         let range = || -FARTHEST..=FARTHEST;

@@ -1,27 +1,27 @@
-//! Where an edge lies: a polynomial over the rows, its start from the gradients.
+//! Position of an edge: a polynomial over the rows, initialised from the gradients.
 
 use etendue_core::maths::f64::{atan, atan2, tan};
 
 use super::SfrError;
 use crate::Image;
 
-/// Angles to rows, columns and diagonals that are refused, degrees.
+/// Minimum angle to rows, columns and diagonals, degrees.
 const MIN_ANGLE_DEG: f64 = 1.9;
-/// The same of the first estimate, which is a third of a degree off at worst.
+/// The same for the first estimate, which is wrong by a third of a degree at most.
 const MIN_FIRST_ANGLE_DEG: f64 = 0.8;
-/// The share of the gradients' power that an edge's normal must hold over noise that has no direction.
+/// Minimum fraction of the gradients' power along an edge's normal, relative to isotropic noise.
 const MIN_ANISOTROPY: f64 = 0.2;
 
-/// What an edge runs along, nearly.
+/// Approximate direction of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
-    /// Columns: the response is that across columns (horizontal).
+    /// Along columns: the response is that across columns (horizontal).
     Vertical,
-    /// Rows: the response is that across rows (vertical).
+    /// Along rows: the response is that across rows (vertical).
     Horizontal,
 }
 
-/// An edge in a picture turned so that it runs from top to bottom: x = Σ c_k ((y − y₀)/y₀)^k.
+/// An edge in an image oriented so that the edge runs from top to bottom: x = Σ c_k ((y − y₀)/y₀)^k.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
     orientation: Orientation,
@@ -31,13 +31,13 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// From the structure tensor of the picture's gradients (its principal direction is the edge's normal; noise without direction
-    /// does not turn it) and the centre of the gradients along it.
+    /// The edge from the structure tensor of the image gradients (its principal direction is the edge's normal; isotropic noise
+    /// does not rotate it) and the centre of the gradients along it.
     pub(super) fn from_gradients(image: &Image) -> Result<Self, SfrError> {
         let gradients: Vec<Gradient> = gradients(&calmed(image)).collect();
         let sum = |f: fn(&Gradient) -> f64| gradients.iter().map(f).sum::<f64>();
         let (xx, yy, xy) = (sum(|g| g.x * g.x), sum(|g| g.y * g.y), sum(|g| g.x * g.y));
-        // Readings near the largest number leave gradients that are none.
+        // Readings near the largest number have invalid gradients.
         if (xx + yy).is_nan() || xx + yy <= 0.0 {
             return Err(SfrError::NoEdge("the picture is even"));
         }
@@ -47,7 +47,7 @@ impl Edge {
         }
         let normal_rad = 0.5 * atan2(2.0 * xy, xx - yy);
         let vertical = xx >= yy;
-        // The normal (cos α, sin α) of an edge x = c + s y is (1, −s); with x and y exchanged for a flat one.
+        // The normal (cos α, sin α) of an edge x = c + s y is (1, −s); with x and y exchanged for a horizontal one.
         let slope = if vertical { -tan(normal_rad) } else { -1.0 / tan(normal_rad) };
         let angle_deg = atan(slope.abs()).to_degrees();
         if !(MIN_FIRST_ANGLE_DEG..=45.0 - MIN_FIRST_ANGLE_DEG).contains(&angle_deg) {
@@ -69,7 +69,7 @@ impl Edge {
         Ok(Self { orientation, middle, coefficients: vec![at, slope * middle] })
     }
 
-    /// Through two points of a picture.
+    /// The edge through two points of an image.
     pub(super) fn through([a, b]: [[f64; 2]; 2], image: &Image) -> Result<Self, SfrError> {
         let run = [b[0] - a[0], b[1] - a[1]];
         let vertical = run[1].abs() >= run[0].abs();
@@ -84,7 +84,7 @@ impl Edge {
         edge.check().map(|()| edge)
     }
 
-    /// The picture as this edge's own frame sees it: a flat edge's with rows and columns exchanged.
+    /// The image in the edge's own frame: rows and columns are exchanged for a horizontal edge.
     pub(super) fn upright(&self, image: &Image) -> Image {
         match self.orientation {
             Orientation::Vertical => image.clone(),
@@ -96,13 +96,13 @@ impl Edge {
         }
     }
 
-    /// What it runs along.
+    /// Approximate direction.
     #[must_use]
     pub fn orientation(&self) -> Orientation {
         self.orientation
     }
 
-    /// The angle to rows or columns at the picture's middle, degrees.
+    /// The angle to rows or columns at the image centre, degrees.
     #[must_use]
     pub fn angle_deg(&self) -> f64 {
         atan(self.slope(self.middle).abs()).to_degrees()
@@ -129,20 +129,20 @@ impl Edge {
         (x - self.x(y)) / (1.0 + slope * slope).sqrt()
     }
 
-    /// How a pixel's distance changes with the coefficients, first order: −t^k cos θ.
+    /// Derivatives of a pixel's distance by the coefficients, to first order: −t^k cos θ.
     pub(super) fn sensitivities(&self, y: f64, degree: usize) -> Vec<f64> {
         let (t, slope) = (self.argument(y), self.slope(y));
         let cosine = 1.0 / (1.0 + slope * slope).sqrt();
         core::iter::successors(Some(-cosine), |s| Some(s * t)).take(degree + 1).collect()
     }
 
-    /// The edge with its coefficients moved.
+    /// The edge with changed coefficients.
     pub(super) fn moved(&self, by: &[f64]) -> Self {
         let coefficient = |k: usize| self.coefficients.get(k).copied().unwrap_or(0.0) + by[k];
         Self { coefficients: (0..by.len()).map(coefficient).collect(), ..self.clone() }
     }
 
-    /// Whether its angle can be measured.
+    /// Checks that its angle can be measured.
     pub(super) fn check(&self) -> Result<(), SfrError> {
         let angle_deg = self.angle_deg();
         let legal = (MIN_ANGLE_DEG..=45.0 - MIN_ANGLE_DEG).contains(&angle_deg);
@@ -150,11 +150,10 @@ impl Edge {
     }
 }
 
-/// Pixels that calming takes off each side.
+/// Border removed by smoothing, px.
 const BORDER: f64 = 2.0;
 
-/// Medians of three by three pixels, which know no single hot or dead one, then their means of three by three, which leave a ninth of
-/// the noise's power.
+/// 3 × 3 medians, which remove single hot or dead pixels, then 3 × 3 means, which leave a ninth of the noise power.
 fn calmed(image: &Image) -> Image {
     let median = |mut near: [f32; 9]| {
         near.sort_unstable_by(f32::total_cmp);
@@ -164,7 +163,7 @@ fn calmed(image: &Image) -> Image {
     neighbourhoods(&neighbourhoods(image, median), mean)
 }
 
-/// A function of each pixel and its eight neighbours; without the picture's border.
+/// A function of each pixel and its eight neighbours; without the image's border.
 fn neighbourhoods(image: &Image, of: impl Fn([f32; 9]) -> f32) -> Image {
     let (width, height) = (image.width() - 2, image.height() - 2);
     let near = |x: usize, y: usize| core::array::from_fn(|i| image.at(x + i % 3, y + i / 3));
@@ -178,7 +177,7 @@ struct Gradient {
     y: f64,
 }
 
-/// Gradients between four pixels, averaged over each pair (Roberts' cross turned upright).
+/// Gradients between four pixels, averaged over each pair (Roberts' cross, axis-aligned).
 fn gradients(image: &Image) -> impl Iterator<Item = Gradient> {
     let at = |x: usize, y: usize| f64::from(image.at(x, y));
     let places = (1..image.height()).flat_map(|y| (1..image.width()).map(move |x| (x, y)));

@@ -1,12 +1,12 @@
-//! How an edge is measured, and why it cannot be.
+//! Settings and errors of an edge measurement.
 
-/// Why an edge cannot be measured.
+/// Reason why an edge cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SfrError {
     /// Too few pixels.
     #[error("a slanted edge needs at least 16 × 16 pixels, not {width} × {height}")]
     TooSmall {
-        /// Pixels a row.
+        /// Pixels per row.
         width: usize,
         /// Rows.
         height: usize,
@@ -14,7 +14,7 @@ pub enum SfrError {
     /// A reading is NaN or infinite.
     #[error("the picture holds readings that are no numbers: give finite values")]
     NotFinite,
-    /// There is no edge.
+    /// No edge.
     #[error(
         "no slanted edge is in this part of the picture: expected one straight edge between two even surfaces ({0})"
     )]
@@ -32,18 +32,18 @@ pub enum SfrError {
         "the edge's profile is sampled with gaps of {gap_px:.2} pixels only: at {angle_deg:.2}° take more rows, or another angle"
     )]
     Gaps {
-        /// The widest gap.
+        /// Widest gap.
         gap_px: f64,
         /// Angle to the nearest of rows and columns.
         angle_deg: f64,
     },
-    /// The edge rises within a gap of its samples.
+    /// The edge rises within a gap between its samples.
     #[error(
         "the edge rises within the {gap_px:.2} pixels between the samples of its profile at {angle_deg:.2}°, so that finer structure is \
          folded back: take another angle; is the picture sampled at points (nearest neighbour)?"
     )]
     Steep {
-        /// The widest gap.
+        /// Widest gap.
         gap_px: f64,
         /// Angle to the nearest of rows and columns.
         angle_deg: f64,
@@ -51,34 +51,34 @@ pub enum SfrError {
     /// A side is clipped.
     #[error("{percent:.1} % of the pixels are saturated: expose less, so that both sides of the edge keep their noise")]
     Saturated {
-        /// Share of pixels.
+        /// Percentage of clipped pixels.
         percent: f64,
     },
-    /// The dark side is cut.
+    /// The dark side is clipped at 0.
     #[error(
         "{percent:.1} % of the pixels read 0, where darkness is cut: expose more, or raise the black level, so that both sides keep their noise"
     )]
     Dark {
-        /// Share of pixels.
+        /// Percentage of clipped pixels.
         percent: f64,
     },
-    /// The edge's degree or reach makes no sense.
+    /// Invalid degree or reach.
     #[error("{0}")]
     Settings(&'static str),
 }
 
-/// How an edge is measured.
+/// Settings of an edge measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SfrSettings {
-    /// Degree of the polynomial that the edge follows: 1 straight, 2 and 3 for edges bent by distortion.
+    /// Degree of the polynomial of the edge: 1 straight, 2 and 3 for edges bent by distortion.
     pub edge_degree: usize,
-    /// How far from the edge the profile has fine detail, pixels; `None`: 10, or as far as the picture reaches.
+    /// Reach of the profile's fine detail on either side of the edge, pixels; `None`: 10, or as far as the image extends.
     pub reach_px: Option<f64>,
-    /// Degree of the surfaces, one on either side of the edge beyond the reach, by which shading is taken off: 0 for none, 1 or 2.
+    /// Degree of the surfaces that model shading, one on either side of the edge beyond the reach: 0 for none, 1 or 2.
     pub shading_degree: usize,
     /// The reading of a saturated pixel.
     pub full_scale: Option<f64>,
-    /// The last frequency of the curve, cycles a pixel.
+    /// Last frequency of the curve, cycles per pixel.
     pub last_frequency: f64,
 }
 

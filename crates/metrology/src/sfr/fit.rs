@@ -1,4 +1,4 @@
-//! Where the edge lies and which pixels tell it: Gauss–Newton on edge and profile at once, without the pixels that are defects.
+//! Position of the edge and selection of pixels: Gauss–Newton on edge and profile together, without defective pixels.
 
 use etendue_stats::upper_median;
 
@@ -6,12 +6,13 @@ use super::knots::{Knots, Sample};
 use super::{Edge, SfrError, SfrSettings, profile::Profile};
 use crate::Image;
 
-/// Rounds of the refinement at most, and the move that ends it, px.
+/// Maximum number of refinement steps, and the change that ends them, px.
 const ROUNDS: usize = 30;
 const MIN_MOVE_PX: f64 = 1e-4;
-/// Pixels whose residuals differ from those of so many at the next smaller and larger distances by more than so many robust standard
-/// deviations (1.4826 times the median of the magnitudes in their zone, as demosaicing scatters pixels near the edge), and more than so much
-/// of the edge's height, are defects, and left out; the share of them at most, and how often they are sought.
+/// Detection of defective pixels, which are left out. A pixel's residual is compared with those of this many pixels at the next
+/// smaller and larger distances. It must differ by more than a number of robust standard deviations (1.4826 times the median of
+/// the magnitudes in their zone, as demosaicing scatters pixels near the edge), and by more than a fraction of the edge's height.
+/// Also the maximum fraction of defects, and the number of search passes.
 const NEIGHBOURS: usize = 4;
 const ZONES_PX: [f64; 2] = [1.0, 3.0];
 const OUTLIER_SIGMAS: f64 = 6.0;
@@ -19,7 +20,7 @@ const OUTLIER_SHARE: f64 = 0.05;
 const MAX_OUTLIERS: f64 = 0.02;
 const REJECTIONS: usize = 8;
 
-/// Fits edge and profile to the pixels that are `seen`, and again without those that are defects.
+/// Fits edge and profile to the pixels marked in `seen`, and again without the defective ones.
 pub(super) fn fitted(
     image: &Image,
     seen: &[bool],
@@ -53,7 +54,7 @@ fn samples(image: &Image, edge: &Edge, kept: &[bool]) -> Vec<Sample> {
     (0..kept.len()).filter(|i| kept[*i]).map(sample).collect()
 }
 
-/// The edge that the pixels fit best: Gauss–Newton on edge and profile together, so that neither holds the other back.
+/// The best-fitting edge: Gauss–Newton on edge and profile together, so that neither constrains the other.
 fn settled(image: &Image, start: Edge, kept: &[bool], settings: &SfrSettings) -> Result<Edge, SfrError> {
     let mut edge = start;
     let mut best: Option<(f64, Edge, Vec<f64>)> = None;
@@ -61,7 +62,7 @@ fn settled(image: &Image, start: Edge, kept: &[bool], settings: &SfrSettings) ->
         let samples = samples(image, &edge, kept);
         let knots = Knots::new(image, &edge, &samples, settings)?;
         let (squares, mut by) = knots.correction(&samples, &edge, settings.edge_degree)?;
-        // A move that made the fit worse went too far: half of it.
+        // A step that increased the residual was too large: half of it.
         match best.as_mut().filter(|(least, ..)| squares > *least) {
             Some((_, from, last)) => {
                 last.iter_mut().for_each(|v| *v *= 0.5);
@@ -77,7 +78,7 @@ fn settled(image: &Image, start: Edge, kept: &[bool], settings: &SfrSettings) ->
     Ok(edge)
 }
 
-/// Which pixels are no defects, judged by their residuals from the profile of those that were none so far.
+/// Marks pixels that are not defective, by their residuals from the profile of the pixels accepted so far.
 fn regular(
     image: &Image,
     seen: &[bool],
@@ -111,7 +112,7 @@ fn regular(
     Ok(kept)
 }
 
-/// How far each residual is from the median of those at the nearest distances: what the splines cannot follow is common to them.
+/// Difference of each residual from the median of those at the nearest distances, which removes the common misfit of the splines.
 fn apart_from_neighbours(samples: &[Sample], residuals: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..samples.len()).collect();
     order.sort_by(|a, b| samples[*a].distance.total_cmp(&samples[*b].distance));

@@ -1,27 +1,28 @@
 //! The splines of an edge's profile, and least squares of edge and profile on the pixels.
 //!
-//! B-splines of degree 4 and their integral.
+//! The splines are B-splines of degree 4 and their integral.
 
 use super::{Edge, SfrError, SfrSettings};
 use crate::{Image, linear::Normal};
 
-/// The finest step of the splines, px.
+/// Finest step of the splines, px.
 pub(super) const FINEST_STEP_PX: f64 = 0.25;
-/// The widest gap between distances. Steps are wider than gaps, as least squares on evenly clustered distances needs: 0.58 pixels then,
-/// where a fit of degree 5 at 0.5 cycles a pixel still keeps aliases below (0.29/0.71)⁶ = 0.5 % of the response.
+/// Maximum gap between distances. Steps are wider than gaps, as least squares on uniformly clustered distances requires: 0.58
+/// pixels at this gap, where a fit of degree 5 at 0.5 cycles per pixel still keeps aliases below (0.29/0.71)⁶ = 0.5 % of the
+/// response.
 const WIDEST_GAP_PX: f64 = 0.46;
 pub(super) const STEP_OVER_GAP: f64 = 1.25;
-/// How far the fine splines reach unless told, px.
+/// Default reach of the fine splines, px.
 pub(super) const USUAL_REACH_PX: f64 = 10.0;
-/// The step of the splines beyond, px, and how far they go.
+/// Step of the splines beyond, px, and their reach.
 const COARSE_STEP_PX: f64 = 2.0;
 pub(super) const MAX_PX: f64 = 100.0;
-/// How much of the picture's nearer side the profile may change in; the rest is plateau, whose mean the response at 0 rests on.
+/// Part of the image's nearer side in which the profile may change; the rest is plateau, whose mean determines the response at 0.
 const CHANGING: f64 = 0.65;
-/// The largest move of a round of the refinement, px.
+/// Maximum change in one refinement step, px.
 const MAX_MOVE_PX: f64 = 2.0;
 
-/// A pixel: its place in the picture, its distance from the edge, its row, and its reading.
+/// A pixel: its position in the image, its distance from the edge, its row, and its reading.
 #[derive(Clone, Copy)]
 pub(super) struct Sample {
     pub pixel: usize,
@@ -30,7 +31,7 @@ pub(super) struct Sample {
     pub reading: f64,
 }
 
-/// What a reading depends on: coefficients and how much of each.
+/// Coefficients on which a reading depends, with their weights.
 pub(super) struct Row(pub Vec<(usize, f64)>);
 
 impl Row {
@@ -39,7 +40,7 @@ impl Row {
     }
 }
 
-/// A step of the profile: where, how wide, and the levels on its two sides.
+/// A step of the profile: position, width, and the levels on its two sides.
 #[derive(Clone, Copy)]
 pub(super) struct Step {
     pub at: f64,
@@ -48,7 +49,7 @@ pub(super) struct Step {
     pub right: usize,
 }
 
-/// Where the splines lie.
+/// Positions of the splines.
 pub(super) struct Knots {
     pub step_px: f64,
     pub reach_px: f64,
@@ -63,7 +64,7 @@ impl Knots {
         samples: &[Sample],
         settings: &SfrSettings,
     ) -> Result<Self, SfrError> {
-        // Both plateaus must be seen beyond the reach, from somewhere.
+        // Both plateaus must be visible beyond the reach, from some row.
         let widest = |sign: f64| samples.iter().map(|s| sign * s.distance).fold(0.0, f64::max) - 1.0;
         let most = widest(1.0).min(widest(-1.0)).min(0.5 * image.width() as f64);
         let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX).min(most);
@@ -83,8 +84,9 @@ impl Knots {
         Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, (CHANGING * most).min(MAX_PX)) })
     }
 
-    /// The coefficients that a reading depends on, and how. The profile is a sum of levels, each of which holds from one step to the next:
-    /// those of the fine splines of degree 5, and on either side those of the coarse steps, outwards; the last holds from there on.
+    /// The coefficients of a reading, with their weights. The profile is a sum of levels, each of which extends from one step to
+    /// the next: those of the fine splines of degree 5, and on either side those of the coarse steps, outwards; the last extends
+    /// without limit.
     fn row(&self, distance: f64) -> Row {
         let u = (distance + self.reach_px) / self.step_px;
         let first = self.first(u);
@@ -107,7 +109,7 @@ impl Knots {
         Row(terms)
     }
 
-    /// The coarse levels of a side, and what the first step takes from the fine splines' end.
+    /// The coarse levels of a side, and the part that the first step takes from the fine splines' end.
     fn coarse_terms(&self, sign: f64, end: usize, levels: usize, distance: f64, terms: &mut Vec<(usize, f64)>) {
         let Some(first) = self.coarse.first() else { return };
         let u = (sign * distance - first) / COARSE_STEP_PX;
@@ -121,7 +123,7 @@ impl Knots {
             Some((_, value)) => *value -= taken,
             None => terms.push((end, -taken)),
         }
-        // Steps below this one are climbed wholly.
+        // Steps below this one are complete.
         let from = ((u - half).floor().max(0.0) as usize).min(self.coarse.len() - 1);
         let mut below = climbed(from);
         for k in (from..self.coarse.len()).take(SUPPORT + 2) {
@@ -131,7 +133,7 @@ impl Knots {
         }
     }
 
-    /// What each sample's reading depends on.
+    /// Coefficients of each sample's reading.
     pub(super) fn rows(&self, samples: &[Sample]) -> Vec<Row> {
         samples.iter().map(|sample| self.row(sample.distance)).collect()
     }
@@ -141,7 +143,7 @@ impl Knots {
         [(-1.0, 0, self.count + 1), (1.0, self.count, self.count + 1 + self.coarse.len())]
     }
 
-    /// How many coefficients there are.
+    /// Number of coefficients.
     fn unknowns(&self) -> usize {
         self.count + 1 + 2 * self.coarse.len()
     }
@@ -160,7 +162,7 @@ impl Knots {
         fine.chain(coarse).collect()
     }
 
-    /// The level that holds from the last step on the left outwards.
+    /// The level that extends outwards from the last step on the left.
     pub(super) fn leftmost(&self) -> usize {
         self.coarse.len().checked_sub(1).map_or(0, |last| self.count + 1 + last)
     }
@@ -179,9 +181,9 @@ impl Knots {
         normal
     }
 
-    /// The move of the edge's coefficients by one step of Gauss–Newton on edge and profile at once. The edge's place alone is the
-    /// profile's own (a moved profile is a profile): it follows from the middle of the profile's climb, which keeps it among the fine
-    /// splines; where it is far from them the edge is only moved there.
+    /// Change of the edge's coefficients by one step of Gauss–Newton on edge and profile together. The position of the edge is
+    /// degenerate with the profile (a shifted profile is a profile). It is therefore set from the middle of the profile's rise,
+    /// which keeps it among the fine splines; if it is far from them, only the edge is shifted.
     pub(super) fn correction(
         &self,
         samples: &[Sample],
@@ -216,7 +218,7 @@ impl Knots {
         Ok((squares, by))
     }
 
-    /// How far the profile may change, px.
+    /// Maximum extent of changes of the profile, px.
     fn extent_px(&self) -> f64 {
         self.coarse.last().map_or(self.reach_px, |at| at + COARSE_STEP_PX)
     }
@@ -230,7 +232,8 @@ impl Knots {
         self.row(distance).dot(levels)
     }
 
-    /// Where the profile has climbed half-way, by the share of it that lies nearer to the left plateau; nothing below half a pixel.
+    /// Position of the half-way rise of the profile, from the fraction of it that is nearer to the left plateau; zero below half a
+    /// pixel.
     fn middle_px(&self, levels: &[f64]) -> f64 {
         let [left, right] = self.plateaus(levels);
         let (extent, step) = (self.extent_px(), FINEST_STEP_PX);
@@ -249,8 +252,8 @@ impl Knots {
     }
 }
 
-/// Places of the coarse steps beyond the fine splines on either side: those whose support leaves the fine splines' range, so that no coarse
-/// step is a sum of fine ones (Kraft 1997), as far as there are pixels.
+/// Positions of the coarse steps beyond the fine splines on either side: those whose support leaves the fine splines' range, so
+/// that no coarse step is a sum of fine ones (Kraft 1997), as far as there are pixels.
 fn coarse(reach_px: f64, most: f64) -> Vec<f64> {
     let first = reach_px - 1.5 * COARSE_STEP_PX;
     (0..).map(|i| first + f64::from(i) * COARSE_STEP_PX).take_while(|at| at + COARSE_STEP_PX <= most).collect()
@@ -263,7 +266,7 @@ fn widest_gap(samples: &[Sample], reach_px: f64) -> f64 {
     distances.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
 }
 
-/// How many step functions differ from 0 and 1 at a place: the support of β⁴ in steps.
+/// Number of step functions that differ from 0 and 1 at a position: the support of β⁴ in steps.
 const SUPPORT: usize = 5;
 
 /// β⁴(u), the cardinal B-spline of degree 4, unit area, zero beyond |u| = 5/2 (Schoenberg 1946).

@@ -1,32 +1,34 @@
-//! From the picture of an edge to its response: of an edge by itself, or in a strip among others.
+//! Response of an edge from its image: of a single edge, or in a strip among others.
 //!
-//! Shading of an edge's region, taken off by the surfaces of its two sides.
+//! Shading of an edge's region is removed with surfaces fitted to its two sides.
 //!
-//! A lens's fall-off or uneven light makes the sides of an edge slope, and a slope is a response at low frequencies that the lens does not
-//! have: 5 % across a region move the response by as much. A polynomial is fitted to each side beyond the profile's reach, and every
-//! reading is taken as the share between the two surfaces, at the levels that they have in the region's middle:
+//! A lens's fall-off or non-uniform light makes the sides of an edge slope, which adds a response at low frequencies that the
+//! lens does not have: 5 % across a region change the response by as much. A polynomial is fitted to each side beyond the
+//! profile's reach. Every reading is converted to its relative position between the two surfaces, at their levels in the region's
+//! centre:
 //!
 //! ```text
 //! y′ = D₀ + (y − D(x, y)) (B₀ − D₀)/(B(x, y) − D(x, y))
 //! ```
 //!
-//! Exact for y = b + S(x, y) E(d) where the surfaces can follow the shading S, whatever the black level b. Tails of the line spread beyond the
-//! reach are taken for shading: leave it out where glare or diffraction is to be measured. The surfaces' own uncertainty is left out.
+//! This is exact for y = b + S(x, y) E(d) if the surfaces can follow the shading S, whatever the black level b. Limitations:
+//! tails of the line spread beyond the reach are mistaken for shading, so it should be off for measurements of glare or
+//! diffraction; the surfaces' own uncertainty is ignored.
 
 use super::response::{Sfr, SfrPoint, crossing};
 use super::{Edge, SfrError, SfrSettings, fit, knots::USUAL_REACH_PX, profile::Profile};
 use crate::{Image, linear::Normal};
 
-/// The largest degree of a surface.
+/// Maximum degree of a surface.
 const MAX_DEGREE: usize = 2;
 
-/// A surface over the picture.
+/// A surface over the image.
 struct Surface {
     coefficients: Vec<f64>,
     degree: usize,
 }
 
-/// The picture without shading.
+/// The image without shading.
 fn levelled(image: &Image, edge: &Edge, settings: &SfrSettings) -> Result<Image, SfrError> {
     let degree = settings.shading_degree;
     if degree == 0 {
@@ -53,7 +55,7 @@ fn levelled(image: &Image, edge: &Edge, settings: &SfrSettings) -> Result<Image,
 }
 
 impl Surface {
-    /// By least squares on the pixels of a side.
+    /// Fits a surface to the pixels of a side by least squares.
     fn fitted(image: &Image, degree: usize, within: impl Fn(f64, f64) -> bool) -> Option<Self> {
         let terms = (degree + 1) * (degree + 2) / 2;
         let mut normal = Normal::new(terms);
@@ -71,17 +73,17 @@ impl Surface {
     }
 }
 
-/// uⁱ vʲ, i + j up to the degree; u and v from −1 to 1 over the picture.
+/// uⁱ vʲ, i + j up to the degree; u and v from −1 to 1 over the image.
 fn powers(image: &Image, [x, y]: [f64; 2], degree: usize) -> Vec<f64> {
     let (u, v) = (2.0 * x / image.width() as f64 - 1.0, 2.0 * y / image.height() as f64 - 1.0);
     let power = |base: f64, n: usize| (0..n).fold(1.0, |product, _| product * base);
     (0..=degree).flat_map(|n| (0..=n).map(move |j| power(u, n - j) * power(v, j))).collect()
 }
 
-/// The response of the slanted edge that fills a picture.
+/// Measures the response of the slanted edge that fills an image.
 ///
 /// # Errors
-/// Where there is no such edge, its angle cannot be measured, or it is clipped.
+/// If there is no such edge, its angle cannot be measured, or it is clipped.
 pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrError> {
     check(image, settings)?;
     let start = Edge::from_gradients(image)?;
@@ -101,7 +103,7 @@ pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrErr
     })
 }
 
-/// Points of a curve but the first.
+/// Points of a curve without the first.
 const POINTS: usize = 100;
 
 pub(super) fn told(edge: &Edge, profile: &Profile, settings: &SfrSettings) -> Sfr {
@@ -147,23 +149,23 @@ pub(super) fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrErro
     if percent > 1.0 {
         return Err(SfrError::Saturated { percent });
     }
-    // Whole numbers and what is decoded from them end at 0, too.
+    // Integers, and values decoded from them, are clipped at 0, too.
     let dark = image.samples().iter().filter(|s| **s <= 0.0).count();
     let percent = 100.0 * dark as f64 / image.samples().len() as f64;
     if percent > 1.0 { Err(SfrError::Dark { percent }) } else { Ok(()) }
 }
 
-/// A strip about a straight edge whose place is known to a pixel or so.
+/// A strip around a straight edge whose position is known to about a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strip {
     /// The ends of the edge, raster coordinates, px.
     pub ends_px: [[f64; 2]; 2],
-    /// How far the strip reaches to either side of each end, px, and linearly between them.
+    /// Extent of the strip to either side of each end, px, linear between them.
     pub half_widths_px: [f64; 2],
 }
 
 impl Strip {
-    /// Whether a point lies in the strip.
+    /// True if a point is inside the strip.
     fn holds(&self, [x, y]: [f64; 2]) -> bool {
         let [a, b] = self.ends_px;
         let (run, off) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
@@ -174,7 +176,7 @@ impl Strip {
         (0.0..=1.0).contains(&along) && across.abs() <= p + along * (q - p)
     }
 
-    /// The pixels about it: left column, top row, width, height, within a picture.
+    /// The pixels around it: left column, top row, width, height, clipped to an image.
     fn bounds(&self, image: &Image) -> [usize; 4] {
         let most = self.half_widths_px[0].max(self.half_widths_px[1]) + 1.0;
         let along = |k: usize, length: usize| {
@@ -188,7 +190,7 @@ impl Strip {
     }
 }
 
-/// The response of the slanted edge in a strip of a picture.
+/// Measures the response of the slanted edge in a strip of an image.
 ///
 /// # Errors
 /// As [`super::measure_edge`].

@@ -1,4 +1,4 @@
-//! The edge's profile and the response that follows.
+//! The edge profile and its response.
 
 use core::f64::consts::{PI, TAU};
 
@@ -8,7 +8,7 @@ use super::knots::{FINEST_STEP_PX, Knots, MAX_PX, STEP_OVER_GAP, Sample, Step, s
 use super::{Edge, SfrError, SfrPoint, covariance::Covariance};
 use crate::{Estimate, Image};
 
-/// The largest response at half the frequency of the profile's sampling: what is beyond is folded back into the response.
+/// Maximum response at half the sampling frequency of the profile: higher frequencies alias into the response.
 const MAX_BEYOND: f64 = 0.03;
 
 /// A profile fitted to the pixels.
@@ -26,13 +26,13 @@ pub(super) struct Profile {
 }
 
 impl Profile {
-    /// The profile that the samples fit best between the knots.
+    /// The best-fitting profile of the samples for the knots.
     pub(super) fn of(knots: Knots, samples: &[Sample], image: &Image) -> Option<Self> {
         let rows = knots.rows(samples);
         let normal = knots.normal(samples, &rows);
         let values = normal.solve()?;
         let residuals: Vec<f64> = samples.iter().zip(&rows).map(|(s, row)| s.reading - row.dot(&values)).collect();
-        // Parameters use up freedom: the residuals are that much too small.
+        // Parameters use degrees of freedom: the residuals are too small by this factor.
         let free = samples.len() as f64 - values.len() as f64;
         let noise = (residuals.iter().map(|r| r * r).sum::<f64>() / free).sqrt();
         let covariance = Covariance::new(&rows, samples, &residuals, image, &normal.inverse()?);
@@ -41,7 +41,7 @@ impl Profile {
         Some(Self { step_px, reach_px, steps, leftmost, values, covariance, noise })
     }
 
-    /// Whether what was fitted is an edge, with residuals below a tenth of its height, and its samples tell it.
+    /// Checks that the fit is an edge, with residuals below a tenth of its height, and determined by its samples.
     pub(super) fn check(&self, edge: &Edge) -> Result<(), SfrError> {
         let [dark, bright] = self.levels();
         if self.noise.is_nan() || self.noise > 0.1 * (bright - dark) {
@@ -87,9 +87,10 @@ impl Profile {
         self.values[self.leftmost] + self.steps.iter().map(climbed).sum::<f64>()
     }
 
-    /// |M(f)|/M(0) and its uncertainty: M(f) = Σ (height of a step) sinc(f h)⁵ exp(−2πi f t) is linear in the coefficients. Noise across
-    /// M's phase makes a magnitude longer, whatever its sign: with the variances v along the phase and w across it w is taken off the square,
-    /// and the magnitude's variance is v + w²/2|M|², v + w at most (second order of the law of propagation, GUM 5.1.2).
+    /// Normalised magnitude |M(f)|/M(0) and its uncertainty: M(f) = Σ (height of a step) sinc(f h)⁵ exp(−2πi f t) is linear in the
+    /// coefficients. Noise perpendicular to M's phase always increases the magnitude. With the variances v along the phase and w
+    /// perpendicular to it, w is subtracted from the square, and the magnitude's variance is v + w²/2|M|², v + w at most (second
+    /// order of the law of propagation, GUM 5.1.2).
     pub(super) fn response(&self, frequency: f64) -> SfrPoint {
         let waves: Vec<(Step, [f64; 2])> = self.steps.iter().map(|s| (*s, wave(s, frequency))).collect();
         let total: f64 = waves.iter().map(|(s, _)| self.height(s)).sum();
@@ -115,7 +116,7 @@ impl Profile {
     }
 }
 
-/// The magnitude of a vector of length `measured`, whose components along and across itself have these variances.
+/// The magnitude of a vector of length `measured`, whose components parallel and perpendicular to itself have these variances.
 fn magnitude_of(measured: f64, along: f64, across: f64) -> Estimate {
     let square = measured * measured;
     let second = if 2.0 * square > across { across * across / (2.0 * square) } else { across };
@@ -149,7 +150,7 @@ mod tests {
         (0..count).map(|_| (-2.0 * ln(uniform())).sqrt() * cos(TAU * uniform())).collect()
     }
 
-    /// Where the response is as small as its noise, too, the interval holds the truth, and the square is right on the average.
+    /// The interval covers the true value even if the response is as small as its noise, and the square is unbiased.
     #[test]
     fn magnitudes_of_noisy_vectors_cover_the_truth() {
         const SEEDS: usize = 20_000;

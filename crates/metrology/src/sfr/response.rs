@@ -1,19 +1,20 @@
-//! A spatial frequency response by points: means of several, and where one falls to a level.
+//! A spatial frequency response by points: mean of several, and the frequency at which one falls to a level.
 //!
-//! Acutance: how sharp a picture looks from where it is viewed.
+//! Acutance: perceived sharpness of an image under a viewing condition.
 //!
-//! After the camera phone image quality metrics (IEEE 1858; Baxter, Cao, Eliasson & Phillips 2012), whose contrast sensitivity of the eye follows
-//! Johnson & Fairchild (2003):
+//! After the camera phone image quality metrics (IEEE 1858; Baxter, Cao, Eliasson & Phillips 2012), whose contrast sensitivity of
+//! the eye follows Johnson & Fairchild (2003):
 //!
 //! ```text
-//! A = ∫ SFR(ν) CSF(ν) dν / ∫ CSF(ν) dν       numerator to half a cycle a pixel, denominator to ∞
-//! CSF(ν) = a νᶜ exp(−b ν)/K                   a = 75, b = 0.2, c = 0.8, K = 34.05; ν in cycles a degree
-//! ν = f p                                    f: cycles a pixel, p: pixels of the picture a degree at the eye
+//! A = ∫ SFR(ν) CSF(ν) dν / ∫ CSF(ν) dν       numerator to half a cycle per pixel, denominator to ∞
+//! CSF(ν) = a νᶜ exp(−b ν)/K                   a = 75, b = 0.2, c = 0.8, K = 34.05; ν in cycles per degree
+//! ν = f p                                    f: cycles per pixel, p: pixels of the image per degree at the eye
 //! ```
 //!
-//! a and K cancel; ∫ νᶜ e^(−bν) dν = Γ(1.8)/0.2^1.8. A camera whose response is 1 up to half a cycle a pixel has the share of the CSF that such pixels
-//! can show, 0.987 at 60 pixels a degree. Between the response's points it runs straight. Uncertainty: as if all points erred together, an upper bound.
-//! Left out: the display's own response, and loss of quality in JND.
+//! a and K cancel; ∫ νᶜ e^(−bν) dν = Γ(1.8)/0.2^1.8. A camera whose response is 1 up to half a cycle per pixel has the fraction of
+//! the CSF that such pixels can show, 0.987 at 60 pixels per degree. The response is interpolated linearly between its points.
+//! Uncertainty: as if the errors of all points were fully correlated, an upper bound. Limitations: no response of the display, no
+//! loss of quality in JND.
 
 use etendue_core::maths::f64::{exp, pow};
 
@@ -23,7 +24,7 @@ use crate::Estimate;
 /// A point of the response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SfrPoint {
-    /// Cycles a pixel along the edge's normal.
+    /// Cycles per pixel along the edge's normal.
     pub frequency: f64,
     /// Response, 1 at frequency 0.
     pub response: Estimate,
@@ -43,9 +44,10 @@ pub fn mean_curve(curves: &[&[SfrPoint]]) -> Vec<SfrPoint> {
     (0..least).map(at).collect()
 }
 
-/// Where the curve falls to a level: midway between where the curve less its standard uncertainty does and where the curve with it does, so
-/// that a noisy curve is not taken at its first dip. Half of what lies between is the uncertainty, or the uncertainty over the slope of a line
-/// through the points about the place, where that is more (neighbours share their noise, a pair's slope would be mostly noise).
+/// Frequency at which the curve falls to a level: midway between the crossings of the curve less its standard uncertainty and of
+/// the curve plus it, so that a noisy curve is not evaluated at its first dip. The uncertainty is half of that interval, or the
+/// uncertainty over the slope of a line through the points near the crossing if that is more (as neighbours share their noise, a
+/// pair's slope would be mostly noise).
 #[must_use]
 pub fn crossing(curve: &[SfrPoint], level: f64) -> Option<Estimate> {
     const ABOUT: f64 = 0.05;
@@ -67,34 +69,34 @@ pub fn crossing(curve: &[SfrPoint], level: f64) -> Option<Estimate> {
     Some(Estimate::new(at, (u / slope.abs()).max(0.5 * (high - low))))
 }
 
-/// An edge's response.
+/// Response of an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sfr {
     /// Angle between the edge and the nearest of rows and columns, degrees, 0 to 45.
     pub angle_deg: f64,
-    /// Which of the two that is.
+    /// The nearest of rows and columns.
     pub orientation: Orientation,
-    /// Levels of the dark and the bright side, in the picture's readings.
+    /// Levels of the dark and the bright side, in the image's readings.
     pub levels: [f64; 2],
-    /// Standard deviation of the residuals, in the picture's readings.
+    /// Standard deviation of the residuals, in the image's readings.
     pub noise: f64,
-    /// The step of the profile's splines, pixels.
+    /// Step of the profile's splines, pixels.
     pub step_px: f64,
     /// The response at frequencies from 0 on.
     pub curve: Vec<SfrPoint>,
-    /// Where the response first falls to a half, cycles a pixel; none where it does not within the curve.
+    /// Frequency at which the response first falls to a half, cycles per pixel; `None` if it does not within the curve.
     pub mtf50: Option<Estimate>,
-    /// Where it first falls to a tenth.
+    /// Frequency at which the response first falls to a tenth.
     pub mtf10: Option<Estimate>,
-    /// How much the response changes at most, beyond its noise, where shading is taken off by surfaces of one degree more.
+    /// Maximum change of the response, beyond its noise, if shading is removed by surfaces of one degree more.
     pub shading: f64,
     /// The edge profile: (distance, px; reading), at equal steps.
     pub profile: Vec<(f64, f64)>,
 }
 
 impl Sfr {
-    /// With what taking off shading by surfaces of one degree more changes: where that is more than noise explains, the sides are not as even as
-    /// was assumed, and the difference is half the width of a rectangular distribution (GUM 4.3.7).
+    /// Includes the change by shading surfaces of one degree more. If that exceeds the noise, the sides are less uniform than
+    /// assumed, and the difference is half the width of a rectangular distribution (GUM 4.3.7).
     pub(super) fn with_choice_of_shading(self, other: &Self) -> Self {
         let differ = |(a, b): (&SfrPoint, &SfrPoint)| {
             let by = (a.response.value - b.response.value).abs();
@@ -112,7 +114,7 @@ impl Sfr {
         }
     }
 
-    /// The same where the picture's readings lie `pitch_px` pixels apart: lengths in pixels, frequencies in cycles a pixel.
+    /// Converts for readings that are `pitch_px` pixels apart: lengths in pixels, frequencies in cycles per pixel.
     #[must_use]
     pub fn sampled_every(self, pitch_px: f64) -> Self {
         let slower = |e: Estimate| e.scaled(1.0 / pitch_px);
@@ -128,7 +130,7 @@ impl Sfr {
     }
 }
 
-/// u² = u_a² + max((a − b)² − u_a², 0)/3: of what differs by no more than its own uncertainty nothing is added.
+/// u² = u_a² + max((a − b)² − u_a², 0)/3: nothing is added for a difference within its own uncertainty.
 pub(super) fn widened(a: Estimate, b: Estimate) -> Estimate {
     let own = a.standard_uncertainty * a.standard_uncertainty;
     let beyond = ((a.value - b.value) * (a.value - b.value) - own).max(0.0);
@@ -139,13 +141,13 @@ const B: f64 = 0.2;
 const C: f64 = 0.8;
 /// Γ(1.8).
 const GAMMA: f64 = 0.931_383_770_980_243;
-/// The last frequency that pixels can show.
+/// Nyquist frequency, cycles per pixel.
 const LAST: f64 = 0.5;
-/// Midpoints between two points of the response.
+/// Midpoints between two points of the response, for integration.
 const STEPS: usize = 16;
 
-/// The acutance of a response in cycles a pixel that begins at 0, seen at so many pixels a degree; none where the response ends below
-/// half a cycle a pixel.
+/// The acutance of a response in cycles per pixel that begins at 0, seen at this many pixels per degree; `None` if the response
+/// ends below half a cycle per pixel.
 #[must_use]
 pub fn acutance(curve: &[SfrPoint], pixels_per_degree: f64) -> Option<Estimate> {
     let reaches = curve.last().is_some_and(|p| p.frequency >= LAST - 1e-9);
@@ -160,7 +162,7 @@ pub fn acutance(curve: &[SfrPoint], pixels_per_degree: f64) -> Option<Estimate> 
     Some(Estimate::new(value / whole, u / whole))
 }
 
-/// ∫ SFR CSF dν between two points, and the same of the uncertainty.
+/// ∫ SFR CSF dν between two points, and the same for the uncertainty.
 fn interval([a, b]: [SfrPoint; 2], pixels_per_degree: f64) -> [f64; 2] {
     let width = (b.frequency.min(LAST) - a.frequency) / STEPS as f64;
     let term = |i: usize| {
@@ -189,13 +191,13 @@ mod tests {
 
     #[test]
     fn acutance_is_the_share_of_what_the_eye_sees() {
-        // exp(−k f) only steepens the CSF's own fall: (b/(b + k/p))^1.8 of the whole, but for what lies beyond 0.5 cycles a pixel, which
-        // 120 pixels a degree put at 60 cycles a degree, exp(−12) of the whole.
+        // exp(−k f) only steepens the CSF's own fall: (b/(b + k/p))^1.8 of the whole, except for the part above 0.5 cycles per pixel,
+        // which is at 60 cycles per degree for 120 pixels per degree, exp(−12) of the whole.
         let found = acutance(&curve(|f| exp(-12.0 * f)), 120.0).expect("it reaches 0.5");
         let expected = pow(0.2 / (0.2 + 0.1), 1.8);
-        // Chords of it over 0.01 lie (12 · 0.01)²/12 of it too high: 5.8e-4.
+        // Its chords over 0.01 are too high by (12 · 0.01)²/12 of it: 5.8e-4.
         assert!((found.value - expected).abs() < 7e-4, "{found:?} {expected}");
-        // The whole CSF errs by a hundredth.
+        // An error of a hundredth of the whole CSF.
         assert!((found.standard_uncertainty - 0.01).abs() < 1e-4, "{found:?}");
         // Incomplete gamma: P(1.8, 0.2 · 30) = 0.987395 (its series).
         let sharp = acutance(&curve(|_| 1.0), 60.0).expect("it reaches 0.5");

@@ -1,4 +1,4 @@
-//! Edges in closed form: the pixel's square times a lens.
+//! Edges in closed form: pixel aperture times lens.
 
 use super::*;
 use crate::Image;
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 enum Lens {
     /// Standard deviation, px.
     Gaussian(f64),
-    /// First frequency without response, cycles a pixel.
+    /// Cut-off frequency, cycles per pixel.
     Diffraction(f64),
     /// Radius of the circle of confusion, px.
     Defocus(f64),
@@ -67,11 +67,11 @@ const NODES: [(f64, f64); 4] = [
     (0.091_717_321_247_825, 0.181_341_891_689_181),
 ];
 
-/// An edge at an angle to the columns, through a point near the middle, seen by square pixels.
+/// An edge at an angle to the columns, through a point near the centre, sampled by square pixels.
 fn picture(lens: Lens, angle_deg: f64, size: usize) -> Image {
     let (sine, cosine) = sin_cos(angle_deg.to_radians());
     let centre = 0.5 * size as f64 + 0.137;
-    // The edge spread is tabulated: 64 steps a pixel, by parabolas.
+    // The edge spread is tabulated: 64 steps per pixel, by parabolas.
     let steps = 64.0;
     let reach = 1.5 * size as f64;
     let table: Vec<f64> =
@@ -103,7 +103,7 @@ fn aperture(angle_deg: f64, f: f64) -> f64 {
 }
 
 fn worst(lens: Lens, angle_deg: f64) -> (f64, Sfr) {
-    // Diffraction spreads light as the inverse square: what lies beyond the picture is missing from the response at 0.
+    // Diffraction spreads light with the inverse square of distance: light beyond the image is missing from the response at 0.
     let size = if matches!(lens, Lens::Diffraction(_)) { 128 } else { 80 };
     let sfr = measure_edge(&picture(lens, angle_deg, size), &SfrSettings::default());
     let sfr = sfr.unwrap_or_else(|e| panic!("{lens:?} {angle_deg}: {e}"));
@@ -115,7 +115,7 @@ fn worst(lens: Lens, angle_deg: f64) -> (f64, Sfr) {
     (worst, sfr)
 }
 
-/// The bound of the issue.
+/// Accuracy bound of the issue.
 const BOUND: f64 = 0.005;
 
 #[test]
@@ -131,7 +131,7 @@ fn edges_in_closed_form_give_their_response_from_2_to_43_degrees() {
     }
 }
 
-/// Light that falls by a tenth across the region, on top of a black level.
+/// Light that decreases by a tenth across the region, on top of a black level.
 #[test]
 fn shading_is_taken_off_on_request() {
     let (lens, angle_deg, size) = (Lens::Gaussian(0.5), 8.0, 80);
@@ -147,7 +147,7 @@ fn shading_is_taken_off_on_request() {
         low.map(|p| (p.response.value - truth(p.frequency)).abs()).fold(0.0, f64::max)
     };
     assert!(worst(1) < BOUND && worst(2) < BOUND, "{} {}", worst(1), worst(2));
-    // Without it this light's fall is a response that the lens does not have; the stated uncertainty covers it.
+    // Without correction this gradient adds a response that the lens does not have; the stated uncertainty covers it.
     assert!(worst(0) > 2.0 * BOUND, "{}", worst(0));
     let plain = measure_edge(&shaded, &SfrSettings::default()).expect("an edge");
     let apart = |p: &SfrPoint| (p.response.value - lens.response(p.frequency) * aperture(angle_deg, p.frequency)).abs();
@@ -201,7 +201,7 @@ fn noise_stays_within_the_stated_uncertainty() {
 }
 
 /// A small part of a raw mosaic: noise of a twentieth of the edge's height, gains that differ by 1 %, a pixel in 300 hot or dead.
-/// Every one of 60 is measured; 5 σ of the stated uncertainty and the issue's bound hold for each.
+/// Each of 60 is measured within 5 σ of the stated uncertainty and within the issue's bound.
 #[test]
 fn noise_unequal_gains_and_defects_do_not_hold_the_edge_back() {
     let lens = Lens::Gaussian(0.5);
@@ -253,11 +253,12 @@ fn what_is_no_slanted_edge_is_refused() {
     let clipped = SfrSettings { full_scale: Some(850.0), ..SfrSettings::default() };
     assert!(matches!(measure_edge(&edge, &clipped), Err(SfrError::Saturated { .. })));
     assert!(matches!(measure(&edge.part(0, 0, 12, 64)), Err(SfrError::TooSmall { .. })));
-    // Two degrees over so few rows leave the profile unsampled.
+    // Two degrees over so few rows leave gaps in the samples of the profile.
     assert!(matches!(measure(&picture(lens, 2.0, 64).part(8, 24, 48, 16)), Err(SfrError::Gaps { .. })));
 }
 
-/// Every other pixel each way, as one colour of a mosaic: the pixel's aperture is half of the sampling. In cycles of the samples.
+/// Every other pixel in each direction, as for one colour of a mosaic: the pixel aperture is half of the sampling. In cycles per
+/// sample.
 #[test]
 fn one_colour_of_a_mosaic_gives_its_response() {
     for (lens, angle_deg) in [
@@ -279,7 +280,7 @@ fn one_colour_of_a_mosaic_gives_its_response() {
     }
 }
 
-/// Noise that bilinear demosaicing has spread from every other pixel to its neighbours, on a clean edge.
+/// Noise that bilinear demosaicing has spread from every other pixel to its neighbours, on a sharp edge.
 #[test]
 fn the_stated_uncertainty_knows_noise_that_pixels_share() {
     let (lens, angle_deg) = (Lens::Gaussian(0.5), 7.0);
@@ -291,7 +292,7 @@ fn the_stated_uncertainty_knows_noise_that_pixels_share() {
             let pixel = Pixel { x: x as u32, y: y as u32 };
             normal.sample(&mut NoiseStream::new(seed, 0, 0, 0, pixel, NoiseDraw::Read))
         };
-        // Green of a Bayer tile; x and y from 1 on.
+        // Green of a Bayer tile; x and y start at 1.
         let green = |x: usize, y: usize| match (x + y) % 2 {
             0 => own(x, y),
             _ => 0.25 * (own(x - 1, y) + own(x + 1, y) + own(x, y - 1) + own(x, y + 1)),
@@ -303,8 +304,8 @@ fn the_stated_uncertainty_knows_noise_that_pixels_share() {
     crate::coverage::covers("sfr, developed pictures", |seed| points(&noisy(seed), truth));
 }
 
-/// Rows of a raw picture that share a noise, a third of that of the pixels: it shifts every row's edge spread up or down. (As large as the pixels' it is told too
-/// small by a quarter at some frequencies.)
+/// Row noise of a raw image, a third of the pixel noise: it shifts every row's edge spread up or down. (If it is as large as the
+/// pixel noise, its uncertainty is too small by a quarter at some frequencies.)
 #[test]
 fn the_stated_uncertainty_knows_noise_that_rows_share() {
     let (lens, angle_deg) = (Lens::Gaussian(0.5), 7.0);
@@ -323,15 +324,16 @@ fn the_stated_uncertainty_knows_noise_that_rows_share() {
     });
 }
 
-/// Responses of an edge beside the truth.
+/// Responses of an edge, with the true values.
 fn points(sfr: &Sfr, truth: impl Fn(f64) -> f64) -> crate::coverage::Run {
     let names = ["response at 0.1 cycles/px", "response at 0.25", "response at 0.4", "response at 0.5"];
     let point = |name, k: usize| (name, sfr.curve[k].response, truth(sfr.curve[k].frequency));
     [10, 25, 40, 50].into_iter().zip(names).map(|(k, name)| point(name, k)).collect()
 }
 
-/// Sampled at points, without an aperture: a step between two pixels. Its response is 1; where it stands is known to the gaps between its
-/// samples, 0.1 pixels here at most, so that the response at 0.5 may be off by some per cent, as is stated.
+/// Sampled at points, without an aperture: a step between two pixels. Its response is 1. Its position is known to the gaps
+/// between its samples, 0.1 pixels here at most, so that the response at 0.5 may be off by some per cent, within the stated
+/// uncertainty.
 #[test]
 fn hard_steps_are_measured_or_refused_for_their_steepness() {
     let size = 64;
@@ -355,7 +357,7 @@ fn hard_steps_are_measured_or_refused_for_their_steepness() {
             }
         }
     }
-    // Half a pixel between samples: a response of 1.09 at 0.5 would be told.
+    // Half a pixel between samples: a response of 1.09 at 0.5 would be reported.
     let coarse = measure_edge(&steps(26.565, 0.137), &SfrSettings::default());
     assert!(matches!(coarse, Err(SfrError::Steep { .. })), "{coarse:?}");
 }

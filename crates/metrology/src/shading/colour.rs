@@ -1,10 +1,10 @@
-//! Colour shading: how the ratios of channels change over the field.
+//! Colour shading: ratios of channels over the field.
 //!
 //! ```text
 //! ratio of a block = (red/green of the block)/(red/green of the central block), and blue likewise
 //! ```
 //!
-//! (ISO 17957:2015 words colour shading in chroma differences of an encoded picture; ratios of linear channels need no encoding.)
+//! (ISO 17957:2015 defines colour shading as chroma differences of an encoded image; ratios of linear channels need no encoding.)
 
 use super::{Shading, ShadingError, ShadingSettings, measure_shading};
 use crate::{Estimate, Image};
@@ -29,10 +29,10 @@ impl ColourShading {
     }
 }
 
-/// Colour shading from the red, green and blue of a flat field.
+/// Measures colour shading from the red, green and blue of a flat field.
 ///
 /// # Errors
-/// As [`measure_shading`], for each channel, or where they differ in size.
+/// As [`measure_shading`], for each channel, or if they differ in size.
 pub fn colour_shading(channels: [&Image; 3], settings: &ShadingSettings) -> Result<ColourShading, ShadingError> {
     let size = |image: &Image| (image.width(), image.height());
     if channels.iter().any(|c| size(c) != size(channels[0])) {

@@ -1,34 +1,36 @@
-//! What noise neighbours share: of a flat field whose pixels are developed, or exchange light.
+//! Noise shared by neighbours, in a flat field whose pixels are developed or have crosstalk.
 //!
-//! With y/m the readings over the fitted fall-off and C(d) the mean product of their deviations at a distance d, in the middle 256 × 256 pixels,
+//! With y/m the readings over the fitted fall-off and C(d) the mean product of their deviations at a distance d, in the middle
+//! 256 × 256 pixels,
 //!
 //! ```text
 //! c(d) = C(d) − C_far − [d_x = 0] τ²_columns − [d_y = 0] τ²_rows      |d_x|, |d_y| ≤ 3
-//! C_far: mean of C(d) over 4 ≤ max(|d_x|, |d_y|) ≤ 6 off the axes     (light that is uneven over more than some pixels)
-//! τ²:    mean of C(d) over 4 … 6 along the column or row, less C_far  (what lines have in common)
+//! C_far: mean of C(d) over 4 ≤ max(|d_x|, |d_y|) ≤ 6 off the axes     (light that varies slowly over the pixels)
+//! τ²:    mean of C(d) over 4 … 6 along the column or row, less C_far  (row and column noise)
 //! ```
 //!
-//! is the noise that neighbours share (zero but at d = 0 where they are independent). A mean over n pixels then has the variance Σ c(d)/n, and the second differences of a row,
-//! which tell the noise of a ring, see c(0) − 4/3 c(1, 0) + 1/3 c(2, 0) of it: the ratio of the two is what a ring's variance by second differences is to be
-//! multiplied with. White noise of N pixels leaves an error of 13/√N in the ratio (24 distances twice, and what is taken off them); within three times that it is taken for 1.
+//! is the noise shared by neighbours (zero except at d = 0 if they are independent). A mean over n pixels then has the variance Σ
+//! c(d)/n. The second differences of a row, which measure the noise of a ring, see c(0) − 4/3 c(1, 0) + 1/3 c(2, 0). A ring's
+//! variance from second differences is multiplied by the ratio of the two. White noise of N pixels leaves an error of 13/√N in
+//! the ratio (24 distances twice, and the subtracted terms); within three times that the ratio is set to 1.
 
-/// How far noise is shared, and how far what is taken off it is looked for, px.
+/// Reach of shared noise, and of the subtracted terms, px.
 const REACH: isize = 3;
 const FAR: isize = 6;
-/// Side of the part that is looked at, px.
+/// Side of the evaluated part, px.
 const ENOUGH: usize = 256;
-/// The error of the ratio by white noise, times the root of the number of pixels; and how many times that is significant.
+/// Error of the ratio from white noise, times the square root of the number of pixels; and its multiple that is significant.
 const ERROR: f64 = 13.0;
 const SIGNIFICANT: f64 = 3.0;
 
-/// Noise that neighbours share, of readings over the fall-off.
+/// Noise shared by neighbours, of readings relative to the fall-off.
 pub(super) struct Correlation {
     /// c(d), d_x from 0 to [`REACH`], d_y from −[`REACH`] to it, row by row.
     near: Vec<f64>,
 }
 
 impl Correlation {
-    /// Of readings over their fall-off; `None` where neighbours are independent as far as can be seen.
+    /// Estimates it from readings relative to their fall-off; `None` if neighbours show no significant correlation.
     pub(super) fn of(relative: &[f64], width: usize) -> Option<Self> {
         let part = Part::middle(relative, width);
         let far = |on_axis: [bool; 2]| part.mean_far(on_axis);
@@ -46,17 +48,17 @@ impl Correlation {
     }
 
     fn at(&self, dx: isize, dy: isize) -> f64 {
-        // Distances of opposite sign are alike.
+        // C(d) is equal at opposite distances.
         let (dx, dy) = if dx < 0 { (-dx, -dy) } else { (dx, dy) };
         self.near[(dx * (2 * REACH + 1) + dy + REACH) as usize]
     }
 
-    /// The variance of a mean of many pixels, times their number.
+    /// The variance of a mean of many pixels, times the number of pixels.
     fn of_means(&self) -> f64 {
         (-REACH..=REACH).map(|dx| self.of_columns_at(dx)).sum()
     }
 
-    /// Of columns dx apart: the covariance of their means, times their length.
+    /// Covariance of the means of columns dx apart, times their length.
     fn of_columns_at(&self, dx: isize) -> f64 {
         (-REACH..=REACH).map(|dy| self.at(dx, dy)).sum()
     }
@@ -65,24 +67,24 @@ impl Correlation {
         (-REACH..=REACH).map(|dx| self.at(dx, dy)).sum()
     }
 
-    /// What the variance by second differences of a row's neighbours is to be multiplied with for that of means.
+    /// Factor from the variance by second differences of a row's neighbours to that of means.
     pub(super) fn mean_over_differences(&self) -> f64 {
         self.of_means() / seen_by_differences([self.at(0, 0), self.at(1, 0), self.at(2, 0)])
     }
 
-    /// What second differences of the means of neighbouring lines see of it, times their length.
+    /// Its contribution to second differences of the means of neighbouring lines, times their length.
     pub(super) fn of_lines(&self, columns: bool) -> f64 {
         let apart = |d: isize| if columns { self.of_columns_at(d) } else { self.of_rows_at(d) };
         seen_by_differences([apart(0), apart(1), apart(2)])
     }
 }
 
-/// A sixth of the mean square of second differences, by the covariances at 0, 1 and 2.
+/// A sixth of the mean square of second differences, from the covariances at 0, 1 and 2.
 fn seen_by_differences([own, next, second]: [f64; 3]) -> f64 {
     own - 4.0 / 3.0 * next + second / 3.0
 }
 
-/// Deviations from the mean in the middle of a picture.
+/// Deviations from the mean in the centre of an image.
 struct Part {
     width: usize,
     height: usize,
@@ -100,7 +102,7 @@ impl Part {
         Self { width: columns, height: rows, deviations }
     }
 
-    /// C(d); 0 where the part is not so wide or high.
+    /// C(d); 0 if the part is too small.
     fn product(&self, dx: isize, dy: isize) -> f64 {
         let (right, down, up) = (dx.unsigned_abs(), dy.max(0).unsigned_abs(), dy.min(0).unsigned_abs());
         let (columns, rows) = (self.width.saturating_sub(right), self.height.saturating_sub(down + up));

@@ -1,33 +1,33 @@
-//! The fall-off over the field: an even polynomial of the distance from the centre over the square of 1 + c r².
+//! The fall-off over the field: an even polynomial of the distance from the centre divided by the square of 1 + c r².
 
 use super::report::{Basis, Ring, ShadingError, ShadingSettings, TERMS};
 use super::sums::Sums;
 use crate::Estimate;
 use crate::linear::{Matrix, Normal, dot};
 
-/// I₀ (1 + …) as Σ b_k φ_k(r²) of a [`Basis`], φ₀ 1 at the centre and the others 0.
+/// I₀ (1 + …) as Σ b_k φ_k(r²) of a [`Basis`], with φ₀ = 1 at the centre and the others 0.
 pub(super) struct Falloff {
     pub(super) basis: Basis,
     pub(super) b: Vec<f64>,
-    /// Of the coefficients, what the fit misses of the rings' means included.
+    /// Covariance of the coefficients, including the misfit of the rings' means.
     pub(super) covariance: Matrix,
-    /// The covariance of b₀ with each coefficient by the rings' own noise.
+    /// Covariance of b₀ with each coefficient due to the rings' own noise.
     pub(super) own_of_centre: Vec<f64>,
-    /// Of each ring, by its number: the covariance of b₀ with what lines share in its mean, and the variance of that.
+    /// For each ring, by its number: the covariance of b₀ with the line noise in its mean, and the variance of that noise.
     pub(super) with_lines: Vec<[f64; 2]>,
 }
 
-/// The noise of a pixel that the fit assumes at least, of its reading, so that no ring rules alone.
+/// Minimum relative noise of a pixel in the fit, so that no ring dominates.
 const MIN_NOISE: f64 = 1e-3;
 
-/// A ring's weight in the fit.
+/// Weight of a ring in the fit.
 pub(super) fn weight(ring: &Sums) -> f64 {
     let (u, least) = (ring.standard_uncertainty(), MIN_NOISE * ring.mean().abs() / ring.count.sqrt());
     1.0 / (u * u + least * least).max(f64::MIN_POSITIVE)
 }
 
 impl Falloff {
-    /// By the rings, whose means have a covariance by lines beside their own noise.
+    /// Fits the rings, whose means have a covariance due to lines in addition to their own noise.
     pub(super) fn fitted(rings: &[Sums], basis: Basis, shared: &Matrix) -> Result<Self, ShadingError> {
         let mut normal = Normal::new(TERMS);
         for ring in rings {
@@ -35,7 +35,7 @@ impl Falloff {
         }
         let none = ShadingError::NotFlat { percent: f64::NAN, blocks: 0 };
         let (b, own) = normal.solve().zip(normal.inverse()).ok_or(none)?;
-        // How each coefficient depends on the means of the rings.
+        // Dependence of each coefficient on the means of the rings.
         let lever = |ring: &Sums| own.times(&ring.mean_terms().map(|p| p * weight(ring)));
         let levers = Matrix::from_rows(TERMS, rings.iter().map(lever));
         let column = |k: usize| (0..rings.len()).map(|i| levers.at(i, k)).collect::<Vec<f64>>();
@@ -57,17 +57,17 @@ impl Falloff {
         if centre.value > 3.0 * centre.standard_uncertainty && centre.value > 0.0 { Ok(centre) } else { Err(dark) }
     }
 
-    /// The reading at a squared position.
+    /// Reading at a squared position.
     pub(super) fn at(&self, square: f64) -> f64 {
         self.basis.at(square).iter().zip(&self.b).map(|(p, b)| p * b).sum()
     }
 
-    /// The fall-off's mean over a ring or block.
+    /// Mean of the fall-off over a ring or block.
     pub(super) fn mean(&self, pixels: &Sums) -> f64 {
         pixels.mean_terms().iter().zip(&self.b).map(|(p, b)| p * b).sum()
     }
 
-    /// A ring over the centre, which depends on the ring itself by its share in the fit.
+    /// A ring relative to the centre, which depends on the ring itself by its weight in the fit.
     pub(super) fn ring(&self, ring: &Sums) -> Ring {
         let there = self.at(ring.square_position());
         let curved = self.mean(ring) - there;
@@ -80,7 +80,7 @@ impl Falloff {
         Ring { position: ring.square_position().sqrt(), relative: Estimate::new(value, u) }
     }
 
-    /// A linear form of the coefficients over b₀.
+    /// A linear form of the coefficients divided by b₀.
     fn over_centre(&self, form: [f64; TERMS]) -> Estimate {
         let value = form.iter().zip(&self.b).map(|(f, b)| f * b).sum::<f64>() / self.b[0];
         let mut slopes = form.map(|f| f / self.b[0]);
@@ -88,7 +88,7 @@ impl Falloff {
         Estimate::new(value, self.covariance.form(&slopes).max(0.0).sqrt())
     }
 
-    /// a₂ … a₈ of the polynomial 1 + a₂ r² + … + a₈ r⁸ that is nearest to the fall-off over the picture's circle.
+    /// a₂ … a₈ of the polynomial 1 + a₂ r² + … + a₈ r⁸ nearest to the fall-off over the image's circle.
     pub(super) fn polynomial(&self) -> [Estimate; TERMS - 1] {
         self.basis.nearest_polynomial().map(|(form, constant)| {
             let found = self.over_centre(form);
@@ -100,15 +100,15 @@ impl Falloff {
         self.over_centre(self.basis.at(1.0))
     }
 
-    /// Coefficients over that of the centre.
+    /// Coefficients relative to that of the centre.
     pub(super) fn shape(&self) -> [f64; TERMS] {
         core::array::from_fn(|k| self.b[k] / self.b[0])
     }
 }
 
-/// By how much the rings' squared residuals exceed what their noise and what lines share let expect of them, at least 1: the fit's own error,
-/// which its covariance does not know (Birge 1932). With W the weights, A the rings' terms, C the covariance of the fit and S that of the lines
-/// the residuals' sum of squares is expected to be ν + tr((W − W A C Aᵀ W) S), ν the rings less the coefficients.
+/// Ratio of the rings' squared residuals to their expectation from noise and line noise, at least 1: the fit's own error, which
+/// its covariance does not include (Birge 1932). With W the weights, A the rings' terms, C the covariance of the fit and S that
+/// of the lines, the expected sum of squared residuals is ν + tr((W − W A C Aᵀ W) S), with ν the rings less the coefficients.
 fn misfit(rings: &[Sums], b: &[f64], own: &Matrix, shared: &Matrix) -> f64 {
     if rings.len() <= TERMS {
         return 1.0;

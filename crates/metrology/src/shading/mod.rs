@@ -4,7 +4,8 @@
 //! against the radial field position in % of the half diagonal). With readings y less the black level b:
 //!
 //! ```text
-//! profile: mean of y − b over rings of equal width, at √⟨r²⟩, less what the fitted fall-off's mean over the ring is more than its value there,
+//! profile: mean of y − b over rings of equal width, at √⟨r²⟩, less the difference of the fitted fall-off's mean over the ring
+//! from its value there,
 //!          over the centre's value
 //! centre:  I₀ of I₀ (1 + b₁ r² + b₂ r⁴ + b₃ r⁶ + b₄ r⁸)/(1 + c r²)², fitted to the rings by weighted least squares; r = 1 in the corner; c that of a first fit
 //!          without it (`report.rs`)
@@ -12,12 +13,12 @@
 //! map:     means of blocks over the mean of the block in the centre (odd numbers of blocks)
 //! ```
 //!
-//! Uncertainty: from each ring's and block's own noise (from the second differences of neighbours, PRNU among it, over the number of
-//! pixels, and what neighbours share of it: `correlation.rs`), and for the profile that of I₀, which all rings share, and of what whole rows and columns of the sensor have in common
-//! (`sums.rs`). Where the rings differ from the fit by more than all that, the fit's covariance is larger by as much (Birge 1932). The unevenness of the light itself
-//! is not in it, nor is that of rows and columns in the map's.
+//! Uncertainty: from each ring's and block's own noise (second differences of neighbours, which include PRNU, over the number of
+//! pixels, and the noise shared by neighbours: `correlation.rs`). For the profile also that of I₀, which all rings share, and of
+//! row and column noise of the sensor (`sums.rs`). If the rings differ from the fit by more than that, the fit's covariance is
+//! scaled accordingly (Birge 1932). It excludes the non-uniformity of the light itself; for the map also row and column noise.
 //!
-//! Refused: saturated fields, fields no brighter than black, pictures that no smooth fall-off describes.
+//! Refused: saturated fields, fields no brighter than black, images that no smooth fall-off describes.
 
 mod colour;
 mod correlation;
@@ -37,10 +38,10 @@ use sums::{Sums, readings, square_position};
 pub use colour::{ColourShading, colour_shading};
 pub use report::{Ring, Shading, ShadingError, ShadingSettings};
 
-/// The shading of a flat field.
+/// Measures the shading of a flat field.
 ///
 /// # Errors
-/// Where it is saturated, dark, not flat, or too small.
+/// If it is saturated, dark, not flat, or too small.
 pub fn measure_shading(image: &Image, settings: &ShadingSettings) -> Result<Shading, ShadingError> {
     check(image, settings)?;
     let none = |rings: &[Sums]| Matrix::zeros(rings.len(), rings.len());
@@ -120,7 +121,7 @@ fn relative_map(blocks: &[Sums], settings: &ShadingSettings) -> Result<Vec<Vec<E
     Ok(all.chunks_exact(settings.blocks).map(<[Estimate]>::to_vec).collect())
 }
 
-/// The largest deviation of blocks from the fall-off that still is a flat field: lamps and lenses that are not centred.
+/// Maximum deviation of blocks from the fall-off in a flat field: lights and lenses that are not centred.
 const MAX_DEVIATION: f64 = 0.15;
 
 fn flatness(blocks: &[Sums], fit: &Falloff, settings: &ShadingSettings) -> Result<(), ShadingError> {

@@ -1,27 +1,27 @@
-//! How shading is measured and what is found: settings, basis of a fall-off, report, errors.
+//! Settings, basis of a fall-off, results and errors of a shading measurement.
 //!
-//! What a fall-off is made of.
+//! Basis of a fall-off:
 //!
 //! ```text
 //! φ_k(s) = sᵏ/(1 + c s)²      s = r², r = 1 in the corner, k = 0 … 4
 //! ```
 //!
-//! The irradiance of a lens falls about as cos⁴ θ = 1/(1 + s tan² θ_corner)², of which a polynomial alone misses at 37 % in the corner 0.16 points there
-//! and 0.05 % at the centre, far more than the noise of a good picture. With the c that a first fit by polynomials (c = 0) finds, cos⁴ is one of the terms, and what
-//! pixels, pupils and distortion change of it is smooth and small.
+//! The irradiance of a lens falls approximately as cos⁴ θ = 1/(1 + s tan² θ_corner)². At 37 % in the corner, a polynomial alone
+//! is off by 0.16 points there and by 0.05 % at the centre, far more than the noise of a good image. With the c from a first fit
+//! by polynomials (c = 0), cos⁴ is one of the terms, and the effects of pixels, pupils and distortion are smooth and small.
 
 use etendue_core::maths::f64::cos;
 
 use crate::Estimate;
 use crate::linear::{Cholesky, Matrix};
 
-/// Why a flat field cannot be measured.
+/// Reason why a flat field cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShadingError {
     /// Saturated.
     #[error("{percent:.1} % of the flat field's pixels are saturated: expose less")]
     Saturated {
-        /// Share of pixels.
+        /// Percentage of saturated pixels.
         percent: f64,
     },
     /// No light.
@@ -41,7 +41,7 @@ pub enum ShadingError {
     NotFlat {
         /// Relative deviation.
         percent: f64,
-        /// Blocks along a side.
+        /// Number of blocks along a side.
         blocks: usize,
     },
     /// A reading is NaN or infinite.
@@ -52,13 +52,13 @@ pub enum ShadingError {
         "a picture of {width} × {height} pixels is too small for {rings} rings and {blocks} × {blocks} blocks (an odd number of blocks, four pixels or more each)"
     )]
     TooSmall {
-        /// Pixels a row.
+        /// Pixels per row.
         width: usize,
         /// Rows.
         height: usize,
-        /// Rings asked for.
+        /// Requested rings.
         rings: usize,
-        /// Blocks asked for.
+        /// Requested blocks.
         blocks: usize,
     },
     /// Channels of different sizes.
@@ -66,14 +66,14 @@ pub enum ShadingError {
     Sizes,
 }
 
-/// How a flat field is measured.
+/// Settings of a flat-field measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShadingSettings {
-    /// Reading of no light.
+    /// Reading without light.
     pub black: f64,
     /// Reading of a saturated pixel.
     pub full_scale: Option<f64>,
-    /// Centre of the fall-off, raster coordinates; `None`: the picture's.
+    /// Centre of the fall-off, raster coordinates; `None`: the image centre.
     pub centre_px: Option<(f64, f64)>,
     /// Rings of the profile.
     pub rings: usize,
@@ -90,26 +90,26 @@ impl Default for ShadingSettings {
 /// A ring of the profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
-    /// Radial field position, share of the distance from the centre to the farthest corner.
+    /// Radial field position, as a fraction of the distance from the centre to the farthest corner.
     pub position: f64,
     /// Illumination relative to the centre.
     pub relative: Estimate,
 }
 
-/// A flat field's shading.
+/// Shading of a flat field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shading {
     /// From the centre outwards.
     pub profile: Vec<Ring>,
     /// The centre's reading less black.
     pub centre: Estimate,
-    /// a₂, a₄, a₆, a₈ of the polynomial that is nearest to the fitted fall-off over the circle, positions as shares.
+    /// a₂, a₄, a₆, a₈ of the polynomial nearest to the fitted fall-off over the circle, with positions as fractions.
     pub coefficients: [Estimate; 4],
     /// Fitted illumination at the farthest corner relative to the centre.
     pub corner: Estimate,
     /// Block means relative to the central one, rows from the top.
     pub map: Vec<Vec<Estimate>>,
-    /// The fitted fall-off: its terms, and their coefficients over that of the centre.
+    /// The fitted fall-off: its terms, and their coefficients relative to that of the centre.
     pub(super) fitted: (Basis, [f64; TERMS]),
 }
 
@@ -122,9 +122,9 @@ impl Shading {
     }
 }
 
-/// Terms of a fall-off.
+/// Number of terms of a fall-off.
 pub(super) const TERMS: usize = 5;
-/// c of a corner that has a twentieth of the light.
+/// c of a corner with a twentieth of the light.
 const MAX_STEEPNESS: f64 = 3.47;
 
 /// The terms for one c.
@@ -135,13 +135,13 @@ pub(super) struct Basis {
 }
 
 impl Basis {
-    /// The terms in which the square of 1 + c s alone gives a corner its light over that of the centre.
+    /// The terms for which the square of 1 + c s alone gives a corner its light relative to the centre.
     pub(super) fn of_corner(relative: f64) -> Self {
         let steepness = if relative > 0.0 { 1.0 / relative.sqrt() - 1.0 } else { MAX_STEEPNESS };
         Self { steepness: steepness.clamp(0.0, MAX_STEEPNESS) }
     }
 
-    /// The terms at a squared position.
+    /// The terms at a squared position, 0 to 1.
     pub(super) fn at(self, square: f64) -> [f64; TERMS] {
         let root = 1.0 + self.steepness * square;
         let mut terms = [1.0 / (root * root); TERMS];
@@ -149,8 +149,9 @@ impl Basis {
         terms
     }
 
-    /// Of each coefficient of the polynomial 1 + a₂ s + … + a₈ s⁴ that is nearest to Σ b_k φ_k/b₀ by least squares over s from 0 to 1 (the area of a
-    /// circle): weights of b_k/b₀, and what is taken off their sum. Without steepness the coefficients themselves.
+    /// For each coefficient of the polynomial 1 + a₂ s + … + a₈ s⁴ nearest to Σ b_k φ_k/b₀ by least squares over s from 0 to 1 (the
+    /// area of a circle): weights of b_k/b₀, and the constant subtracted from their sum. Without steepness these are the
+    /// coefficients themselves.
     pub(super) fn nearest_polynomial(self) -> [([f64; TERMS], f64); TERMS - 1] {
         let inverse = inverse_hilbert();
         // ∫ sⁱ φ_k ds and ∫ sⁱ ds, i = 1 … 4.
@@ -177,7 +178,8 @@ fn inverse_hilbert() -> Matrix {
     Cholesky::of(&moments, 1e-14).expect("powers are independent").inverse()
 }
 
-/// Nodes and weights of Fejér's first rule on 0 to 1: exact for polynomials below its number of nodes, and as good as that for φ_k, whose pole is far.
+/// Nodes and weights of Fejér's first rule on 0 to 1: exact for polynomials of a degree below the number of nodes, and equally
+/// accurate for φ_k, whose pole is far away.
 fn nodes() -> impl Iterator<Item = (f64, f64)> {
     const COUNT: u32 = 48;
     (0..COUNT).map(|i| {
@@ -201,7 +203,7 @@ mod tests {
         }
     }
 
-    /// 1/(1 + c s)² and the polynomial that is nearest to it, for a corner of 37 %.
+    /// 1/(1 + c s)² and the polynomial nearest to it, for a corner of 37 %.
     #[test]
     fn the_nearest_polynomial_is_near() {
         let basis = Basis::of_corner(0.37);

@@ -1,18 +1,19 @@
-//! Readings of a picture, and their sums over rings and blocks.
+//! Readings of an image, and their sums over rings and blocks.
 //!
-//! What whole rows and columns of the sensor have in common, and what it does to the means of rings.
+//! Row and column noise of the sensor, and its effect on the means of rings:
 //!
-//! A column whose pixels all respond by a fifth of a per cent more (amplifiers of columns) moves a ring's mean by its share of that ring, and does not
-//! average over the column's pixels. With y/m readings over the fitted fall-off, c_x its mean over a column of h pixels and σ² the variance of
-//! a pixel beyond its row's and column's (from y's second differences along both at once, a 36th of their square), neighbouring columns differ by
+//! A column whose pixels all respond by a fifth of a per cent more (column amplifiers) shifts a ring's mean in proportion to its
+//! part of that ring, and does not average out over the column's pixels. With y/m readings over the fitted fall-off, c_x its mean
+//! over a column of h pixels and σ² the variance of a pixel beyond its row's and column's (from y's second differences along
+//! both, a 36th of their square), neighbouring columns differ by
 //!
 //! ```text
 //! ⟨(c_{x−1} − 2 c_x + c_{x+1})²⟩/6 = τ² + σ²/h
 //! ```
 //!
-//! and a covariance of the rings' means follows, τ² Σ_x a_kx a_lx with a_kx = m_k n_kx/n_k, m_k the ring's mean, n_kx the pixels of ring k in column x; of rows likewise.
-//! Light that changes evenly from column to column is not in it. Where neighbours share noise (`correlation.rs`), what it does to neighbouring columns stands in
-//! the place of σ²/h.
+//! and the covariance of the rings' means is τ² Σ_x a_kx a_lx with a_kx = m_k n_kx/n_k, m_k the ring's mean, n_kx the pixels of
+//! ring k in column x; likewise for rows. Light that varies linearly from column to column does not contribute. If neighbours
+//! share noise (`correlation.rs`), its effect on neighbouring columns replaces σ²/h.
 
 use super::correlation::Correlation;
 use super::report::{Basis, ShadingSettings, TERMS};
@@ -26,11 +27,11 @@ pub(super) struct Sums {
     pub(super) reading: f64,
     /// Σ r².
     square: f64,
-    /// Of the fall-off's terms, over the pixels.
+    /// Sums of the fall-off's terms over the pixels.
     terms: [f64; TERMS],
     pub(super) variance: f64,
     pub(super) pairs: f64,
-    /// Which ring it is of those asked for.
+    /// Number of the ring among those requested.
     pub(super) number: usize,
 }
 
@@ -55,12 +56,12 @@ impl Sums {
         self.terms.map(|sum| sum / self.count)
     }
 
-    /// Of the mean.
+    /// Of the mean reading.
     pub(super) fn standard_uncertainty(&self) -> f64 {
         if self.pairs > 0.0 { (self.variance / self.pairs / self.count).sqrt() } else { f64::INFINITY }
     }
 
-    /// Rings that hold pixels.
+    /// Rings that contain pixels.
     pub(super) fn rings(image: &Image, settings: &ShadingSettings, basis: Basis) -> Vec<Self> {
         let mut rings: Vec<Self> = (0..settings.rings).map(|number| Self { number, ..Self::default() }).collect();
         let square = square_position(image, settings);
@@ -89,7 +90,7 @@ pub(super) fn readings(image: &Image, settings: &ShadingSettings) -> impl Iterat
     image.samples().iter().enumerate().map(move |(i, s)| (i % width, i / width, f64::from(*s) - settings.black))
 }
 
-/// Squared distance of a pixel from the centre over that of the farthest corner.
+/// Squared distance of a pixel from the centre relative to that of the farthest corner.
 pub(super) fn square_position(image: &Image, settings: &ShadingSettings) -> impl Fn(usize, usize) -> f64 + use<> {
     let (width, height) = (image.width() as f64, image.height() as f64);
     let (cx, cy) = settings.centre_px.unwrap_or((0.5 * width, 0.5 * height));
@@ -101,13 +102,13 @@ pub(super) fn square_position(image: &Image, settings: &ShadingSettings) -> impl
     }
 }
 
-/// Readings over a fall-off over squared positions.
+/// Readings relative to a fall-off over squared positions.
 pub(super) fn relative(image: &Image, settings: &ShadingSettings, falloff: impl Fn(f64) -> f64) -> Vec<f64> {
     let square = square_position(image, settings);
     readings(image, settings).map(|(x, y, reading)| reading / falloff(square(x, y))).collect()
 }
 
-/// The covariance of the rings' means by readings over their fall-off, and by what neighbours share.
+/// The covariance of the rings' means, from readings relative to their fall-off, and from the noise shared by neighbours.
 pub(super) fn shared(
     image: &Image,
     settings: &ShadingSettings,
@@ -129,7 +130,7 @@ pub(super) fn shared(
     covariance
 }
 
-/// The variance of a pixel that neither its row nor its column has in common.
+/// The variance of a pixel without the parts of its row and column.
 fn white_variance(relative: &[f64], width: usize) -> f64 {
     let rows: Vec<&[f64]> = relative.chunks_exact(width).collect();
     let along = |row: &[f64], x: usize| row[x - 1] - 2.0 * row[x] + row[x + 1];
@@ -151,7 +152,7 @@ fn line_variance(means: &[f64]) -> f64 {
     squares.sum::<f64>() / (6.0 * (means.len() - 2) as f64)
 }
 
-/// Of each ring, what each line contributes to its mean.
+/// Contribution of each line to the mean of each ring.
 fn shares(
     image: &Image,
     settings: &ShadingSettings,

@@ -1,4 +1,4 @@
-//! Flat fields of a known fall-off.
+//! Flat fields with a known fall-off.
 
 use super::*;
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
@@ -12,7 +12,7 @@ fn falloff(position: f64) -> f64 {
     1.0 / ((1.0 + square) * (1.0 + square))
 }
 
-/// What is measured of a picture, at five rings and the corner, and what is there.
+/// Measured and true values of an image, at five rings and the corner.
 fn rings_of(image: &Image) -> crate::coverage::Run {
     let found = measure_shading(image, &settings()).expect("a flat field");
     let ring = |name, k: usize| (name, found.profile[k].relative, falloff(found.profile[k].position));
@@ -43,7 +43,7 @@ fn settings() -> ShadingSettings {
 fn a_fall_off_without_noise_comes_back() {
     let shading = measure_shading(&field(0, 0.0), &settings()).expect("a flat field");
     for ring in &shading.profile {
-        // Rings are 1/20 wide: the curvature within one, 1e-4, is taken off. The centre is that of a fit.
+        // Rings are 1/20 wide: the curvature within one, 1e-4, is corrected. The centre is that of a fit.
         assert!((ring.relative.value - falloff(ring.position)).abs() < 3e-4, "{ring:?}");
     }
     assert!((shading.corner.value - falloff(1.0)).abs() < 3e-4, "{:?}", shading.corner);
@@ -58,7 +58,8 @@ fn stated_intervals_cover_the_fall_off() {
     crate::coverage::covers("vignetting", |seed| rings_of(&field(seed, 16.0)));
 }
 
-/// Amplifiers of columns whose gains differ by 0.3 %, of rows by 0.1 %, beside noise of 2 %: the light is even, the rings' errors are shared.
+/// Column amplifiers whose gains differ by 0.3 %, row gains by 0.1 %, in addition to noise of 2 %: the light is uniform, the
+/// rings share errors.
 #[test]
 fn stated_intervals_cover_the_fall_off_under_patterns_of_columns_and_rows() {
     crate::coverage::covers("vignetting, patterns of columns and rows", |seed| {
@@ -80,7 +81,7 @@ fn stated_intervals_cover_the_fall_off_under_patterns_of_columns_and_rows() {
     });
 }
 
-/// Green of a developed picture: noise that bilinear demosaicing has spread from every other pixel to its neighbours.
+/// Green of a developed image: noise that bilinear demosaicing has spread from every other pixel to its neighbours.
 #[test]
 fn stated_intervals_cover_the_fall_off_in_developed_pictures() {
     crate::coverage::covers("vignetting, developed pictures", |seed| {
@@ -91,7 +92,7 @@ fn stated_intervals_cover_the_fall_off_in_developed_pictures() {
             if (x + y).is_multiple_of(2) {
                 return at(x, y);
             }
-            // Mirrored at the border, where the neighbours beyond it have the colour of those within.
+            // Mirrored at the border, where the neighbours outside have the colour of those inside.
             let (left, right) = (if x == 0 { 1 } else { x - 1 }, if x + 1 == width { x - 1 } else { x + 1 });
             let (up, down) = (if y == 0 { 1 } else { y - 1 }, if y + 1 == height { y - 1 } else { y + 1 });
             0.25 * (at(left, y) + at(right, y) + at(x, up) + at(x, down))
@@ -101,15 +102,15 @@ fn stated_intervals_cover_the_fall_off_in_developed_pictures() {
     });
 }
 
-/// A wide lens: cos⁴ down to 37 % in the corner, less a tenth, seen about a centre beside the middle. A polynomial of the same number of terms misses its corner by
-/// two thousandths; what is asked is a twentieth of that.
+/// A wide-angle lens: cos⁴ down to 37 % in the corner, less a tenth, about an off-centre point. A polynomial of the same number
+/// of terms misses its corner by two thousandths; the requirement is a twentieth of that.
 #[test]
 fn the_corner_of_a_wide_lens_is_that_of_the_lens() {
     let (width, height) = (388, 292);
     let settings = ShadingSettings { centre_px: Some((197.25, 143.5)), ..ShadingSettings::default() };
     let square = square_position(&Image::new(width, height), &settings);
     let wide = |square: f64| 1.0 / ((1.0 + 0.644 * square) * (1.0 + 0.644 * square));
-    // Pixels that see light from aside by a part less: what is beyond cos⁴ is smooth.
+    // Pixels with a reduced response to oblique light: the departure from cos⁴ is smooth.
     let light = |square: f64| 1000.0 * wide(square) * (1.0 - 0.1 * square);
     let samples = (0..width * height).map(|i| light(square(i % width, i / width)) as f32).collect();
     let image = Image::from_samples(width, height, samples).expect("a rectangle");
@@ -123,8 +124,8 @@ fn the_corner_of_a_wide_lens_is_that_of_the_lens() {
     }
 }
 
-/// Pixels that see light only from within a cone: a bend in the fall-off that no smooth curve follows. The corner is off by about what is stated (2.1 times here, where noise
-/// alone states a hundredth of it).
+/// Pixels that accept light only from within a cone: a bend in the fall-off that no smooth curve follows. The error in the corner
+/// is about the stated uncertainty (2.1 times here; noise alone would give a hundredth of it).
 #[test]
 fn what_the_fit_misses_is_in_its_uncertainty() {
     let (width, height) = (388, 292);
@@ -148,7 +149,7 @@ fn colour_shading_is_the_ratio_of_channels() {
     let blue = Image::from_samples(SIZE.0, SIZE.1, samples).expect("a rectangle");
     let shading = colour_shading([&red, &green, &blue], &settings()).expect("flat fields");
     let [r, b] = shading.extremes();
-    // The outer blocks' middles lie 5/11 from the centre.
+    // The centres of the outer blocks are 5/11 from the centre.
     assert!((r.value - 1.0).abs() < 1e-12 && ((b.value - 1.0).abs() - 0.1 * 5.0 / 11.0).abs() < 1e-3, "{r:?} {b:?}");
 }
 
@@ -160,7 +161,7 @@ fn what_is_no_flat_field_is_refused() {
     };
     let full_scale = Some(700.0);
     assert!(matches!(clipped(ShadingSettings { full_scale, ..settings() }), Err(ShadingError::Saturated { .. })));
-    // The plateau tells where nobody says what full scale is.
+    // The plateau indicates clipping if the full scale is not stated.
     assert!(matches!(clipped(ShadingSettings { full_scale: None, ..settings() }), Err(ShadingError::Saturated { .. })));
     let measure = |image: &Image| measure_shading(image, &settings());
     assert!(matches!(measure(&Image::filled(120, 90, 39.0)), Err(ShadingError::Dark { .. })));

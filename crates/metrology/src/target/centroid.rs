@@ -1,31 +1,33 @@
-//! The centroid of a dot, weighted by what it takes away.
+//! The centroid of a dot, weighted by its contrast.
 //!
-//! w = 1 − I/B, B a plane through the background around the dot, over the ellipse of the dot's second moments, enlarged by
-//! some pixels for the blurred edge: pixels that are dark in part count in part, and multiplicative shading does not move
-//! the centroid. (For bright dots the picture is turned over first, and w = B − I.) The standard uncertainty is what the
-//! pixels' own scatter does to the centroid: a variance that goes from that of the background to that of the dot's middle as w
-//! does (bright dots have more of it, from their own photons, dark dots less).
+//! w = 1 − I/B, with B a plane through the background around the dot, over the ellipse of the dot's second moments, enlarged by a
+//! few pixels for the blurred edge: partly dark pixels count in part, and multiplicative shading does not shift the centroid.
+//! (For bright dots the image is inverted first, and w = B − I.) The standard uncertainty is that of the centroid due to the
+//! pixels' own scatter. Their variance is interpolated by w between that of the background and that of the dot's centre (bright
+//! dots have more of it, from their own photons, dark dots less).
 //!
-//! That, less what the pixels' raster shifts it by (below), is where the disc's centre of area is seen. Perspective and distortion shift it from where the disc's centre is
-//! seen; [`disc`](crate::patch_statistics) says by how much, once the map from the chart to the picture is known.
+//! The centroid, less its shift by the pixel raster (below), is the image of the disc's centre of area. Perspective and
+//! distortion shift it from the image of the disc's centre; [`disc`](crate::patch_statistics) computes this shift, once the map
+//! from the chart to the image is known.
 //!
-//! What sampling by square pixels does to the centroid of a disc.
+//! Effect of sampling by square pixels on the centroid of a disc:
 //!
-//! A pixel takes in its whole square, and counts as if all of it came from its middle. Of a disc (an ellipse of half width a along a
-//! coordinate, centre c) blurred by a Gaussian of standard deviation s before the pixels, the sum over pixels is off by the harmonics of the raster
-//! (Poisson's sum; for the pixel's own sinc only those along the coordinate itself are left):
+//! A pixel integrates over its square, but counts as if all its light came from its centre. For a disc (an ellipse of half width
+//! a along a coordinate, centre c) blurred by a Gaussian of standard deviation s before the pixels, the sum over pixels is off by
+//! the harmonics of the raster (Poisson's sum; due to the pixel's own sinc only those along the coordinate itself remain):
 //!
 //! ```text
 //! centroid − c = Σₖ 2 J₁(2πka)/(2πka) · exp(−2π²k²s²) · sin(2πkc)/(πk)        k = 1, 2, …; c in raster coordinates
 //! ```
 //!
-//! 0.006 px at most for a sharp disc of 3 px radius, 0.001 px for 10 px: little, but the same for all dots of a column, and where steps are nearly
-//! whole pixels it drifts slowly over the field and passes for distortion.
+//! This is 0.006 px at most for a sharp disc of 3 px radius, 0.001 px for 10 px. It is small, but equal for all dots of a column;
+//! if steps are nearly whole pixels it drifts slowly over the field and resembles distortion.
 //!
-//! s is told by the rim itself: with w the share of a pixel that the disc covers, Σ w (1 − w) over the rim's length, Q, is 1/6 px for a
-//! sharp edge and grows as Q² = 1/36 + s²/π, in the mean over all dots. A blur of 0.4 px leaves 4 % of the first harmonic.
+//! s follows from the edge of the dots: with w the fraction of a pixel that the disc covers, Q = Σ w (1 − w) divided by the
+//! perimeter is 1/6 px for a sharp edge and increases as Q² = 1/36 + s²/π, averaged over all dots. A blur of 0.4 px leaves 4 % of
+//! the first harmonic.
 //!
-//! Premise: pixels without gaps between their apertures, and a blur like a Gaussian where it is less than half a pixel.
+//! Assumption: pixels without gaps between their apertures, and a nearly Gaussian blur if it is less than half a pixel.
 
 use core::f64::consts::{FRAC_PI_4, PI, TAU};
 
@@ -35,7 +37,7 @@ use glam::{DMat2, DVec2};
 use crate::Image;
 use crate::linear::{Matrix, Orthogonal};
 
-/// A dark region, roughly.
+/// Approximate dark region.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Blob {
     pub(super) at: DVec2,
@@ -46,11 +48,11 @@ pub(super) struct Blob {
     pub(super) darkest: f64,
 }
 
-/// A dot as measured.
+/// A measured dot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Centroid {
     pub(super) at: DVec2,
-    /// Area that takes away as much light as the dot's middle, px².
+    /// Equivalent area at the contrast of the dot's centre, px².
     pub(super) area: f64,
     pub(super) uncertainty_px: f64,
     pub(super) rim: Rim,
@@ -79,7 +81,7 @@ impl Moments {
         Some(self.origin? + self.first / self.sum).filter(|m| m.is_finite())
     }
 
-    /// A pixel is a square: it adds a twelfth to the variance of its middle.
+    /// A pixel is a square: it adds a twelfth to the variance of its centre.
     pub(super) fn blob(&self) -> Option<Blob> {
         let mean = self.first / self.sum;
         let variance = self.squares / self.sum - mean * mean + 1.0 / 12.0;
@@ -89,13 +91,13 @@ impl Moments {
     }
 }
 
-/// Room for a blurred edge, and for the background beyond it, px.
+/// Margin for a blurred edge, and for the background beyond it, px.
 const EDGE_PX: f64 = 3.0;
 const BACKGROUND_PX: f64 = 1.5;
-/// Pixels of the dot's middle whose scatter tells its noise.
+/// Number of pixels of the dot's centre whose scatter gives its noise.
 const CORE_PX: u64 = 9;
 
-/// The dot of a region; its ellipse may be enlarged `room` times at most. `None` where there is no background or no dot.
+/// Measures the dot of a region; its ellipse may be enlarged `room` times at most. `None` if there is no background or no dot.
 pub(super) fn measured(image: &Image, blob: &Blob, room: f64, bright: bool) -> Option<Centroid> {
     let half_trace = 0.5 * (blob.covariance.x_axis.x + blob.covariance.y_axis.y);
     let determinant = blob.covariance.determinant();
@@ -126,9 +128,10 @@ pub(super) fn measured(image: &Image, blob: &Blob, room: f64, bright: bool) -> O
     let area = moments.sum / core;
     let uncertainty_px = (0.5 * levers).sqrt() / moments.sum;
     let noise: f64 = pixels.iter().map(variance).sum();
-    // Noise adds its variance to w².
+    // Noise adds its variance to the expectation of w².
     let partial = pixels.iter().map(|p| taken(p) / core).map(|w| w * (1.0 - w)).sum::<f64>() + noise / (core * core);
-    // The shape by what every pixel takes away, less the pixel's own variance; a threshold's moments are off by a tenth of a pixel.
+    // The shape from the contrast of every pixel, less the pixel's own variance; moments of a thresholded region are off by a tenth
+    // of a pixel.
     let moved = moments.blob()?.covariance - DMat2::from_diagonal(DVec2::splat(2.0 / 12.0));
     let shape = if moved.determinant() > 0.0 { moved } else { blob.covariance };
     let scale = area / (TAU * 2.0 * shape.determinant().sqrt());
@@ -142,7 +145,7 @@ pub(super) fn measured(image: &Image, blob: &Blob, room: f64, bright: bool) -> O
     })
 }
 
-/// Centres and values of the pixels that are wanted; `None` where the picture does not hold them all.
+/// Centres and values of the pixels that `wanted` selects; `None` if the image does not contain them all.
 fn around(image: &Image, at: DVec2, reach: f64, wanted: impl Fn(DVec2) -> bool) -> Option<Vec<(DVec2, f64)>> {
     let inside = |size: usize, c: f64| c - reach >= 0.0 && c + reach <= size as f64;
     if !(inside(image.width(), at.x) && inside(image.height(), at.y)) {
@@ -154,7 +157,7 @@ fn around(image: &Image, at: DVec2, reach: f64, wanted: impl Fn(DVec2) -> bool) 
     Some(placed.filter(|(p, _)| wanted(*p)).collect())
 }
 
-/// A plane through the brighter part of the ring (a neighbouring dot's blur may reach into it): level at the dot and slopes,
+/// A plane through the brighter part of the ring (a neighbouring dot's blur may extend into it): level at the dot and slopes,
 /// with the standard deviation of a pixel about it.
 fn background(ring: &[(DVec2, f64)], blob: &Blob) -> Option<([f64; 3], f64)> {
     const LEAST: usize = 8;
@@ -172,30 +175,30 @@ fn background(ring: &[(DVec2, f64)], blob: &Blob) -> Option<([f64; 3], f64)> {
     Some(([plane.parameters[0], plane.parameters[1], plane.parameters[2]], variance.sqrt()))
 }
 
-/// Harmonics that are taken off.
+/// Number of corrected harmonics.
 const HARMONICS: u32 = 3;
-/// Least half width, px.
+/// Minimum half width, px.
 const MIN_PX: f64 = 1.6;
 /// Q of a sharp edge, px.
 const SHARP_PX: f64 = 1.0 / 6.0;
 
-/// An ellipse as its rim shows it.
+/// An ellipse from its edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rim {
     /// Half the width and half the height of the upright rectangle around it, px.
     pub(super) half: DVec2,
-    /// Q of this one, px: off by a tenth by how the rim lies among the pixels.
+    /// Q of this one, px: off by a tenth depending on the sub-pixel phase.
     pub(super) softness_px: f64,
 }
 
-/// The variance of the blur before the pixels, s², of rims that lie anyhow among them: by their mean Q.
+/// The variance of the blur before the pixels, s², from edges with random sub-pixel phases: by their mean Q.
 pub(super) fn blur_px2(rims: impl Iterator<Item = Rim>) -> f64 {
     let (sum, count) = rims.fold((0.0, 0.0), |(sum, count), rim| (sum + rim.softness_px, count + 1.0));
     let softness: f64 = if count > 0.0 { sum / count } else { SHARP_PX };
     PI * (softness * softness - SHARP_PX * SHARP_PX).max(0.0)
 }
 
-/// The centre of an ellipse of a centroid.
+/// The centre of an ellipse from its centroid.
 pub(super) fn centre(centroid: DVec2, rim: &Rim, blur_px2: f64) -> DVec2 {
     const ROUNDS: usize = 3;
     (0..ROUNDS).fold(centroid, |at, _| centroid - shift(at, rim.half, blur_px2))
@@ -207,14 +210,14 @@ fn shift(centre: DVec2, half: DVec2, blur_px2: f64) -> DVec2 {
             let blur = exp(-0.5 * TAU * TAU * k * k * blur_px2);
             disc(TAU * k * a) * blur * sin_cos(TAU * k * c).0 / (PI * k)
         };
-        // A shape that noise has spoiled, or too small for the expansion, tells nothing.
+        // A shape that is corrupted by noise, or too small for the expansion, is not corrected.
         let told = a.is_finite() && a >= MIN_PX;
         if told { (1..=HARMONICS).map(|k| harmonic(f64::from(k))).sum() } else { 0.0 }
     };
     DVec2::new(along(half.x, centre.x), along(half.y, centre.y))
 }
 
-/// 2 J₁(z)/z by Hankel's expansion (Abramowitz & Stegun 9.2.5): to 1e-4 of its size from z = 10 on, discs of 1.6 px.
+/// 2 J₁(z)/z by Hankel's expansion (Abramowitz & Stegun 9.2.5): to 1e-4 of its size for z ≥ 10, discs of 1.6 px.
 fn disc(z: f64) -> f64 {
     let (angle, inverse) = (z - 3.0 * FRAC_PI_4, 1.0 / z);
     let (even, odd) = (1.0 + 15.0 / 128.0 * inverse * inverse, 0.375 * inverse);
@@ -222,7 +225,7 @@ fn disc(z: f64) -> f64 {
     2.0 * inverse * (2.0 * inverse / PI).sqrt() * (even * cos(angle) - odd * sin)
 }
 
-/// The rim's length of an ellipse of semi-axes (Ramanujan 1914).
+/// The perimeter of an ellipse of these semi-axes (Ramanujan 1914).
 pub(super) fn length(a: f64, b: f64) -> f64 {
     PI * (3.0 * (a + b) - ((3.0 * a + b) * (a + 3.0 * b)).sqrt())
 }

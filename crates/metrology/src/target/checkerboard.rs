@@ -1,10 +1,9 @@
 //! Checkerboards: the corners of four squares.
 //!
-//! Candidates come from [`chess`], in the picture and in copies of half, a quarter and an eighth of its size
-//! (defocused corners look sharp there); they are refined ([`chess::refined`]), joined where the line between two has
-//! a dark side and a bright one all along, and grown to a lattice. The copy that gives the most corners is taken, and
-//! each corner is found again in the picture itself by a model of it ([`crossing`]), over a disc of 0.4 of the distance
-//! to its nearest neighbour, 3 to 12 px.
+//! Candidates come from [`chess`], in the image and in copies of half, a quarter and an eighth of its size (in which defocused
+//! corners look sharp). They are refined ([`chess::refined`]), linked if the line between two has a dark and a bright side along
+//! its whole length, and grown to a lattice. The copy with the most corners is used, and each corner is refined in the image
+//! itself by a model of it ([`crossing`]), over a disc of 0.4 of the distance to its nearest neighbour, 3 to 12 px.
 
 use etendue_stats::upper_median;
 use glam::DVec2;
@@ -15,11 +14,11 @@ use super::lattice::{self, Neighbours, Places};
 use super::{Grid, LEAST, chess};
 use crate::Image;
 
-/// Radius of the window, in steps to the nearest neighbour, and its limits, px.
+/// Radius of the window, relative to the distance to the nearest neighbour, and its limits, px.
 const WINDOW: f64 = 0.4;
 const WINDOW_PX: [f64; 2] = [3.0, 12.0];
 
-/// The largest board of a picture, however small, and the points of the largest beside it.
+/// The largest board of an image, of any size, and the number of points of the second largest.
 pub(super) fn find(image: &Image) -> (Grid, usize) {
     const COPIES: usize = 4;
     let mut best = ((Places::new(), 0), Vec::new());
@@ -40,8 +39,8 @@ pub(super) fn find(image: &Image) -> (Grid, usize) {
     (Grid::of(&kept, &points, &uncertainties), beside)
 }
 
-/// Without outer rows and columns that hold one point, or less than a fifth of the longest: what is taken for a corner beyond
-/// the board, where its border meets what is around it.
+/// Removes outer rows and columns with one point, or less than a fifth of the longest: false corners beyond the board, where its
+/// border meets the surroundings.
 fn without_stragglers(mut places: Places) -> Places {
     const SHARE: usize = 5;
     loop {
@@ -61,7 +60,7 @@ fn without_stragglers(mut places: Places) -> Places {
 }
 
 fn board(image: &Image) -> ((Places, usize), Vec<DVec2>) {
-    // Less contrast than a twentieth of the picture's is no square of a board.
+    // Less contrast than a twentieth of the image's is not a square of a board.
     let least = 0.05 * contrast(image);
     let rough = chess::candidates(image, least);
     let radius = chess::RING_PX as f64;
@@ -75,14 +74,14 @@ fn board(image: &Image) -> ((Places, usize), Vec<DVec2>) {
     (places, points)
 }
 
-/// Without points that are another's, found twice.
+/// Removes duplicate points.
 fn single(points: Vec<DVec2>) -> Vec<DVec2> {
     let neighbours = Neighbours::of(&points);
     let first = |i: &usize| neighbours.within(points[*i], 1.5).iter().all(|j| j >= i);
     (0..points.len()).filter(first).map(|i| points[i]).collect()
 }
 
-/// The difference of the picture's 2nd and 98th hundredth, by every 7th pixel.
+/// The difference of the image's 2nd and 98th percentile, over every 7th pixel.
 fn contrast(image: &Image) -> f32 {
     let mut values: Vec<f32> = image.samples().iter().step_by(7).copied().collect();
     if values.len() < 2 {
@@ -94,7 +93,7 @@ fn contrast(image: &Image) -> f32 {
     high - low
 }
 
-/// Whether the line from a to b has a bright and a dark side, the same all along.
+/// True if the line from a to b has a bright and a dark side, the same along its whole length.
 fn is_edge(image: &Image, a: DVec2, b: DVec2, least: f32) -> bool {
     let along = b - a;
     let aside = along.perp() * 0.15;
@@ -103,15 +102,14 @@ fn is_edge(image: &Image, a: DVec2, b: DVec2, least: f32) -> bool {
     all.is_some_and(|d| d.iter().all(|d| *d > 0.5 * least) || d.iter().all(|d| *d < -0.5 * least))
 }
 
-/// The pixel at a place; `None` outside.
+/// The pixel at a position; `None` outside.
 fn sample(image: &Image, at: DVec2) -> Option<f32> {
     let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < image.width() as f64 && at.y < image.height() as f64;
     inside.then(|| image.at(at.x as usize, at.y as usize))
 }
 
-/// Each placed point by the picture itself; `None` where it does not hold there. Where the disc reaches beyond a narrow outer
-/// square, or what is there is no corner, its uncertainty stands out: half the radius is tried, and what stands out still is
-/// dropped.
+/// Refines each placed point in the image itself; `None` if that fails. If the disc extends beyond a narrow outer square, or
+/// there is no corner, the uncertainty is an outlier: half the radius is tried, and remaining outliers are dropped.
 fn refine(image: &Image, places: &Places, points: &[DVec2]) -> Vec<Option<Corner>> {
     const OUTSTANDING: f64 = 3.0;
     const GOOD_PX: f64 = 0.05;
@@ -151,7 +149,7 @@ fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: 
     crossing::fitted(image, rough, [mean(across)?, mean(down)?], radius)
 }
 
-/// Half the size, by means of four; an odd last row or column is left out.
+/// Half the size, by means of four pixels; an odd last row or column is omitted.
 fn halved(image: &Image) -> Image {
     let (width, height) = (image.width() / 2, image.height() / 2);
     let samples = image.samples();

@@ -1,18 +1,17 @@
-//! Where a picture looks like the corner of four squares: ChESS (Bennett & Lasenby 2014).
+//! Detector of the corners of four squares: ChESS (Bennett & Lasenby 2014).
 //!
-//! On a ring of 16 pixels of radius 5, I₀ … I₁₅, with M the mean of five pixels at the middle:
-//! R = Σₙ₌₀³ |Iₙ + Iₙ₊₈ − Iₙ₊₄ − Iₙ₊₁₂| − Σₙ₌₀⁷ |Iₙ − Iₙ₊₈| − 16 |M − mean of the ring|.
-//! A corner of contrast C has R of 6 to 8 C; an edge, a line and a stripe have none. A pixel is a candidate where R is
-//! the largest within three pixels and at least a quarter of what a corner of the ring's own contrast would have.
+//! On a ring of 16 pixels of radius 5, I₀ … I₁₅, with M the mean of five pixels at the centre: R = Σₙ₌₀³ |Iₙ + Iₙ₊₈ − Iₙ₊₄ −
+//! Iₙ₊₁₂| − Σₙ₌₀⁷ |Iₙ − Iₙ₊₈| − 16 |M − mean of the ring|. A corner of contrast C has R of 6 to 8 C; an edge, a line and a stripe
+//! have none. A pixel is a candidate if R is the largest within three pixels and at least a quarter of that of a corner of the
+//! ring's own contrast.
 //!
-//! The corner of four squares to a hundredth of a pixel.
+//! Refinement of the corner to a hundredth of a pixel:
 //!
-//! Every edge through the corner q is at right angles to the picture's gradient g there, so q is where
-//! Σ w (g · (q − p))² over the pixels p around it is least (Förstner & Gülch 1987): a linear equation for q, solved again
-//! with the window moved to q until it stays. The window w = (1 − (|p − q|/R)²)² ends smoothly, so that q depends on the
-//! picture smoothly. The gradient is that of the picture blurred by a Gaussian of 1 px: gradients from pixel to pixel alias
-//! where edges are sharper than pixels, and move q by up to a tenth of a pixel. Edges that bend with radius ρ move q by
-//! less than R²/(20 ρ).
+//! Every edge through the corner q is perpendicular to the image gradient g there, so q minimises Σ w (g · (q − p))² over the
+//! pixels p around it (Förstner & Gülch 1987): a linear equation for q, solved repeatedly with the window centred on q until
+//! convergence. The window w = (1 − (|p − q|/R)²)² ends smoothly, so that q depends on the image smoothly. The gradient is that
+//! of the image blurred by a Gaussian of 1 px: gradients between neighbouring pixels alias at edges sharper than pixels, and
+//! shift q by up to a tenth of a pixel. Edges with a radius of curvature ρ shift q by less than R²/(20 ρ).
 
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
@@ -41,7 +40,7 @@ const RING: [[isize; 2]; 16] = [
     [-2, -5],
 ];
 
-/// Candidates: column and row, in the order of the pixels. `least` is the contrast below which nothing is one.
+/// Candidates: column and row, in the order of the pixels. `least` is the minimum contrast of a candidate.
 pub(super) fn candidates(image: &Image, least: f32) -> Vec<[usize; 2]> {
     let (width, height) = (image.width(), image.height());
     if width <= 2 * RING_PX || height <= 2 * RING_PX {
@@ -87,7 +86,7 @@ fn row_peaks(image: &Image, rows: &[Vec<f32>], r: usize, least: f32) -> Vec<[usi
         let value = row[x];
         (r.saturating_sub(APART)..(r + APART + 1).min(rows.len())).all(|s| {
             let (from, to) = (x.saturating_sub(APART), (x + APART + 1).min(row.len()));
-            // Of equal ones the first is taken.
+            // The first of equal ones is used.
             (from..to).all(|t| rows[s][t] < value || (rows[s][t] == value && (s, t) >= (r, x)))
         })
     };
@@ -108,8 +107,8 @@ fn row_peaks(image: &Image, rows: &[Vec<f32>], r: usize, least: f32) -> Vec<[usi
     found.map(|x| [x + RING_PX, r + RING_PX]).collect()
 }
 
-/// The corner near `start` (raster coordinates) by the pixels within `radius` px; `None` where there is none within
-/// `reach` px, or the window leaves the picture.
+/// Refines the corner near `start` (raster coordinates) with the pixels within `radius` px; `None` if there is none within
+/// `reach` px, or the window leaves the image.
 pub(super) fn refined(image: &Image, start: DVec2, radius: f64, reach: f64) -> Option<DVec2> {
     const STEPS: usize = 30;
     const STILL_PX: f64 = 1e-4;
@@ -126,7 +125,7 @@ pub(super) fn refined(image: &Image, start: DVec2, radius: f64, reach: f64) -> O
             return Some(at);
         }
     }
-    // It circles about noise: the last place is as good as any.
+    // It oscillates within noise: the last position is as good as any.
     Some(at)
 }
 
@@ -135,7 +134,7 @@ const TAPS: usize = 3;
 /// exp(−n²/2), n = 0 … 3, over their sum: 1 + 2 (0.606 53 + 0.135 34 + 0.011 11).
 const GAUSSIAN: [f64; TAPS + 1] = [0.399_050_28, 0.242_036_23, 0.054_005_58, 0.004_433_05];
 
-/// The gradient of a square of the picture.
+/// The gradient of a square of the image.
 struct Patch {
     left: usize,
     top: usize,
@@ -144,7 +143,7 @@ struct Patch {
 }
 
 impl Patch {
-    /// The pixels within `reach` of a place; `None` where their gradients need pixels outside the picture.
+    /// The pixels within `reach` of a position; `None` if their gradients need pixels outside the image.
     fn around(image: &Image, place: DVec2, reach: f64) -> Option<Self> {
         let margin = TAPS + 1;
         let half = reach.ceil() as usize;
@@ -171,7 +170,7 @@ impl Patch {
         Some(Self { left: left + margin, top: top + margin, side: inner, gradients })
     }
 
-    /// The corner by the window about a place; `None` where edges of one direction alone cross the window.
+    /// The corner from the window around a position; `None` if only edges of one direction cross the window.
     fn step(&self, at: DVec2, radius: f64) -> Option<DVec2> {
         let origin = DVec2::new(self.left as f64 + 0.5, self.top as f64 + 0.5) - at;
         let (mut a, mut b, mut c, mut right) = (0.0, 0.0, 0.0, DVec2::ZERO);

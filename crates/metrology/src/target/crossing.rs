@@ -1,22 +1,21 @@
-//! The corner of four squares by a model of the picture there.
+//! The corner of four squares by a local model of the image.
 //!
 //! ```text
 //! I(p) = m + g · d + c P + b (1 − P²)      P = S(l₁) S(l₂)      d = p − q      lᵢ = nᵢ · d + κᵢ (tᵢ · d)²
 //! ```
 //!
-//! q is the corner, t₁ and t₂ the edges' directions there, n their normals, κ their bend. S is the profile of a blurred
+//! q is the corner, t₁ and t₂ the edges' directions there, n their normals, κ their curvature. S is the profile of a blurred
 //! edge, tanh(l/s), averaged over a pixel's width: S(l) = s ln cosh((l + ½)/s) − s ln cosh((l − ½)/s). A pixel is a square of
-//! variance 1/12 px² along any direction, as is this width, so that edges of any sharpness, of pixels only included, are
-//! met without the bias that gradients have there. b is what the edges themselves are brighter: squares of one kind that are
-//! larger than those of the other (print, bleeding light), or a picture that is not linear in light. Least squares of twelve
-//! numbers over the pixels within a radius (Gauss & Newton, damped).
+//! variance 1/12 px² along any direction, as is this width. The model therefore fits edges of any sharpness, even those blurred
+//! by pixels only, without the bias of gradients there. b is the additional brightness of the edges: squares of one kind larger
+//! than those of the other (print, bleeding light), or an image that is not linear in light. Least squares of twelve parameters
+//! over the pixels within a radius (Gauss & Newton, damped).
 //!
-//! The standard uncertainty of q is what the residuals rᵢ make of it, as if they were noise: with aᵢ the change of q for a
-//! change of pixel i, the larger of σ² Σ aᵢ² and Σᵢⱼ k aᵢ rᵢ aⱼ rⱼ over pixels that lie less than four apart (k falls linearly,
-//! Newey & West 1987, Conley 1999): compressed pictures, demosaicked ones and what the model cannot follow leave residuals
-//! that belong together.
+//! The standard uncertainty of q is that due to the residuals rᵢ, treated as noise: with aᵢ the change of q for a change of pixel
+//! i, the larger of σ² Σ aᵢ² and Σᵢⱼ k aᵢ rᵢ aⱼ rⱼ over pixels less than four apart (k falls linearly, Newey & West 1987, Conley
+//! 1999). Compressed or demosaiced images, and misfits of the model, have correlated residuals.
 //!
-//! Left out: asymmetric blur (coma moves the corner by its centroid), squares of unequal brightness on one side.
+//! Limitations: asymmetric blur (coma shifts the corner by its centroid), squares of unequal brightness on one side.
 
 use etendue_core::maths::f64::{atan2, exp, ln_1p, sin_cos};
 use glam::DVec2;
@@ -31,15 +30,15 @@ pub(super) struct Corner {
     pub(super) uncertainty_px: f64,
 }
 
-/// Numbers of the model: q, θ₁, θ₂, κ₁, κ₂, s, m, c, g, b.
+/// Number of parameters of the model: q, θ₁, θ₂, κ₁, κ₂, s, m, c, g, b.
 const COUNT: usize = 12;
 type Numbers = [f64; COUNT];
 
 /// Sharpest and softest profile, px.
 const SOFTNESS_PX: [f64; 2] = [0.05, 6.0];
 
-/// The corner near `start`, whose edges lead along `steps`, by the pixels within `radius` px; `None` where the model does
-/// not settle within half of that.
+/// Fits the corner near `start`, whose edges have the directions of `steps`, to the pixels within `radius` px; `None` if the
+/// model does not converge within half of that.
 pub(super) fn fitted(image: &Image, start: DVec2, steps: [DVec2; 2], radius: f64) -> Option<Corner> {
     const STEPS: usize = 40;
     let pixels = pixels(image, start, radius)?;
@@ -76,7 +75,7 @@ pub(super) fn fitted(image: &Image, start: DVec2, steps: [DVec2; 2], radius: f64
     ((found - start).length() < 0.5 * radius).then_some(Corner { at: found, uncertainty_px })
 }
 
-/// The variance of q, both coordinates together, that residuals make which neighbours share.
+/// The variance of q, both coordinates together, from correlated residuals.
 fn correlated(pixels: &[(DVec2, f64)], at: &Numbers, covariance: &Matrix) -> f64 {
     const REACH: isize = 4;
     let corner = pixels.iter().fold(DVec2::INFINITY, |low, (p, _)| low.min(*p));
@@ -104,7 +103,7 @@ fn correlated(pixels: &[(DVec2, f64)], at: &Numbers, covariance: &Matrix) -> f64
     pixels.iter().map(|(p, _)| shared(*p)).sum()
 }
 
-/// Centres and values within a radius; `None` where the picture does not hold them all.
+/// Centres and values within a radius; `None` if the image does not contain them all.
 fn pixels(image: &Image, centre: DVec2, radius: f64) -> Option<Vec<(DVec2, f64)>> {
     let inside = |size: usize, c: f64| c - radius >= 0.0 && c + radius <= size as f64;
     if !(inside(image.width(), centre.x) && inside(image.height(), centre.y)) {
@@ -133,7 +132,7 @@ fn first_guess(pixels: &[(DVec2, f64)], start: DVec2, steps: [DVec2; 2]) -> Numb
     numbers
 }
 
-/// −ln of what a profile may be away from its end, to be there.
+/// −ln of the deviation of a profile from its limit that counts as zero.
 const FLAT: f64 = 20.0;
 
 /// S, dS/dl and dS/ds.
@@ -201,7 +200,7 @@ fn equations(pixels: &[(DVec2, f64)], at: &Numbers) -> ((Matrix, Numbers), f64) 
             }
         }
     }
-    // Edges sharper than the pixels can tell leave s where it is.
+    // Edges sharper than the pixels can resolve leave s unchanged.
     upper[6][6] += 1e-6 * upper[8][8];
     let row = |i: usize| std::array::from_fn::<f64, COUNT, _>(|j| upper[i.min(j)][i.max(j)]);
     ((Matrix::from_rows(COUNT, (0..COUNT).map(row)), gradient), squares)

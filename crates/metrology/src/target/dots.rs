@@ -1,9 +1,9 @@
 //! Dots: grids of discs, dark on bright or bright on dark.
 //!
-//! Dark regions under a threshold that follows the light ([`threshold`]), at least four
-//! pixels across, not cut by the border, and as large as the ellipse of their own second moments (to 4 %, small ones to 12 %; a
-//! rectangle has 4.5 % less), are dots, put
-//! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`]), and what the pixels' raster does to all is taken off.
+//! Dots are dark regions below a local threshold ([`threshold`]), at least four pixels across, not cut by the border, and with
+//! the area of the ellipse of their own second moments (to 4 %, small ones to 12 %; a rectangle has 4.5 % less). They are
+//! arranged in rows and columns by position ([`lattice`]). Then each is measured ([`centroid`]), and the common effect of the
+//! pixel raster is subtracted.
 
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
@@ -14,9 +14,9 @@ use super::threshold::{self, Run, Threshold};
 use super::{Grid, LEAST};
 use crate::Image;
 
-/// The largest grid of dots of a picture, however small, and the points of the largest beside it.
+/// The largest grid of dots of an image, of any size, and the number of points of the second largest.
 pub(super) fn find(image: &Image) -> (Grid, usize) {
-    // Shares of the picture's shorter side: from dots of some pixels to dots of a tenth of the picture.
+    // Fractions of the image's shorter side: from dots of a few pixels to dots of a tenth of the image.
     const BLOCKS: [usize; 3] = [48, 20, 8];
     let turned = image.map(|v| -v);
     let mut best = ((Places::new(), 0), Vec::new(), false);
@@ -39,7 +39,7 @@ fn blobs(image: &Image, block: usize) -> Vec<Blob> {
     regions.iter().filter_map(|runs| blob(image, runs)).collect()
 }
 
-/// A region that is whole, large enough and an ellipse.
+/// A region that is complete, large enough and elliptical.
 fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
     const MIN_PX: f64 = 12.0;
     const SMALL_PX: usize = 200;
@@ -69,7 +69,7 @@ fn places(blobs: &[Blob]) -> (Places, usize) {
     (lattice::straight(places), beside)
 }
 
-/// The grid of the dots' centroids; those that cannot be measured are left out.
+/// The grid of the dots' centroids; those that cannot be measured are omitted.
 fn measured(image: &Image, places: &Places, blobs: &[Blob], bright: bool) -> Grid {
     let rough = radius_steps(places, |i| (blobs[i].at, blobs[i].area));
     // An ellipse larger by this factor touches that of the next dot.

@@ -1,37 +1,37 @@
-//! Why no chart was found.
+//! Errors of chart detection.
 
-/// Why a picture gives no grid.
+/// Reason why an image gives no grid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TargetError {
-    /// Nothing, or too little.
+    /// No points, or too few.
     #[error(
         "no {sought} was found ({best} points in rows and columns, {least} are needed): photograph the whole chart in focus, evenly \
          lit and not saturated, its steps at least 10 px wide"
     )]
     None {
-        /// What was looked for.
+        /// Description of the chart.
         sought: &'static str,
-        /// Points of the best try.
+        /// Number of points of the best attempt.
         best: usize,
-        /// Points that would do.
+        /// Minimum number of points.
         least: usize,
     },
     /// Points in rows and columns, with too many gaps.
     #[error("{points} points were found on a grid of {} × {}: too many are missing; see that nothing covers the chart", size[0], size[1])]
     Gaps {
-        /// Points found.
+        /// Number of points.
         points: usize,
         /// Columns and rows.
         size: [usize; 2],
     },
-    /// Too small to be a chart that can be measured.
+    /// Too small a chart for measurement.
     #[error(
         "the points in rows and columns lie {step_px:.1} px apart, {least_px} px are needed: a pattern that is no chart, or a chart too far away"
     )]
     Small {
-        /// The median distance of neighbours, px.
+        /// Median distance of neighbours, px.
         step_px: f64,
-        /// What would do, px.
+        /// Minimum, px.
         least_px: f64,
     },
     /// More than one chart.
@@ -40,18 +40,18 @@ pub enum TargetError {
          choose a part of the picture that holds one whole chart (`region`)", points[0], points[1]
     )]
     Several {
-        /// Points of the two largest.
+        /// Numbers of points of the two largest.
         points: [usize; 2],
     },
-    /// Another chart than stated.
+    /// A larger chart than stated.
     #[error("a grid of {} × {} points was found where {} × {} were stated; a checkerboard counts its inner corners", found[0], found[1], stated[0], stated[1])]
     Larger {
-        /// Found.
+        /// Detected.
         found: [usize; 2],
         /// Stated.
         stated: [usize; 2],
     },
 }
 
-/// Least points of a grid whose size is not stated.
+/// Minimum number of points of a grid whose size is not stated.
 pub(super) const LEAST: usize = 16;

@@ -1,47 +1,48 @@
-//! A chart's points as they were found in a picture.
+//! The points of a chart as detected in an image.
 //!
-//! Which way a chart of dots is seen, by the three dots that are left out of it.
+//! Orientation of a chart of dots, from its three missing dots:
 //!
-//! One, one three steps from it along one direction of the grid, and one two steps from it along the other: as the chart is printed these are to the right and below
-//! (`etendue chart dots`). Turned pictures turn both; in mirrored ones they change their hand. A dot is missing where its four neighbours are there and it is not; more or fewer than three
-//! such gaps, or three in another form, are no marks: charts without them say nothing.
+//! One is the first mark, one is three steps from it along one direction of the grid, and one two steps from it along the other:
+//! as printed, these are to the right and below (`etendue chart dots`). In rotated images both are rotated; in mirrored ones
+//! their handedness changes. A dot is missing if its four neighbours exist and it does not. More or fewer than three such gaps,
+//! or three in another arrangement, are not marks: charts without marks have no orientation.
 
 use glam::DVec2;
 
 use super::lattice::Places;
 
-/// A point of a chart: its column and row, and where it is seen.
+/// A point of a chart: its column and row, and its position in the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     /// Column and row, from 0.
     pub index: [usize; 2],
     /// Raster coordinates, px.
     pub at: DVec2,
-    /// The standard uncertainty of each coordinate that the picture's noise makes, px.
+    /// Standard uncertainty of each coordinate due to image noise, px.
     pub uncertainty_px: f64,
 }
 
-/// Points of a square grid. Columns count to the right as the picture shows them, rows down, from the first seen: a grid
-/// that is seen in part is not placed on its chart.
+/// Points of a square grid. Columns count to the right in the image, rows down, from the first visible one: the position of a
+/// partly visible grid on its chart is not known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// The points, row by row.
     pub nodes: Vec<Node>,
     /// Columns and rows between the first and the last point.
     pub size: [usize; 2],
-    /// Of discs: radius over step, both on the chart.
+    /// Radius of discs over the step, both on the chart.
     pub disc_radius_steps: Option<f64>,
 }
 
 impl Grid {
-    /// The point of a column and row.
+    /// The point at a column and row.
     #[must_use]
     pub fn node(&self, index: [usize; 2]) -> Option<&Node> {
         let key = |n: &Node| [n.index[1], n.index[0]];
         self.nodes.binary_search_by_key(&[index[1], index[0]], key).ok().map(|i| &self.nodes[i])
     }
 
-    /// The median distance of neighbours in a row or a column, px; 0 where no point has one.
+    /// The median distance of neighbours in a row or a column, px; 0 if there are none.
     #[must_use]
     pub fn step_px(&self) -> f64 {
         let beside = |n: &Node| {
@@ -53,8 +54,8 @@ impl Grid {
         steps.get(steps.len() / 2).copied().unwrap_or(0.0)
     }
 
-    /// Of grids of one chart in one picture, the points that all of them show, where they show them in the mean: points belong
-    /// together where they are nearest, within half a step. The uncertainties are taken for independent.
+    /// Mean positions of the points that all of several grids of one chart in one image contain: points are matched to the nearest
+    /// within half a step. The uncertainties are treated as independent.
     ///
     /// # Panics
     /// Without a grid.
@@ -75,15 +76,15 @@ impl Grid {
         Self { nodes, ..*first }
     }
 
-    /// The point nearest to a place.
+    /// The point nearest to a position.
     #[must_use]
     pub fn nearest(&self, at: DVec2) -> Option<&Node> {
         let from = |n: &&Node| (n.at - at).length_squared();
         self.nodes.iter().min_by(|a, b| from(a).total_cmp(&from(b)))
     }
 
-    /// The share of places between the first and the last point of each row, and of each column (whichever is less), at which
-    /// a point was found: 1 for a grid that is cut by the picture, or staggered, and has no gaps.
+    /// The fraction of positions between the first and the last point of each row, and of each column (whichever is less), that
+    /// have a point: 1 for a grid without gaps, even if it is cut by the image, or staggered.
     #[must_use]
     pub fn filled(&self) -> f64 {
         let spans = |axis: usize| {
@@ -97,7 +98,7 @@ impl Grid {
         self.nodes.len() as f64 / spans(0).max(spans(1)).max(1) as f64
     }
 
-    /// The grid of a lattice over points, turned so that columns lead to the right and rows down.
+    /// The grid of a lattice of points, rotated so that columns run to the right and rows down.
     pub(super) fn of(places: &Places, points: &[DVec2], uncertainties_px: &[f64]) -> Self {
         let turn = upright(places, points);
         let turned: Vec<([i32; 2], usize)> = places.iter().map(|(place, i)| (turn(*place), *i)).collect();
@@ -114,7 +115,7 @@ impl Grid {
     }
 }
 
-/// The exchange of axes and signs after which columns lead most to the right, and rows down.
+/// The exchange of axes and signs after which columns run most to the right, and rows down.
 fn upright(places: &Places, points: &[DVec2]) -> impl Fn([i32; 2]) -> [i32; 2] {
     let mean_step = |axis: usize| {
         let steps = places.iter().filter_map(|(place, i)| {
@@ -128,7 +129,7 @@ fn upright(places: &Places, points: &[DVec2]) -> impl Fn([i32; 2]) -> [i32; 2] {
     let share = |v: DVec2| v.x.abs() / v.length().max(f64::MIN_POSITIVE);
     let (column, right, row, down) = if share(a) >= share(b) { (0, a, 1, b) } else { (1, b, 0, a) };
     let right_sign = if right.x < 0.0 { -1 } else { 1 };
-    // A photograph is not mirrored: rows go where the columns' direction, turned clockwise as seen, leads.
+    // A captured image is not mirrored: rows run in the direction of the columns, turned clockwise as seen.
     let down_sign = if (f64::from(right_sign) * right).perp_dot(down) < 0.0 { -1 } else { 1 };
     move |place| [right_sign * place[column], down_sign * place[row]]
 }
@@ -136,17 +137,17 @@ fn upright(places: &Places, points: &[DVec2]) -> impl Fn([i32; 2]) -> [i32; 2] {
 /// Steps from the first mark to the others.
 const LEGS: [i64; 2] = [3, 2];
 
-/// How a picture shows a chart.
+/// Orientation of a chart in an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Orientation {
-    /// By how many quarters of a turn, clockwise in the picture: 0 to 3. Of a mirrored picture, after it was mirrored left to right.
+    /// Number of clockwise quarter turns in the image: 0 to 3. For a mirrored image, after it was mirrored left to right.
     pub quarters: u8,
-    /// Whether it is mirrored.
+    /// True if it is mirrored.
     pub mirrored: bool,
 }
 
 impl Grid {
-    /// Which way the chart is seen; `None` where its marks are not.
+    /// Orientation of the chart; `None` if its marks are not visible.
     #[must_use]
     pub fn orientation(&self) -> Option<Orientation> {
         let gaps = self.gaps();
@@ -164,13 +165,13 @@ impl Grid {
             return None;
         }
         let mirrored = hand < 0;
-        // To the right as printed, to the left where mirrored; then clockwise with y down.
+        // To the right as printed, to the left if mirrored; then clockwise with y down.
         let turned = if mirrored { [-long[0], -long[1]] } else { long };
         let quarters = [[1, 0], [0, 1], [-1, 0], [0, -1]].iter().position(|way| *way == turned)? as u8;
         Some(Orientation { quarters, mirrored })
     }
 
-    /// Places without a point between four that have one.
+    /// Positions without a point between four with one.
     fn gaps(&self) -> Vec<[i64; 2]> {
         let inside = |axis: usize| 1..self.size[axis].saturating_sub(1);
         let around = |[x, y]: [usize; 2]| [[x - 1, y], [x + 1, y], [x, y - 1], [x, y + 1]];
@@ -188,7 +189,7 @@ mod tests {
     use super::super::Node;
     use super::*;
 
-    /// A grid of 12 × 10 without the marks, each place moved to another.
+    /// A grid of 12 × 10 without the marks, with each position mapped to another.
     fn seen(size: [usize; 2], gaps: &[[usize; 2]], moved: impl Fn([usize; 2]) -> [usize; 2]) -> Grid {
         let mut nodes: Vec<Node> = (0..120)
             .map(|i| [i % 12, i / 12])

@@ -1,27 +1,29 @@
-//! Points by place, and put in rows and columns.
+//! Arrangement of points in rows and columns, and lookup of points by position.
 //!
-//! From a point and two steps to neighbours, the lattice grows by one place at a time: the next point is looked for where
-//! the last steps in that direction lead, so that rows may bend and spacings shrink as far as they do so gradually (up to
-//! 30 % from one step to the next), in any perspective and distortion. Of all lattices that points can start the largest
-//! is taken. Steps are told from diagonals by `linked`; where it cannot tell (dots), by length, which says most where a cell is nearest
-//! to a square: there the lattice begins. Where squares are seen as rhombi all over, one of their diagonals may be the shorter step, and
-//! rows run askew: a lattice that is a full rectangle (to a tenth) after its rows or columns are shifted by one or two places a line is taken so.
+//! From a point and two steps to neighbours, the lattice grows by one position at a time: the next point is searched where the
+//! last steps in that direction lead. Rows may bend and spacings shrink, if they do so gradually (up to 30 % from one step to the
+//! next), in any perspective and distortion. The largest of all lattices from different starting points is used.
+//!
+//! `linked` distinguishes steps from diagonals. If it cannot (dots), length does; this is most reliable where a cell is nearest
+//! to a square, so the lattice starts there. If squares appear as rhombi everywhere, one of their diagonals may be the shorter
+//! step, and rows run obliquely: a lattice that is a full rectangle (to a tenth) after its rows or columns are shifted by one or
+//! two positions per line is converted to that.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use glam::DVec2;
 
-/// Places of points: column and row to point.
+/// Map from positions (column and row) to points.
 pub(super) type Places = BTreeMap<[i32; 2], usize>;
 
-/// How far a point may lie from where it is expected, in steps.
+/// Maximum distance of a point from its expected position, in steps.
 const TOLERANCE: f64 = 0.3;
 
-/// Lattices of fewer points are none.
+/// Minimum number of points of a lattice.
 const LEAST: usize = 4;
 
-/// The largest lattice that points form, and the number of points of the largest beside it; `linked` says of two points whether one
-/// is the next of the other. Other lattices are sought among more points than `least`.
+/// The largest lattice of the points, and the number of points of the second largest; `linked` is true if two points are
+/// neighbours in a row or column. Further lattices are searched among more points than `least`.
 pub(super) fn largest(points: &[DVec2], least: usize, linked: &impl Fn(usize, usize) -> bool) -> (Places, usize) {
     let search = Search { points, neighbours: Neighbours::of(points), linked };
     let mut found: Vec<Places> = Vec::new();
@@ -45,7 +47,7 @@ pub(super) fn largest(points: &[DVec2], least: usize, linked: &impl Fn(usize, us
             found.push(lattice);
         }
     }
-    // Of equal ones the first.
+    // The first of equal ones.
     found.sort_by_key(|lattice| std::cmp::Reverse(lattice.len()));
     let mut found = found.into_iter();
     let best = found.next().unwrap_or_default();
@@ -54,7 +56,8 @@ pub(super) fn largest(points: &[DVec2], least: usize, linked: &impl Fn(usize, us
     (best, beside)
 }
 
-/// Of points whose links do not tell steps from diagonals (dots): the lattice with its lines shifted so that it is a full rectangle, where it is one so and none as it is.
+/// For points whose links do not distinguish steps from diagonals (dots): the lattice with its lines shifted so that it is a full
+/// rectangle, if it is one only then.
 pub(super) fn straight(places: Places) -> Places {
     const FULL: f64 = 0.9;
     const ASKEW: f64 = 0.8;
@@ -73,7 +76,7 @@ pub(super) fn straight(places: Places) -> Places {
     best.filter(|best| fullness(best) > FULL).unwrap_or(places)
 }
 
-/// Points over the places of the rectangle around them.
+/// Points divided by the positions of their bounding rectangle.
 fn fullness(places: &Places) -> f64 {
     let span = |axis: usize| {
         let lines = || places.keys().map(|p| p[axis]);
@@ -88,13 +91,13 @@ struct Search<'a, L> {
     linked: &'a L,
 }
 
-/// A placed point's steps to the next column and row.
+/// Steps of a placed point to the next column and row.
 type Steps = [DVec2; 2];
 
 impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
-    /// All points, those first whose two steps are nearest to a square's, of alike ones those in the midst of the others.
+    /// All points; first those whose two steps are nearest to a square's, among equal ones those in the middle of the others.
     fn seeds(&self) -> Vec<usize> {
-        /// What counts as alike.
+        /// Maximum difference of equal skews.
         const ALIKE: f64 = 0.1;
         let centre = self.points.iter().sum::<DVec2>() / self.points.len().max(1) as f64;
         let rank = |i: usize| {
@@ -113,7 +116,7 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
         }
     }
 
-    /// Two steps from a point: to the nearest linked one, and to the nearest linked one across.
+    /// Two steps from a point: to the nearest linked one, and to the nearest linked one in another direction.
     fn first_steps(&self, seed: usize) -> Option<Steps> {
         const AROUND: usize = 12;
         let steps: Vec<DVec2> = self
@@ -154,7 +157,7 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
         self.smooth(places)
     }
 
-    /// The step from a place, after the two before it in the same line where they are known.
+    /// The step from a position, extrapolated from the two before it in the same line if they are known.
     fn expected_step(&self, places: &Places, place: [i32; 2], axis: usize, sign: i32, known: DVec2) -> DVec2 {
         let at = |back: i32| places.get(&moved(place, axis, -sign * back)).map(|i| self.points[*i]);
         match (at(0), at(1), at(2)) {
@@ -164,7 +167,7 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
         }
     }
 
-    /// Whether the step from a place to the next is like the same step in the lines beside, where these are known.
+    /// True if the step from a position to the next is similar to the same step in the adjacent lines, where these are known.
     fn fits_beside(&self, places: &Places, place: [i32; 2], next: [i32; 2], point: usize) -> bool {
         let at = |place| places.get(&place).map(|i| self.points[*i]);
         let Some(from) = at(place) else { return false };
@@ -182,7 +185,7 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
         near.into_iter().find(|i| *i != from && (self.linked)(from, *i))
     }
 
-    /// Without points that lie off the middle of their neighbours on both sides by more than a quarter of a step.
+    /// Removes points that are off the middle of their neighbours on both sides by more than a quarter of a step.
     fn smooth(&self, mut places: Places) -> Places {
         let at = |places: &Places, place| places.get(&place).map(|i| self.points[*i]);
         let off = |places: &Places, place: [i32; 2]| {
@@ -200,7 +203,7 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
     }
 }
 
-/// How far two steps are from a square's: the cosine between them, and by how much one is longer.
+/// Deviation of two steps from a square's: the cosine between them, and the relative difference of their lengths.
 fn skew([a, b]: Steps) -> f64 {
     let (p, q) = (a.length(), b.length());
     (a.dot(b) / (p * q)).abs().max(1.0 - p.min(q) / p.max(q))
@@ -238,7 +241,7 @@ impl<'a> Neighbours<'a> {
         Self { points, low, cell, columns, rows, cells }
     }
 
-    /// Points within `radius` of a place, nearest first.
+    /// Points within `radius` of a position, nearest first.
     pub(super) fn within(&self, place: DVec2, radius: f64) -> Vec<usize> {
         let span = |c: f64, count: usize| {
             let cell = |c: f64| (c / self.cell).floor().clamp(0.0, count as f64 - 1.0) as usize;
@@ -256,7 +259,7 @@ impl<'a> Neighbours<'a> {
         found.into_iter().map(|(_, i)| i).collect()
     }
 
-    /// The `count` points nearest to a point, without itself, nearest first.
+    /// The `count` points nearest to a point, excluding itself, nearest first.
     pub(super) fn nearest(&self, point: usize, count: usize) -> Vec<usize> {
         let mut radius = self.cell;
         let all = self.cell * (self.columns + self.rows) as f64;
@@ -276,7 +279,7 @@ impl<'a> Neighbours<'a> {
 mod tests {
     use super::*;
 
-    /// A long board that the picture's edges cut slantwise: each row begins one place after the row before it.
+    /// A long board that the image borders cut obliquely: each row begins one position after the row before it.
     #[test]
     fn links_that_tell_steps_from_diagonals_are_kept() {
         let points: Vec<DVec2> = (0..10)

@@ -1,19 +1,20 @@
-//! Charts of points in a picture: what is seen where.
+//! Detection of charts of points in an image.
 //!
-//! | chart | points | accuracy of a sharp picture | file |
+//! | chart | points | accuracy in a sharp image | file |
 //! | --- | --- | --- | --- |
 //! | checkerboard | inner corners | 0.02 px | `checkerboard.rs`, on `chess.rs`, `crossing.rs` |
 //! | dots: discs, dark or bright | centroids | 0.01 px | `dots.rs`, on `threshold.rs`, `centroid.rs` |
 //!
-//! Both are put in rows and columns (`lattice.rs`), robust to perspective and strong distortion. Points and numbers only
-//! come from the picture: neither the chart's size nor the lens is needed. The picture should be linear in light (a
-//! display encoding moves the edges of dots, not the corners of squares).
+//! Both are arranged in rows and columns (`lattice.rs`), robust to perspective and strong distortion. Points and their numbers
+//! come only from the image: neither the chart's size nor the lens is needed. The image should be linear in light (a display
+//! encoding shifts the edges of dots, not the corners of squares).
 //!
-//! A staggered grid of discs is a square one that stands on its corner: its steps are the distances of nearest neighbours.
+//! A staggered grid of discs is a square grid rotated by 45°: its steps are the distances of nearest neighbours.
 //!
-//! Of a chart of dots three that are left out tell which way it is seen (`grid.rs`).
+//! Three missing dots determine the orientation of a chart of dots (`grid.rs`).
 //!
-//! Left out: charts that number their points (a grid that is seen in part is found, its place on the chart is not), rings.
+//! Limitations: no charts that number their points (a partly visible grid is detected, but not its position on the chart), no
+//! rings.
 
 mod centroid;
 mod checkerboard;
@@ -40,23 +41,23 @@ pub enum Target {
     Dots,
 }
 
-/// What is looked for.
+/// Description of the chart to detect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sought {
-    /// The kind; `None` for whichever shows more points.
+    /// The kind; `None` for the one with more points.
     pub target: Option<Target>,
-    /// Columns and rows of points that the chart has, either way round; a picture may show fewer, not more.
+    /// Columns and rows of points of the chart, in either order; an image may show fewer, not more.
     pub size: Option<[usize; 2]>,
 }
 
-/// Least median distance of neighbours. Smaller things in rows and columns (screens, prints, pins of circuits) are no chart,
-/// and a chart that is seen so small is not measured to hundredths of a pixel.
+/// Minimum median distance of neighbours. Smaller regular patterns (screens, prints, pins of circuits) are not charts, and such a
+/// small chart cannot be measured to hundredths of a pixel.
 const MIN_STEP_PX: f64 = 10.0;
 
-/// The chart's points.
+/// Detects the chart's points.
 ///
 /// # Errors
-/// Where there is no such chart.
+/// If there is no such chart.
 pub fn find(image: &Image, sought: Sought) -> Result<Grid, TargetError> {
     let ((grid, beside), name) = match sought.target {
         Some(Target::Checkerboard) => (checkerboard::find(image), "checkerboard"),
@@ -64,14 +65,15 @@ pub fn find(image: &Image, sought: Sought) -> Result<Grid, TargetError> {
         None => (either(image), "checkerboard or grid of dots"),
     };
     let grid = checked(grid, sought.size, name)?;
-    // A third of a chart that its rows do not reach is no chart of its own; nor is what is smaller beside a chart of the stated size that is there whole.
+    // A third of a chart that its rows do not reach is not a separate chart; nor is a smaller grid next to a complete chart of the
+    // stated size.
     let whole =
         sought.size.is_some_and(|[columns, rows]| grid.nodes.len() == columns * rows && beside < grid.nodes.len());
     let several = beside >= LEAST && 3 * beside > grid.nodes.len() && !whole;
     if several { Err(TargetError::Several { points: [grid.nodes.len(), beside] }) } else { Ok(grid) }
 }
 
-/// Whichever shows more points; the other is beside it where it is a chart by itself, elsewhere in the picture.
+/// The chart with more points; the other is the second one if it is a chart of its own, elsewhere in the image.
 fn either(image: &Image) -> (Grid, usize) {
     let (board, dots) = (checkerboard::find(image), dots::find(image));
     let board_first = board.0.nodes.len() >= dots.0.nodes.len();
@@ -80,7 +82,7 @@ fn either(image: &Image) -> (Grid, usize) {
     (grid, beside.max(if apart { other.nodes.len() } else { 0 }))
 }
 
-/// Whether the upright rectangles around two grids share a place.
+/// True if the bounding rectangles of two grids overlap.
 fn overlap(a: &Grid, b: &Grid) -> bool {
     let bounds = |grid: &Grid| {
         let ends = (glam::DVec2::INFINITY, glam::DVec2::NEG_INFINITY);

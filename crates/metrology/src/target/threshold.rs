@@ -1,13 +1,13 @@
-//! A threshold that follows the light: half way between the darkest and the brightest nearby.
+//! A local threshold: half way between the darkest and the brightest pixel nearby.
 //!
-//! The picture is cut into square blocks. A block's range is that of itself and its eight neighbours; where it is less
-//! than a quarter of the ranges' 90th hundredth there is nothing to be parted. Between the blocks' middles the threshold is
-//! interpolated.
+//! The image is divided into square blocks. A block's range is that of itself and its eight neighbours; if it is less than a
+//! quarter of the 90th percentile of the ranges, there is nothing to segment. The threshold is interpolated between the centres
+//! of the blocks.
 //!
-//! Dark regions of a picture: pixels below the threshold that touch by a side.
+//! Dark regions of an image: pixels below the threshold that are connected by a side.
 //!
-//! One pass over the rows: each row's runs of dark pixels are joined with the runs of the row above that they touch
-//! (union by the smaller number).
+//! One pass over the rows: each row's runs of dark pixels are joined with the runs of the row above that they touch (union by the
+//! smaller number).
 
 use crate::Image;
 
@@ -17,12 +17,12 @@ pub(super) struct Threshold {
     block: usize,
     columns: usize,
     rows: usize,
-    /// The middle of the range; `NEG_INFINITY` where there is nothing to be parted.
+    /// The middle of the range; `NEG_INFINITY` if there is nothing to segment.
     middles: Vec<f32>,
 }
 
 impl Threshold {
-    /// Of an image by blocks of `block` px.
+    /// Thresholds of an image, by blocks of `block` px.
     pub(super) fn of(image: &Image, block: usize) -> Self {
         let (columns, rows) = (image.width().div_ceil(block), image.height().div_ceil(block));
         let mut ranges = vec![[f32::INFINITY, f32::NEG_INFINITY]; columns * rows];
@@ -67,7 +67,7 @@ impl Threshold {
         (0..width).map(at).collect()
     }
 
-    /// The two blocks whose middles a pixel lies between, and where.
+    /// The two blocks whose centres enclose a pixel, and the fraction between them.
     fn between(&self, pixel: usize, count: usize) -> (usize, usize, f32) {
         let at = ((pixel as f32 + 0.5) / self.block as f32 - 0.5).clamp(0.0, count as f32 - 1.0);
         let first = at as usize;
@@ -75,7 +75,7 @@ impl Threshold {
     }
 }
 
-/// Linear; where one is not there the other.
+/// Linear; if one is missing the other.
 fn blend(a: f32, b: f32, t: f32) -> f32 {
     match (a.is_finite(), b.is_finite()) {
         (true, true) => a + t * (b - a),

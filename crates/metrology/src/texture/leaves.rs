@@ -1,19 +1,21 @@
-//! Response to a texture against its reference.
+//! Response to a texture relative to its reference.
 //!
-//! A camera's picture y and the texture's own picture x at the same place, pixel by pixel (for a rendered chart: a sharp render without
-//! noise). Over blocks of 64 × 64 pixels that overlap by half, under a Hann window (Welch 1967), radially averaged:
+//! y is a camera's image and x the image of the texture itself at the same position, pixel by pixel (for a rendered chart: a
+//! sharp render without noise). Over blocks of 64 × 64 pixels that overlap by half, with a Hann window (Welch 1967), radially
+//! averaged:
 //!
 //! ```text
 //! S_xx = ⟨|X|²⟩    S_yy = ⟨|Y|²⟩    S_xy = ⟨X* Y⟩
-//! response   |S_xy|/S_xx                         what is kept of the texture (Kirk et al. 2014, "dead leaves cross")
-//! direct     √((S_yy − S_noise)/S_xx)            texture and artefacts alike (Cao, Guichard & Hornung 2009; McElvain et al. 2010)
-//! coherence  γ² = |S_xy|²/(S_xx S_yy)            1 where nothing was added
+//! response   |S_xy|/S_xx                         preserved part of the texture (Kirk et al. 2014, "dead leaves cross")
+//! direct     √((S_yy − S_noise)/S_xx)            texture and artefacts together (Cao, Guichard & Hornung 2009; McElvain et al.
+//! 2010)
+//! coherence  γ² = |S_xy|²/(S_xx S_yy)            1 if nothing was added
 //! u(response) = response √((1 − γ²)/(2 n γ²))    n independent blocks and frequencies (Bendat & Piersol)
 //! ```
 //!
-//! A shift s between the two turns the phase of S_xy by −2π f·s, which would cost response: it is found by least squares on the phases
-//! (weights |S_xy|²) and taken off. Both are over their value at the lowest frequency band but zero, so that exposure does not count. The two part where noise reduction invents or
-//! smears texture.
+//! A shift s between the two rotates the phase of S_xy by −2π f·s, which would reduce the response: it is estimated by least
+//! squares on the phases (weights |S_xy|²) and removed. Both are relative to their value in the lowest frequency band except
+//! zero, so that exposure does not matter. The two differ if noise reduction invents or smears texture.
 
 use core::f64::consts::TAU;
 
@@ -23,44 +25,44 @@ use super::TextureError;
 use crate::fourier::{Complex, transform};
 use crate::{Estimate, Image, linear::Normal, patch_statistics::saturated_percent};
 
-/// The largest shift between picture and reference: beyond it blocks show too much of what their neighbours in the other do, px.
+/// Maximum shift between image and reference, px: beyond it blocks overlap their neighbours in the other too much.
 const MAX_SHIFT_PX: f64 = 2.0;
-/// Bands by which the shift is found, first roughly, then finely.
+/// Numbers of bands for the estimate of the shift, first coarse, then fine.
 const SHIFT_BANDS: [usize; 2] = [6, 20];
 /// Side of a block, px.
 const BLOCK: usize = 64;
-/// Bands of frequency from 0 to 0.5 cycles a pixel.
+/// Bands of frequency from 0 to 0.5 cycles per pixel.
 const BANDS: usize = 32;
-/// Neighbours under a Hann window share what they say: of overlapping blocks and bins so many are independent.
+/// Overlapping blocks and neighbouring bins under a Hann window are correlated: this fraction is independent.
 const INDEPENDENT: f64 = 0.25;
 
 /// A band of frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexturePoint {
-    /// Cycles a pixel, in any direction.
+    /// Cycles per pixel, in any direction.
     pub frequency: f64,
-    /// What is kept of the texture.
+    /// Preserved part of the texture.
     pub response: Estimate,
-    /// Structure of any kind over the texture's.
+    /// Structure of any kind relative to the texture's.
     pub direct: f64,
-    /// 1 where the picture holds nothing but the texture.
+    /// 1 if the image contains only the texture.
     pub coherence: f64,
 }
 
-/// The response to a texture, and where the picture shows it.
+/// Response to a texture, and its shift in the image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureResponse {
     /// Lowest frequency first.
     pub points: Vec<TexturePoint>,
-    /// How far right and down of the reference's the picture's texture lies, px.
+    /// Shift of the image's texture relative to the reference, to the right and down, px.
     pub shift_px: [f64; 2],
 }
 
-/// The response to a texture, lowest frequency first. `noise` is a picture of an even surface of the same brightness; without it
-/// noise counts as structure in `direct`.
+/// Measures the response to a texture, lowest frequency first. `noise` is an image of a uniform surface of the same brightness;
+/// without it noise counts as structure in `direct`.
 ///
 /// # Errors
-/// Where sizes differ or are too small, or picture and reference have nothing in common.
+/// If sizes differ or are too small, or image and reference have nothing in common.
 pub fn measure_texture(
     picture: &Image,
     reference: &Image,
@@ -99,13 +101,13 @@ pub fn measure_texture(
     Ok(TextureResponse { points: points.into_iter().map(scaled).collect(), shift_px })
 }
 
-/// A response over that of the lowest band, which shares no frequency with it: relative variances add.
+/// A response relative to that of the lowest band, which shares no frequency with it: relative variances add.
 fn over(own: Estimate, first: Estimate) -> Estimate {
     let value = own.value / first.value;
     Estimate::new(value, hypot(own.standard_uncertainty, value * first.standard_uncertainty) / first.value)
 }
 
-/// Frequencies of a bin, cycles a pixel along rows and columns.
+/// Frequencies of a bin, cycles per pixel along rows and columns.
 fn frequency(i: usize) -> [f64; 2] {
     let signed = |k: usize| if k > BLOCK / 2 { k as f64 - BLOCK as f64 } else { k as f64 };
     [i % BLOCK, i / BLOCK].map(|k| signed(k) / BLOCK as f64)
@@ -116,7 +118,7 @@ fn band(i: usize) -> usize {
     (BLOCK as f64 * hypot(u, v) + 0.5) as usize
 }
 
-/// Sums over blocks and bins: of both pictures by band, of their product by bin.
+/// Sums over blocks and bins: of both images by band, of their product by bin.
 struct Spectra {
     xx: Vec<f64>,
     yy: Vec<f64>,
@@ -153,7 +155,7 @@ impl Spectra {
         }
     }
 
-    /// The cross spectrum of a bin without the phase of a shift.
+    /// The cross spectrum of a bin, corrected for the phase of a shift.
     fn aligned(&self, i: usize, [x, y]: [f64; 2]) -> Complex {
         let [u, v] = frequency(i);
         let (sine, cosine) = sin_cos(TAU * (u * x + v * y));
@@ -161,7 +163,7 @@ impl Spectra {
         [re * cosine - im * sine, re * sine + im * cosine]
     }
 
-    /// The shift by which the phases of the cross spectrum turn.
+    /// The shift from the phases of the cross spectrum.
     fn shift_px(&self) -> [f64; 2] {
         let mut shift = [0.0; 2];
         for last in SHIFT_BANDS {
@@ -183,7 +185,7 @@ impl Spectra {
         let cross = hypot(re, im);
         let value = cross / self.xx[k];
         let coherence = cross * cross / (self.xx[k] * self.yy[k]);
-        // Half of the bins repeat the others: pictures are real.
+        // Half of the bins are redundant: images are real.
         let count = 0.5 * INDEPENDENT * self.bins[k];
         let u = value * ((1.0 - coherence).max(0.0) / (2.0 * coherence * count)).sqrt();
         let noise = floor.map_or(0.0, |f| f.yy[k] / f.blocks * self.blocks);
@@ -224,7 +226,7 @@ mod tests {
         Image::from_samples(192, 192, (0..192 * 192).map(draw).collect()).expect("a square")
     }
 
-    /// By a Gaussian, its samples summing to 1, with noise added.
+    /// Blurred by a Gaussian with samples that sum to 1, with noise added.
     fn blurred(image: &Image, sigma: f64, noise: &Image) -> Image {
         let kernel: Vec<f64> = (-5..=5).map(|k| exp(-0.5 * f64::from(k * k) / (sigma * sigma))).collect();
         let total: f64 = kernel.iter().sum();
@@ -259,7 +261,7 @@ mod tests {
         // Noise invents structure: coherence falls with the signal.
         assert!(points[0].coherence > 0.95 && points[28].coherence < 0.8, "{points:?}");
         assert_eq!(measure_texture(&texture(3, 400.0), &reference, None, None), Err(TextureError::Unlike));
-        // A pixel to the right and one up, on a torus: a whole shift, which costs nothing but the blocks' rims.
+        // One pixel to the right and one up, on a torus: an integer shift, which affects only the blocks' borders.
         let moved = (0..192 * 192).map(|i| reference.at((i % 192 + 191) % 192, (i / 192 + 1) % 192)).collect();
         let moved = Image::from_samples(192, 192, moved).expect("a square");
         let found = measure_texture(&moved, &reference, None, None).expect("a texture");

@@ -1,7 +1,7 @@
-//! Texture: how much of fine structure a camera keeps.
+//! Texture: preservation of fine structure by a camera.
 //!
-//! [`measure_star`]: modulation of a Siemens star over frequency. [`leaves`]: response to a texture with all frequencies, as dead leaves are, against
-//! its reference.
+//! [`measure_star`]: modulation of a Siemens star over frequency. [`leaves`]: response to a texture with all frequencies, such as
+//! dead leaves, relative to its reference.
 //!
 //! Modulation of a Siemens star.
 //!
@@ -14,8 +14,9 @@
 //! ```
 //!
 //! A star of hard sectors gives the same: its first harmonic is 4/π of the square wave at every radius. The centre is refined
-//! from the given one to the place of most modulation, within two pixels. Uncertainty: the covariance of the fit, and that of the outer
-//! circle. At n cycles the circle curves by 1/r: the response is that of the tangent's frequency to (n/2πr)²/n² of itself.
+//! from the given one to the position of maximum modulation, within two pixels. Uncertainty: the covariance of the fit, and that
+//! of the outer circle. At n cycles the circle curves by 1/r: the response is that of the tangent's frequency to (n/2πr)²/n² of
+//! itself.
 
 pub mod leaves;
 
@@ -25,92 +26,92 @@ use etendue_core::maths::f64::{atan2, hypot, sin_cos};
 
 use crate::{Estimate, Image, linear::Normal, patch_statistics::saturated_percent};
 
-/// Why texture cannot be measured.
+/// Reason why texture cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TextureError {
-    /// A star that is not in the picture or has no cycles.
+    /// A star outside the image or without cycles.
     #[error(
         "the star must lie within the picture: expected 4 or more cycles, an outer radius above the inner one, and {0}"
     )]
     Star(&'static str),
-    /// No star there.
+    /// No star.
     #[error("no star is at this place: its modulation at the outer radius is {percent:.1} %, below 5 %")]
     NoStar {
-        /// Modulation.
+        /// Modulation, %.
         percent: f64,
     },
-    /// It is clipped.
+    /// Clipped.
     #[error("{percent:.1} % of the pixels are saturated, which bends light and dark apart: expose less")]
     Saturated {
-        /// Share of pixels.
+        /// Percentage of saturated pixels.
         percent: f64,
     },
     /// A reading is NaN or infinite.
     #[error("the picture holds readings that are no numbers: give finite values")]
     NotFinite,
-    /// Pictures of different sizes, or too small ones.
+    /// Images of different sizes, or too small ones.
     #[error("picture and reference must have one size of at least {least} × {least} pixels, not {} × {} and {} × {}", picture.0, picture.1, reference.0, reference.1)]
     Size {
-        /// The least side.
+        /// Minimum side.
         least: usize,
-        /// Width and height of the picture.
+        /// Width and height of the image.
         picture: (usize, usize),
         /// Width and height of the reference.
         reference: (usize, usize),
     },
-    /// The picture for the noise is too small.
+    /// The image for the noise is too small.
     #[error("the picture of an even surface must have at least {least} × {least} pixels, not {} × {}", size.0, size.1)]
     Even {
-        /// The least side.
+        /// Minimum side.
         least: usize,
-        /// Its width and height.
+        /// Width and height.
         size: (usize, usize),
     },
-    /// Picture and reference are displaced.
+    /// Image and reference are displaced.
     #[error("the picture shows the texture {:.1} px right and {:.1} px down of where the reference does: give a reference of the same place, within 2 px", shift_px[0], shift_px[1])]
     Shifted {
         /// To the right and down, px.
         shift_px: [f64; 2],
     },
-    /// The reference has no texture, or the picture another one.
+    /// The reference has no texture, or the image another one.
     #[error(
         "picture and reference share no texture: are they of the same place, pixel by pixel? A reference is a sharp render without noise: `set` output.radiance=true writes radiance.exr"
     )]
     Unlike,
 }
 
-/// A star in a picture.
+/// A star in an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Star {
-    /// Its centre, raster coordinates, px.
+    /// Centre, raster coordinates, px.
     pub centre_px: (f64, f64),
-    /// Cycles of dark and bright all round.
+    /// Number of dark and bright cycles around the circle.
     pub cycles: u32,
-    /// The smallest circle, px.
+    /// Radius of the smallest circle, px.
     pub inner_px: f64,
-    /// The largest circle, px.
+    /// Radius of the largest circle, px.
     pub outer_px: f64,
-    /// Reading of no light.
+    /// Reading without light.
     pub black: f64,
     /// Reading of a saturated pixel.
     pub full_scale: Option<f64>,
 }
 
-/// A circle's modulation.
+/// Modulation of a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StarPoint {
-    /// Its radius, px.
+    /// Radius, px.
     pub radius_px: f64,
-    /// Cycles a pixel along it.
+    /// Cycles per pixel along it.
     pub frequency: f64,
-    /// Modulation over that of the outer circle.
+    /// Modulation relative to that of the outer circle.
     pub response: Estimate,
 }
 
-/// The response of a star, lowest frequency first, and its refined centre.
+/// Measures the response of a star, lowest frequency first, and its refined centre.
 ///
 /// # Errors
-/// Where the star does not lie in the picture or has no modulation.
+/// If the star is outside the image or has no modulation.
 pub fn measure_star(image: &Image, star: &Star) -> Result<(Vec<StarPoint>, (f64, f64)), TextureError> {
     check(image, star)?;
     let star = Star { centre_px: refined(image, star), ..*star };
@@ -122,7 +123,7 @@ pub fn measure_star(image: &Image, star: &Star) -> Result<(Vec<StarPoint>, (f64,
     if outer.value < 0.05 {
         return Err(TextureError::NoStar { percent: 100.0 * outer.value });
     }
-    // Of n pixels a wave of amplitude A in noise σ has u² = 2 σ²/(n a²) and holds A²/2 of A²/2 + σ².
+    // For n pixels, a wave of amplitude A in noise σ has u² = 2 σ²/(n a²) and contains A²/2 of A²/2 + σ².
     let (squared, u) = (outer.value * outer.value, outer.standard_uncertainty);
     if squared < MIN_HELD * (squared + u * u * TAU * star.outer_px) {
         return Err(TextureError::Star(
@@ -150,7 +151,7 @@ fn check(image: &Image, star: &Star) -> Result<(), TextureError> {
     if !whole {
         return Err(TextureError::Star("circles of one pixel or more"));
     }
-    // The refined centre may lie two pixels off.
+    // The refined centre may be two pixels off.
     if room.is_nan() || room < star.outer_px + 2.5 {
         return Err(TextureError::Star("2.5 pixels between its outer circle and the border"));
     }
@@ -162,9 +163,9 @@ fn check(image: &Image, star: &Star) -> Result<(), TextureError> {
     }
 }
 
-/// The least share of the rim's variance that the wave must hold: hard sectors leave 8/π² of it, a centre beside the star's next to none.
+/// Minimum fraction of the outer circle's variance in the wave: hard sectors leave 8/π² of it, a wrong centre next to none.
 const MIN_HELD: f64 = 0.5;
-/// How far the centre is sought from where it is told, px.
+/// Maximum distance of the refined centre from the given one, px.
 const MAX_PX: f64 = 2.0;
 
 /// Modulation of the pixels within half a pixel of a circle.
@@ -184,7 +185,7 @@ fn modulation(image: &Image, star: &Star, radius: f64) -> Option<Estimate> {
             }
         }
     }
-    // Fewer than two pixels a cycle cannot tell the wave.
+    // Fewer than two pixels per cycle cannot sample the wave.
     if pixels.len() < 6 {
         return None;
     }
@@ -201,7 +202,7 @@ fn modulation(image: &Image, star: &Star, radius: f64) -> Option<Estimate> {
     Some(Estimate::new(amplitude / a, (variance * spread).max(0.0).sqrt()))
 }
 
-/// The centre of most modulation on the inner half of the circles, where it tells most: by steps that halve.
+/// The centre of maximum modulation on the inner half of the circles, where it is most sensitive: by halving steps.
 fn refined(image: &Image, star: &Star) -> (f64, f64) {
     let radii = [0.3, 0.4, 0.5, 0.6].map(|share| star.inner_px + share * (star.outer_px - star.inner_px));
     let merit = |centre_px: (f64, f64)| {
@@ -231,7 +232,7 @@ mod tests {
 
     use super::*;
 
-    /// A star behind a Gaussian (exact by its local frequency where cycles are many) and a square pixel (by 6 × 6 points).
+    /// A star blurred by a Gaussian (exact from its local frequency for many cycles) and a square pixel (by 6 × 6 points).
     fn picture(centre: (f64, f64), cycles: f64, sigma: f64) -> Image {
         let at = |x: f64, y: f64| {
             let (dx, dy) = (x - centre.0, y - centre.1);

@@ -1,4 +1,4 @@
-//! Measurements of synthetic pictures and readings: closed forms, other programs, and intervals that cover the truth.
+//! Measurements of synthetic images and readings: closed forms, other programs, and coverage of intervals.
 
 #[path = "../../src/coverage.rs"]
 mod coverage;

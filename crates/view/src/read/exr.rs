@@ -1,4 +1,4 @@
-//! The layers of an EXR: spectra, colours, and channels by what stands before their last dot.
+//! The layers of an EXR: spectra, colours, and channels grouped by the part of their names before the last dot.
 
 use std::collections::BTreeMap;
 
@@ -14,10 +14,10 @@ use super::facts::{self, FileLayers, SideCar};
 use crate::found::FoundFile;
 use crate::layer::{Kind, Layer, NamedPlane, Role, Samples};
 
-/// Parts of a digital number, in the order of the light's way; others follow as they stand.
+/// Parts of a digital number, in the order of the signal path; others follow in their own order.
 const PARTS: [&str; 10] =
     ["signal", "shot", "dark", "fixed_pattern", "blooming", "smear", "transfer", "read", "quantisation", "saturated"];
-/// Facts of a header that a reader of the page has no use for.
+/// Header entries that are not useful on the page.
 const SILENT: [&str; 3] = ["layout", "quantity", "units"];
 const VARIANCE: &str = "variance.";
 
@@ -62,7 +62,7 @@ fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>,
         layers.push(spectrum(file, &exr, &stated)?);
     }
     let (size, attributes) = ((exr.width, exr.height), exr.attributes);
-    // R, G and B beside spectral bands follow from them.
+    // R, G and B next to spectral bands are derived from them.
     let follows = |name: &str| spectral && ["R", "G", "B"].contains(&name);
     let others = exr.channels.into_iter().filter(|channel| !is_spectral(channel)).filter(|c| !follows(&c.name));
     for (name, channels) in grouped(others) {
@@ -76,12 +76,12 @@ fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>,
     Ok(layers)
 }
 
-/// Whether the header says what is in the file.
+/// True if the header describes the content of the file.
 fn attributed(exr: &ExrFile) -> bool {
     exr.attributes.contains_key("etendue:units")
 }
 
-/// Channels by their layer, in the order of the first ones; the variance of a layer's channel with it.
+/// Channels by their layer, in the order of first appearance, with the variances of a layer's channels.
 fn grouped(channels: impl Iterator<Item = ExrChannel>) -> Vec<(String, Vec<ExrChannel>)> {
     let mut groups: Vec<(String, Vec<ExrChannel>)> = Vec::new();
     for channel in channels {
@@ -125,7 +125,7 @@ fn colours(channels: Vec<ExrChannel>) -> Vec<NamedPlane> {
     planes
 }
 
-/// A variance is kept as the standard error.
+/// A variance is stored as the standard error.
 fn plane(channel: ExrChannel) -> NamedPlane {
     match channel.name.strip_prefix(VARIANCE) {
         Some(name) => {

@@ -1,4 +1,4 @@
-//! What files state of their layers: facts beside them, names, units.
+//! Facts about layers from side-cars and headers: names, units.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,10 +16,10 @@ pub(crate) struct SideCar {
 }
 
 impl SideCar {
-    /// The side-car of a folder, or of the folder about it, as that of an undistorted twin is.
+    /// The side-car of a folder, or of its parent folder, as for the undistorted twin of a camera.
     ///
     /// # Errors
-    /// Where there is one and it is no JSON.
+    /// If it exists but is not JSON.
     pub(crate) fn of(folder: &Path) -> Result<Self, Error> {
         let about = folder.parent().filter(|_| folder.ends_with("undistorted"));
         let files = [Some(folder), about].into_iter().flatten().map(|folder| folder.join("camera.json"));
@@ -28,19 +28,19 @@ impl SideCar {
         Ok(Self { said })
     }
 
-    /// What it says at a place, `null` where nothing.
+    /// Returns the value at a path, `null` if there is none.
     pub(super) fn at(&self, path: &[&str]) -> &Value {
         path.iter().fold(&self.said, |value, key| &value[*key])
     }
 
-    /// What it says of a file: quantity and unit; empty where nothing.
+    /// Returns quantity and unit of a file; empty if there are none.
     pub(super) fn entry(&self, name: &str) -> [&str; 2] {
         let entry = self.at(&["files", name]);
         ["quantity", "unit"].map(|key| entry[key].as_str().unwrap_or(""))
     }
 }
 
-/// The identities of a plane of this name, each with its name, where one is known, and its colour.
+/// The identifiers of a plane of this name, each with its name, if known, and its colour.
 pub(super) fn names(layer: &str, ids: &[u32], side_car: &SideCar) -> Vec<Name> {
     let known = known(layer, side_car);
     let there: BTreeSet<u32> = ids.iter().copied().collect();
@@ -60,7 +60,7 @@ fn known(layer: &str, side_car: &SideCar) -> BTreeMap<u32, String> {
     }
 }
 
-/// Names in the order of their identities, from 1.
+/// Names in the order of their identifiers, from 1.
 fn listed(list: &Value, name: impl Fn(&Value) -> Option<&str>) -> BTreeMap<u32, String> {
     let entries = list.as_array().map_or(&[][..], Vec::as_slice);
     let named = entries.iter().zip(1..).filter_map(|(entry, id)| Some((id, name(entry)?.to_owned())));
@@ -82,7 +82,8 @@ fn numbered(text: &str, between: &str, after: &str) -> BTreeMap<u32, String> {
     text.split(between).filter_map(entry).collect()
 }
 
-/// The unit of a layer, and what else is said of it, in a header's `units`: `depth, P: m; flow: px; velocity: m/s, world`, or one unit for all.
+/// The unit of a layer, and further statements about it, from a header's `units`: `depth, P: m; flow: px; velocity: m/s, world`,
+/// or one unit for all.
 pub(super) fn of_layer(stated: &str, layer: &str) -> (String, String) {
     let is_named = |names: &str| {
         let mut names = names.split(',').map(str::trim);
@@ -96,14 +97,14 @@ pub(super) fn of_layer(stated: &str, layer: &str) -> (String, String) {
                 return (written(unit.trim()), more.trim().to_owned());
             }
             Some(_) => {}
-            // A list is of several layers, and does not say which.
+            // A list refers to several layers, and does not state which.
             None => of_all = of_all.or(Some(clause).filter(|unit| !unit.contains(", "))),
         }
     }
     (written(of_all.unwrap_or("")), String::new())
 }
 
-/// A unit as it is printed: `W.m^-2.sr^-1.nm^-1` is W·m⁻²·sr⁻¹·nm⁻¹, `e` is e⁻, `1` is nothing.
+/// Formats a unit for display: `W.m^-2.sr^-1.nm^-1` is W·m⁻²·sr⁻¹·nm⁻¹, `e` is e⁻, `1` is empty.
 pub(super) fn written(unit: &str) -> String {
     match unit {
         "1" => String::new(),
@@ -115,7 +116,7 @@ pub(super) fn written(unit: &str) -> String {
 /// The layers of a file.
 pub(crate) struct FileLayers {
     pub(crate) layers: Vec<Layer>,
-    /// What the file's header says: name and text.
+    /// Header entries of the file: name and text.
     pub(crate) facts: BTreeMap<String, String>,
 }
 

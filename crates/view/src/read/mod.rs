@@ -16,7 +16,7 @@ pub(crate) use facts::{FileLayers, SideCar};
 /// Reads the layers of a file; `side_car` is that of its folder.
 ///
 /// # Errors
-/// Where it is damaged, or of no kind that its name says.
+/// If it is damaged, or not of a kind that its name indicates.
 pub(crate) fn layers(file: &FoundFile, side_car: &SideCar) -> Result<FileLayers, Error> {
     let ending = file.name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     if ending == "exr" {

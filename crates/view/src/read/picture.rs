@@ -1,4 +1,5 @@
-//! Layers of pictures, of optical flow and of boxes: raws as their side-car states them, others as what their numbers are taken for.
+//! Layers of images, of optical flow and of boxes: raws by their side-car, others by the encoding that is assumed for their
+//! numbers.
 
 use etendue::Error;
 use etendue_core::{Plane, quantity::OpticalFlow};
@@ -23,11 +24,11 @@ pub(super) fn picture_layer(file: &FoundFile, side_car: &SideCar) -> Result<Laye
         }
         (None, 3.., None) => (Kind::Colour, facts::written(stated), quantity.to_owned()),
         (None, _, None) => (Kind::Number, facts::written(stated), quantity.to_owned()),
-        // Depth and disparity as pictures.
+        // Depth and disparity as images.
         (None, 1 | 2, Some(_)) if !stated.is_empty() && !stated.ends_with("bits") => {
             (Kind::Number, stated.to_owned(), quantity.to_owned())
         }
-        // A raw whose levels nobody states.
+        // A raw without stated levels.
         (None, 1 | 2, Some(_)) if photograph.stated.encoding == Encoding::Linear => {
             (Kind::Number, "DN".to_owned(), format!("linear ({})", photograph.stated.reason))
         }
@@ -40,7 +41,7 @@ pub(super) fn picture_layer(file: &FoundFile, side_car: &SideCar) -> Result<Laye
     Ok(Layer { name: file.stem.clone(), kind, unit, meaning, size, planes: planes(photograph) })
 }
 
-/// Colour, or the one channel; transparency is left out.
+/// Colour, or the one channel; without transparency.
 fn planes(photograph: Photograph) -> Vec<NamedPlane> {
     let full = photograph.full_scale;
     let shown = photograph.channels.into_iter().filter(|channel| channel.name != "A");

@@ -1,17 +1,17 @@
-//! What a camera file declares of what a measurement found: the same keys and units, exact.
+//! Values that a camera file declares for measured quantities: the same keys and units, exact.
 //!
 //! | measurement | declared |
 //! | --- | --- |
-//! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal (where it was measured about the principal point) |
-//! | focal, calibrate | principal distance in pixels and mm, principal point, k1 and k2 where the model measured means the same |
+//! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal (if it was measured about the principal point) |
+//! | focal, calibrate | principal distance in pixels and mm, principal point, k1 and k2 if the measured model defines them equally |
 //! | vignetting | étendue of a pixel relative to the centre, the mean of the four half diagonals, with the pixels' response over angle |
-//! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength (of the channel measured, with what neighbours of other colours exchange) |
-//! | dark-current | the dark current at each temperature by the file's law, and its doubling temperature where the law is that |
-//! | chromatic | no displacement, of a lens that images all colours alike |
-//! | oecf | the tone curve of raw readings or of the picture, the light's strength free |
-//! | sfr | [`response`]: pixel's aperture, what neighbours exchange, diffraction or a picture of a point |
+//! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength (of the measured channel, with crosstalk from neighbours of other colours) |
+//! | dark-current | the dark current at each temperature by the file's law, and its doubling temperature if that is the law |
+//! | chromatic | no displacement, for a lens without chromatic aberration |
+//! | oecf | the tone curve of raw readings or of the image, at a free scale of the light |
+//! | sfr | [`response`]: pixel aperture, crosstalk between neighbours, diffraction or a point-spread image |
 //!
-//! Left out: what the file does not state but causes (shifts by aberrations, charge that blooms).
+//! Limitations: effects that the file causes but does not state (shifts by aberrations, blooming).
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ use super::{mean::Curve, response, tone};
 
 type Quantities = BTreeMap<String, Quantity>;
 
-/// The camera's own side of a measurement.
+/// Declared values for a measurement.
 pub(crate) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<Side, String> {
     let Light { wavelength_nm, illuminant } = light;
     let (wavelength_nm, illuminant) = (*wavelength_nm, illuminant.as_deref());
@@ -46,7 +46,7 @@ pub(crate) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<
     let curves = match measured.kind.as_str() {
         "distortion" => {
             distortion(body, &mut put);
-            // The declared curve is that about the principal point.
+            // The declared curve is relative to the principal point.
             let own = centre_words(body.raster.principal_px());
             let same = measured.settings.get("centre_px").is_none_or(|centre| *centre == own);
             if same { along(measured, |field| ratio(body, field)) } else { Vec::new() }
@@ -81,7 +81,7 @@ pub(crate) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<
     })
 }
 
-/// The declared curve at the places of the measured one.
+/// The declared curve at the positions of the measured one.
 fn along(measured: &Side, at: impl Fn(f64) -> Option<f64>) -> Vec<Curve> {
     measured.curves.iter().map(|c| at_points(c, |percent| at(percent / 100.0))).collect()
 }
@@ -91,12 +91,12 @@ fn at_points(measured: &Curve, at: impl Fn(f64) -> Option<f64>) -> Curve {
     Curve { points: measured.points.iter().filter_map(point).collect(), ..measured.clone() }
 }
 
-/// Half the picture's diagonal, px.
+/// Half the image diagonal, px.
 fn half_px(body: &CameraBody) -> DVec2 {
     0.5 * DVec2::new(body.raster.width() as f64, body.raster.height() as f64)
 }
 
-/// The four places of a radial field position about a point of the picture, mm from the principal point.
+/// The four positions at a radial field position about a point of the image, mm from the principal point.
 fn places(body: &CameraBody, field: f64, about_px: DVec2) -> [DVec2; 4] {
     [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
         .map(|sign| body.raster.sensor_mm(about_px + field * half_px(body) * DVec2::from(sign)))
@@ -143,7 +143,7 @@ fn intrinsics(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64
     put("k2", k2 * unit * unit * unit * unit, "");
 }
 
-/// Light on a pixel over that in the picture's middle.
+/// Irradiance at a pixel relative to that at the image centre.
 fn illumination(body: &CameraBody, field: f64) -> f64 {
     let angles = body.sensor.as_ref().and_then(|s| s.parameters().light.angle_response.as_ref());
     let response = |at: DVec2| angles.map_or(1.0, |a| a.at(atan(at.length() / a.exit_pupil_mm).to_degrees()));
@@ -184,7 +184,7 @@ fn electronics(
     Ok(())
 }
 
-/// The dark current at the temperatures that were measured.
+/// Dark current at the measured temperatures.
 fn growth(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &str)) -> Result<Vec<Curve>, String> {
     let dark = body.sensor.as_ref().map(|s| s.parameters().charge.dark);
     let (dark, stated) = dark.and_then(|dark| Some((dark, dark.temperature?))).ok_or(
@@ -198,7 +198,7 @@ fn growth(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &s
     Ok(measured.curves.iter().map(|c| at_points(c, |celsius| Some(at(celsius)))).collect())
 }
 
-/// Red and blue stand where green does.
+/// Red and blue coincide with green.
 fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Result<(), String> {
     if body.lens.spreads_colours() || body.front.is_some() {
         let why = "what this lens does to colours has no closed form here: expected one without lateral_colour and [external_optics]";
@@ -210,7 +210,7 @@ fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Resul
     Ok(())
 }
 
-/// Noise of the chain in a pixel without light, at exposures too short for dark current.
+/// Noise of the signal chain in a pixel without light, at exposures too short for dark current.
 fn dark_noise_e(p: &SensorParameters) -> f64 {
     let noise = &p.voltage.noise;
     (noise.white_e * noise.white_e + noise.row_e * noise.row_e + noise.column_e * noise.column_e).sqrt()

@@ -1,13 +1,13 @@
-//! Several curves of one kind, such as those of edges all over the field, as their mean.
+//! Curves of measurements, the gaps between two of them, and the mean of several curves of one kind, such as those of edges all
+//! over the field.
 //!
-//! At each place where all have a point: means of both sides, uncertainties as of independent curves. What is declared is the same for all
-//! edges of a camera only where its lens is the same over the field.
+//! The mean of curves: at each position where all have a point, the means of both sides, with uncertainties as of independent
+//! curves. A declared curve is the same for all edges of a camera only if its lens is uniform over the field.
 //!
-//! Curves of measurements, and how far two of them are apart.
-//!
-//! The second curve is read between its points by straight lines, at the places of the first that it reaches. Of n points the largest
-//! |E_n| of two equal curves passes 1 more often than a single one; the limit is the one that a family of n independent
-//! points passes as often as one point passes 1 (k = 2: 4.55 %), by Šidák's level; n counts the points of all curves of one kind, such as those of all edges. Points of fitted curves share errors: there it errs towards agreement.
+//! The second curve is interpolated linearly at the positions of the first that it covers. For n points the largest |E_n| of two
+//! equal curves exceeds 1 more often than for a single point. The limit is the value that a family of n independent points
+//! exceeds as often as one point exceeds 1 (k = 2: 4.55 %), by Šidák's level; n counts the points of all curves of one kind, such
+//! as those of all edges. Points of fitted curves share errors: there the limit is too lenient.
 
 use etendue_metrology::Estimate;
 use etendue_stats::chi_square::sidak_level;
@@ -17,10 +17,10 @@ use serde_json::Value;
 /// A curve of one side with its gaps to the other.
 pub(crate) type Compared = (Curve, Vec<Gap>);
 
-/// More curves than this are drawn as their mean.
+/// Maximum number of curves drawn individually; more are drawn as their mean.
 const FEW: usize = 3;
 
-/// The mean of the curves of each table that has more than a few.
+/// Means of the curves of each table that has more than a few.
 pub(crate) fn means(all: &[Compared]) -> Vec<Compared> {
     let table = |c: &Compared| c.0.kind().to_owned();
     let mut tables: Vec<String> = all.iter().map(table).collect();
@@ -49,7 +49,7 @@ fn together(gaps: &[&Gap]) -> Gap {
     Gap { x: gaps[0].x, a: of(|g| g.a), b: of(|g| g.b), significant: gaps.iter().all(|g| g.significant) }
 }
 
-/// Tables that are curves: table, abscissa, what is drawn over it, and its words.
+/// Tables that are curves: table, abscissa, ordinate, and label of the ordinate.
 const KNOWN: [(&str, &str, &str, &str); 7] = [
     ("curve", "field_percent", "ratio", "observed over ideal distance"),
     ("profile", "field_percent", "illumination_percent", "illumination, % of the centre"),
@@ -63,15 +63,15 @@ const KNOWN: [(&str, &str, &str, &str); 7] = [
 /// A curve of a measurement.
 #[derive(Clone, Debug)]
 pub(crate) struct Curve {
-    /// Table and the words of its rows, such as the channel.
+    /// Table and the labels of its rows, such as the channel.
     pub name: String,
-    /// What lies along x.
+    /// Name of the abscissa.
     pub abscissa: &'static str,
-    /// What lies along y, in words.
+    /// Description of the ordinate.
     pub ordinate: &'static str,
-    /// By rising x.
+    /// In order of increasing x.
     pub points: Vec<(f64, Estimate)>,
-    /// Standard deviation of single readings at each x, where it is stated.
+    /// Standard deviation of single readings at each x, if stated.
     pub noise: Vec<(f64, f64)>,
 }
 
@@ -103,12 +103,12 @@ pub(crate) fn curves(tables: &Value) -> Vec<Curve> {
 }
 
 impl Curve {
-    /// The table that it comes from.
+    /// The table that the curve comes from.
     pub(crate) fn kind(&self) -> &str {
         self.name.split(' ').next().unwrap_or_default()
     }
 
-    /// The estimate at x, between two points by a straight line; `None` beyond the ends.
+    /// The estimate at x, by linear interpolation; `None` beyond the ends.
     fn at(&self, x: f64) -> Option<Estimate> {
         let after = self.points.iter().position(|(there, _)| *there >= x)?;
         let (x1, y1) = self.points[after];
@@ -122,13 +122,13 @@ impl Curve {
     }
 }
 
-/// Two curves at a place of the first.
+/// Two curves at a position of the first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     pub x: f64,
     pub a: Estimate,
     pub b: Estimate,
-    /// Whether the second curve is far enough from nothing for a relative error: 1 % of its largest.
+    /// True if the second curve is large enough for a relative error: 1 % of its maximum.
     pub significant: bool,
 }
 
@@ -137,19 +137,19 @@ impl Gap {
         self.a.value - self.b.value
     }
 
-    /// Over the second; `None` where that is next to nothing.
+    /// Relative to the second; `None` if that is close to zero.
     pub(crate) fn relative(&self) -> Option<f64> {
         self.significant.then(|| self.difference() / self.b.value.abs())
     }
 
-    /// E_n where an uncertainty is known.
+    /// E_n, if an uncertainty is known.
     pub(crate) fn normalised(&self) -> Option<f64> {
         let known = self.a.standard_uncertainty + self.b.standard_uncertainty > 0.0;
         known.then(|| self.a.normalised_error(self.b))
     }
 }
 
-/// Where both curves are.
+/// Gaps at the positions where both curves are defined.
 pub(crate) fn gaps(a: &Curve, b: &Curve) -> Vec<Gap> {
     let largest = b.points.iter().map(|(_, y)| y.value.abs()).fold(0.0, f64::max);
     let gap = |(x, a): &(f64, Estimate)| {
@@ -159,7 +159,7 @@ pub(crate) fn gaps(a: &Curve, b: &Curve) -> Vec<Gap> {
     a.points.iter().filter_map(gap).collect()
 }
 
-/// The largest |E_n| that so many points may show.
+/// Limit of the largest |E_n| for this number of points.
 pub(crate) fn limit(points: usize) -> f64 {
     let level = sidak_level(two_sided_p(2.0), points.max(1));
     0.5 * quantile(1.0 - 0.5 * level)

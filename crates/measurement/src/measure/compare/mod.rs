@@ -1,8 +1,8 @@
-//! `measure compare`: two cameras' measurements side by side.
+//! `measure compare`: comparison of the measurements of two cameras.
 //!
-//! Every quantity that both sides state, and every curve: difference A − B (first less second), relative error against the second side and the normalised error
-//! E_n (ISO 13528) by both standard uncertainties. |E_n| > 1 is a difference; of curves the largest |E_n| with a limit
-//! that allows for their number of points.
+//! For every quantity that both sides state, and every curve: difference A − B (first less second), relative error against the
+//! second side, and normalised error E_n (ISO 13528) from both standard uncertainties. |E_n| > 1 is a difference; for curves the
+//! largest |E_n| is compared with a limit that allows for the number of points.
 
 mod declared;
 mod mean;
@@ -27,16 +27,16 @@ use sides::sides;
 /// `etendue measure compare`
 #[derive(Args, Clone, Debug)]
 pub struct CompareRequest {
-    /// A measurement (what --json printed), or the camera file (TOML) that was measured
+    /// Measurement (output of --json), or the camera file (TOML) that was measured
     #[arg(value_name = "A")]
     pub a: PathBuf,
-    /// The same of the other; relative errors are against this one
+    /// The same for the other side; reference of the relative errors
     #[arg(value_name = "B")]
     pub b: PathBuf,
-    /// Where a camera file is compared with photon transfer: the light's wavelength, for the quantum efficiency
+    /// Wavelength of the light for the quantum efficiency, when a camera file is compared with photon transfer
     #[arg(long, value_name = "NM", value_parser = positive)]
     pub wavelength_nm: Option<f64>,
-    /// Where a camera file is compared with the response of edges or a tone curve: the light's spectrum [default: D65]
+    /// Spectrum of the light, when a camera file is compared with the response of edges or a tone curve [default: D65]
     #[arg(long, value_name = "NAME")]
     pub illuminant: Option<String>,
     /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
@@ -45,27 +45,27 @@ pub struct CompareRequest {
 }
 
 impl CompareRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(a: impl Into<PathBuf>, b: impl Into<PathBuf>) -> Self {
         Self { a: a.into(), b: b.into(), wavelength_nm: None, illuminant: None, set: Vec::new() }
     }
 }
 
-/// Two measurements side by side.
+/// Comparison of two measurements.
 #[derive(Clone, Debug)]
 pub struct MeasurementComparison {
-    /// Every quantity and curve that both know.
+    /// Every quantity and curve that both sides state.
     pub report: Report,
     /// The two files.
     pub names: [String; 2],
-    /// The quantities and curves that differ; empty where none does.
+    /// Quantities and curves that differ; empty if none.
     pub differing: Vec<String>,
 }
 
 /// Compares two measurements, or a measurement with the camera file that was measured.
 ///
 /// # Errors
-/// Where a file cannot be used, or the two have nothing in common.
+/// If a file cannot be used, or the two have nothing in common.
 pub fn compare(request: &CompareRequest) -> Result<MeasurementComparison, Error> {
     let light = Light { wavelength_nm: request.wavelength_nm, illuminant: request.illuminant.clone() };
     let [a, b] = sides(&request.a, &request.b, &light, &request.set)?;
@@ -118,7 +118,7 @@ fn number(value: Option<f64>, decimals: usize) -> Cell {
     value.map_or(Cell::Nothing, |v| Cell::Number(v, decimals))
 }
 
-/// The table of quantities, and which of them differ.
+/// Table of quantities, and those that differ.
 fn quantities(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
     let common = a.quantities.iter().filter_map(|(key, of_a)| Some((key, of_a, b.quantities.get(key)?)));
     let mut differing = Vec::new();
@@ -160,20 +160,20 @@ fn cell(q: &Quantity) -> Cell {
     Cell::Estimate(Estimate::new(q.value, q.standard_uncertainty.unwrap_or(f64::INFINITY)))
 }
 
-/// E_n, where both state an uncertainty and one of them is more than nothing.
+/// E_n, if both sides state an uncertainty and one of them is above zero.
 fn normalised(a: &Quantity, b: &Quantity) -> Option<f64> {
     let (u, v) = (a.standard_uncertainty?, b.standard_uncertainty?);
     (u + v > 0.0).then(|| Estimate::new(a.value, u).normalised_error(Estimate::new(b.value, v)))
 }
 
-/// The table of curves with their plots, and which of them differ.
+/// Table of curves with their plots, and those that differ.
 fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
     let mut differing = Vec::new();
     let mut rows = Vec::new();
     let pairs = a.curves.iter().filter_map(|x| Some((x, b.curves.iter().find(|y| y.name == x.name)?)));
     let all: Vec<Compared> = pairs.map(|(of_a, of_b)| (of_a.clone(), gaps(of_a, of_b))).collect();
     for (curve, gaps) in &all {
-        // Curves of one kind are one family, as their points are.
+        // All points of curves of one kind form one family.
         let family = all.iter().filter(|(other, _)| other.kind() == curve.kind());
         let tested = family.flat_map(|(_, gaps)| gaps).filter_map(Gap::normalised).count();
         let (row, differs) = curve_row(curve, gaps, limit(tested));
@@ -205,7 +205,7 @@ fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
     differing
 }
 
-/// The mean of many curves, point by point.
+/// Mean of many curves, point by point.
 fn mean_table(curve: &Curve, gaps: &[Gap]) -> Table {
     let row = |gap: &Gap| {
         let u = etendue_core::maths::f64::hypot(gap.a.standard_uncertainty, gap.b.standard_uncertainty);
@@ -286,7 +286,7 @@ fn error(a: &Curve, gaps: &[Gap]) -> Plot {
     }
 }
 
-/// What only one side knows.
+/// Quantities that only one side states.
 fn unmatched(report: &mut Report, a: &Side, b: &Side) {
     for (name, this, other) in [("A", a, b), ("B", b, a)] {
         let quantities = this.quantities.keys().filter(|key| !other.quantities.contains_key(*key));

@@ -1,19 +1,21 @@
-//! The response of edges that a camera file declares in closed form.
+//! The edge response that a camera file declares in closed form.
 //!
 //! ```text
 //! MTF(ν) = sinc(a ν cos θ) sinc(a ν sin θ) · neighbours(ν) · lens(ν)
-//!                                     ν in cycles a pixel along the edge's normal, θ from the normal to the nearest of rows and columns
-//! neighbours: Σ w_n r_n cos(2π ν n·d_n)/Σ w_n r_n       w_n what the pixel takes of neighbour n at d_n (n the normal), r_n its response to the light
-//! lens: circular pupil: 2/π (arccos s − s √(1 − s²)), s = λ N ν w/pitch, averaged over the light that the pixel sees; w how much wider
-//!       the pattern is at the edge's place: 1/cos³ θ′ along the radius, 1/cos θ′ across it
-//!       picture of a point: Σ L cos(2π ν x)/Σ L; tables over the field: |Σ L exp(2πi ν x)|/Σ L at the edge's place
+//!                                     ν in cycles per pixel along the edge's normal, θ from the normal to the nearest of rows and columns
+//! neighbours: Σ w_n r_n cos(2π ν n·d_n)/Σ w_n r_n       w_n light received from neighbour n at d_n (n the normal), r_n its
+//! response to the light
+//! lens: circular pupil: 2/π (arccos s − s √(1 − s²)), s = λ N ν w/pitch, averaged over the light that the pixel sees; w relative
+//! width of
+//!       the pattern at the edge's place: 1/cos³ θ′ along the radius, 1/cos θ′ across it
+//!       image of a point: Σ L cos(2π ν x)/Σ L; tables over the field: |Σ L exp(2πi ν x)|/Σ L at the edge's place
 //! ```
 //!
-//! a is the side of the photosensitive area. Frequencies are those of the picture, of one colour of a mosaic, too. The lens is in
-//! focus; its picture of a point is taken along the row or column nearest to the normal.
+//! a is the side of the photosensitive area. Frequencies are those of the image, also for one colour of a mosaic. The lens is in
+//! focus; its point-spread image is evaluated along the row or column nearest to the normal.
 //!
-//! Refused, as nothing here says what they do: lenses other than a thin one or a pinhole, glare, ghosts, glass before the lens, blades,
-//! obstructions and wavefront errors, capacitance between pixels, developed pictures of mosaics.
+//! Refused, as this model does not describe them: lenses other than a thin one or a pinhole, glare, ghosts, glass before the
+//! lens, blades, obstructions and wavefront errors, capacitance between pixels, developed images of mosaics.
 
 use std::f64::consts::{PI, TAU};
 
@@ -27,16 +29,16 @@ use glam::DVec2;
 use super::mean::Curve;
 use super::side::{Side, channel, place_of, spectrum, weighed};
 
-/// What the curves of a camera are made of.
+/// Inputs of a camera's response curves.
 struct Response<'a> {
     body: &'a CameraBody,
-    /// (weight, columns to the right, rows down) of the pixels whose light a reading holds; the weights sum to 1.
+    /// (weight, columns to the right, rows down) of the pixels whose light contributes to a reading; the weights sum to 1.
     neighbours: Vec<(f64, f64, f64)>,
     /// (weight, wavelength, nm); the weights sum to 1.
     light: Vec<(f64, f64)>,
 }
 
-/// The declared curves at the frequencies that were measured.
+/// The declared curves at the measured frequencies.
 pub(crate) fn declared(body: &CameraBody, measured: &Side, light: &str) -> Result<Vec<Curve>, String> {
     in_closed_form(body)?;
     let response = Response::of(body, measured, light)?;
@@ -61,7 +63,7 @@ fn in_closed_form(body: &CameraBody) -> Result<(), String> {
     }
 }
 
-/// A circular pupil without errors.
+/// True for a circular pupil without errors.
 fn is_plain(psf: &PsfParameters) -> bool {
     psf.blades == 0 && psf.obstruction == 0.0 && psf.wavefront.is_empty()
 }
@@ -109,8 +111,8 @@ impl<'a> Response<'a> {
         Curve { points, ..measured.clone() }
     }
 
-    /// `across` is the frequency along the nearest of rows and columns, `along` the other: which way the edge leans makes no difference,
-    /// as neighbours on both sides are under the same filters.
+    /// `across` is the frequency along the nearest of rows and columns, `along` the other. The sign of the edge's angle does not
+    /// matter, as neighbours on both sides are under the same filters.
     fn exchanged(&self, across: f64, along: f64, down: bool) -> f64 {
         let wave = |x: f64, y: f64| {
             let (near, far) = if down { (y, x) } else { (x, y) };
@@ -119,7 +121,7 @@ impl<'a> Response<'a> {
         self.neighbours.iter().map(|(weight, x, y)| weight * wave(*x, *y)).sum()
     }
 
-    /// Diffraction is that of the place on the sensor: the pupil looks smaller from beside the axis.
+    /// Diffraction depends on the place on the sensor: the pupil looks smaller from off the axis.
     fn lens(&self, nu: f64, down: bool, place_px: Option<DVec2>) -> f64 {
         let pitch = self.body.raster.pitch_mm();
         let per_mm = nu / if down { pitch.y } else { pitch.x };
@@ -145,7 +147,7 @@ impl<'a> Response<'a> {
     }
 }
 
-/// A place by its columns and rows, as edges are named.
+/// Position from its columns and rows, as edges are named.
 fn place_px(word: &str) -> Option<DVec2> {
     let (x, y) = word.split_once(',')?;
     Some(DVec2::new(x.parse().ok()?, y.parse().ok()?))
@@ -160,12 +162,12 @@ fn sinc(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { sin(PI * x) / (PI * x) }
 }
 
-/// Of a circular pupil; s the frequency over the cut-off.
+/// MTF of a circular pupil; s is the frequency relative to the cut-off.
 fn diffraction(s: f64) -> f64 {
     if s >= 1.0 { 0.0 } else { 2.0 / PI * (acos(s) - s * (1.0 - s * s).sqrt()) }
 }
 
-/// Of a picture of a point's light, cycles a mm on the sensor.
+/// MTF of a point-spread image, cycles per mm on the sensor.
 fn of_picture(image: &SpreadImage, nm: f64, per_mm: f64, down: bool) -> f64 {
     let p = image.parameters();
     let step_mm = 1e-3 * p.pitch_um * p.wavelength_nm.map_or(1.0, |at| nm / at);

@@ -1,4 +1,4 @@
-//! One side of a comparison: what is known of a camera, measured or declared, of which channel and by which light.
+//! One side of a comparison: measured or declared facts about a camera, the channel and the light.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use etendue_spectra::{Spectrum, illuminant};
 
 use super::mean::Curve;
 
-/// A number with its unit; without an uncertainty where the measurement states none.
+/// A number with its unit; without an uncertainty if the measurement states none.
 #[derive(Clone, Debug)]
 pub(crate) struct Quantity {
     pub value: f64,
@@ -16,24 +16,24 @@ pub(crate) struct Quantity {
 }
 
 impl Quantity {
-    /// What a camera file states: exact by itself.
+    /// A value of a camera file: exact by definition.
     pub(crate) fn declared(value: f64, unit: &str) -> Self {
         Self { value, standard_uncertainty: Some(0.0), unit: unit.to_owned() }
     }
 }
 
-/// What is known of a camera on one side.
+/// Facts about a camera on one side.
 #[derive(Clone, Debug)]
 pub(crate) struct Side {
     pub kind: String,
     pub settings: BTreeMap<String, String>,
     pub quantities: BTreeMap<String, Quantity>,
     pub curves: Vec<Curve>,
-    /// Angles of slanted edges to rows or columns, degrees, by their place.
+    /// Angles of slanted edges to rows or columns, degrees, by position.
     pub angles_deg: BTreeMap<String, f64>,
 }
 
-/// The channel that was measured, by its name or its first letter.
+/// The measured channel, by its name or its first letter.
 pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<usize, String> {
     let names = || p.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
     let Some(name) = measured else {
@@ -45,16 +45,16 @@ pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<us
     found.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
 }
 
-/// The first place of a channel in the tile, which is the one that measurements take.
+/// The first place of a channel in the tile, which measurements use.
 pub(crate) fn place_of(p: &SensorParameters, channel: usize) -> [usize; 2] {
     let at = p.cfa.channels().iter().position(|c| *c == channel).unwrap_or(0);
     [at % p.cfa.width(), at / p.cfa.width()]
 }
 
-/// Wavelengths of averages, nm apart.
+/// Wavelength step of averages, nm.
 const STEP_NM: usize = 5;
 
-/// The light that was measured by, as told.
+/// Light of the measurement, as stated.
 pub(crate) struct Light {
     pub wavelength_nm: Option<f64>,
     pub illuminant: Option<String>,

@@ -1,4 +1,4 @@
-//! Both sides of a comparison: of a measurement's JSON, or of what a camera file declares of the same.
+//! Both sides of a comparison: from a measurement's JSON, or from the values that a camera file declares.
 
 use std::{collections::BTreeMap, path::Path};
 
@@ -14,7 +14,7 @@ fn is_camera(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }
 
-/// Both sides; a camera file declares what the other side measured.
+/// Both sides; a camera file declares the quantities that the other side measured.
 pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result<[Side; 2], Error> {
     let declaration = |file: &Path, measured: &Side| {
         let body = open_camera(file, set)?;
@@ -38,7 +38,7 @@ pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result
     }
 }
 
-/// What a measurement's JSON says of a camera.
+/// Facts about a camera from a measurement's JSON.
 pub(crate) fn measurement(file: &Path) -> Result<Side, Error> {
     let text = text_of(file)?;
     let what = "expected the JSON that etendue measure or calibrate prints with `json`, or a camera file (.toml)";

@@ -1,18 +1,24 @@
-//! The tone curve that a camera file declares, at the exposures that were measured.
+//! The tone curve that a camera file declares, at the measured exposures.
 //!
 //! ```text
 //! raw:      y = b + (w − b) min(s (H + H₀), 1)        b black, w white level
-//! picture:  y = y_max tone(min(s (H + H₀), 1))        the file's tone curve; y_max the largest number of the picture
+//! image:    y = y_max tone(min(s (H + H₀), 1))        the file's tone curve; y_max the largest number of the image
 //! ```
 //!
-//! H₀ is the exposure that charge collects on its way under smear, of a picture as bright all over as the surface that was measured;
-//! exposures of such a camera are seconds. Under filters it is that of the column's mean pixel, colours of the light and all: of raw readings of one colour
-//! s̄/L of that colour (L its response to the light, s̄ that of the mean pixel of its columns), of a developed picture what white balance w and colour matrix M
-//! make of all of them, Σ_c M_c w_c s̄_c/Σ_c M_c w_c L_c in the row of the channel that was measured.
-//! Readings are the curve of noisy light, and their mean is not the curve of its mean: with the noise of the measured readings (that of rounding taken off) the declared mean
-//! is that of light which scatters so that its readings do ([`noisy_mean`](etendue_metrology::oecf)). It matters in the dark, where a tone curve bends, and next to saturation.
-//! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
-//! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
+//! H₀ is the exposure that charge collects during transfer (smear), for an image as bright all over as the measured surface;
+//! exposures of such a camera are in seconds. With colour filters it is that of the column's mean pixel, including the colours of
+//! the light:
+//! - of raw readings of one colour: s̄/L of that colour (L its response to the light, s̄ that of the mean pixel of its columns);
+//! - of a developed image: the value after white balance w and colour matrix M of all colours, Σ_c M_c w_c s̄_c/Σ_c M_c w_c L_c
+//!   in the row of the measured channel.
+//!
+//! Readings follow the curve applied to noisy light; their mean is not the curve of the mean light. The declared mean is
+//! therefore that of light whose scatter gives the noise of the measured readings, less that of rounding
+//! ([`noisy_mean`](etendue_metrology::oecf)). This matters in the dark, where a tone curve bends, and near saturation.
+//!
+//! The brightness of the surface is not a property of the camera: s is fitted to the readings between 5 % and 95 % of the range
+//! (least squares of s H against the light that the declared curve assigns to them). So the form of the curve and its ends are
+//! compared, not the sensitivity.
 
 use etendue_isp::WhiteBalance;
 use etendue_metrology::{Estimate, oecf::noisy_mean};
@@ -23,23 +29,23 @@ use etendue_spectra::colour::BT709;
 use super::mean::Curve;
 use super::side::{Side, channel, place_of, spectrum, weighed};
 
-/// What turns a share of saturation into a reading.
+/// Conversion from a fraction of saturation to a reading.
 struct Tone<'a> {
     black: f64,
     white: f64,
     /// H₀, s.
     smear_s: f64,
-    /// `None`: a straight line.
+    /// `None`: linear.
     development: Option<&'a Development>,
 }
 
-/// The curves of the measured exposures.
+/// The curves at the measured exposures.
 pub(crate) fn declared(body: &CameraBody, measured: &Side, light: &str) -> Result<Vec<Curve>, String> {
     let tone = Tone::of(body, measured, light)?;
     measured.curves.iter().map(|curve| tone.at_points(curve)).collect()
 }
 
-/// The light of the mean pixel of a column over that of the channel which was measured there, after development where it was a picture.
+/// The light of a column's mean pixel relative to that of the measured channel, after development if the image was developed.
 fn of_column(sensor: &Sensor, development: Option<&Development>, measured: &Side, light: &str) -> Result<f64, String> {
     let p = sensor.parameters();
     if p.channels.len() == 1 {
@@ -60,7 +66,7 @@ fn of_column(sensor: &Sensor, development: Option<&Development>, measured: &Side
     Ok(column(x) / seen(channel))
 }
 
-/// The same in a channel of the developed picture; without a name in its luminance.
+/// The same in a channel of the developed image; without a name, in its luminance.
 fn developed(
     sensor: &Sensor,
     development: &Development,
@@ -138,12 +144,12 @@ impl<'a> Tone<'a> {
         self.black + (self.white - self.black) * encoded
     }
 
-    /// The mean of readings with this noise at a share of saturation.
+    /// Mean of readings with this noise at a fraction of saturation.
     fn mean_reading(&self, share: f64, noise: f64) -> f64 {
         noisy_mean(|share| self.reading(share), share, (noise * noise - 1.0 / 12.0).max(0.0).sqrt())
     }
 
-    /// Share of saturation of a reading.
+    /// Fraction of saturation of a reading.
     fn light(&self, reading: f64) -> f64 {
         let encoded = (reading - self.black) / (self.white - self.black);
         self.development.map_or(encoded, |d| f64::from(d.processing.tone.decode(encoded as f32)))

@@ -1,4 +1,4 @@
-//! The camera that is measured: that of a camera file, or one about a lens.
+//! The measured camera: from a camera file, or built around a lens.
 
 use std::path::{Path, PathBuf};
 
@@ -17,10 +17,10 @@ use super::request::LensRequest;
 /// Half of a full-frame diagonal, mm.
 const FULL_FRAME_MM: f64 = 21.64;
 
-/// A camera, and what is remarked of it.
+/// A camera, and the notes on it.
 pub(super) type Told = (CameraBody, Vec<String>);
 
-/// The camera: of a camera file, or about a lens file or a published lens.
+/// Returns the camera: of a camera file, or built around a lens file or a published lens.
 pub(super) fn body(request: &LensRequest) -> Result<Told, Error> {
     let given = Path::new(&request.lens);
     if given.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
@@ -61,10 +61,10 @@ fn compiled(request: &LensRequest, file: &Path, made: Option<String>) -> Result<
     compile_camera_with_remarks(&camera, &assets).map_err(Error::inputs)
 }
 
-/// The name under which a camera about a lens is read; no such file exists.
+/// File name of a camera built around a lens; no such file exists.
 const MADE: &str = "measure.toml";
 
-/// Faults of a camera that nobody wrote: told of the lens, not of a line of text.
+/// Reports errors of a generated camera against the lens, not against a line of text.
 fn without_place(failure: Error, lens: &str) -> Error {
     let told = |fault: Fault| match fault.message.strip_prefix(MADE).and_then(|rest| rest.splitn(4, ':').last()) {
         Some(words) => Fault { file: Some(lens.into()), ..Fault::new(fault.code, format!("{lens}:{words}")) },
@@ -80,8 +80,8 @@ fn is_lens_file(lens: &str) -> bool {
     [".zmx", ".seq"].iter().any(|extension| lens.to_ascii_lowercase().ends_with(extension))
 }
 
-/// A camera about a lens that brings no sensor: focused as a lens file says, a published lens at infinity; a square picture of the radius asked for (a lens that
-/// lights less is measured as far as it lights).
+/// Builds a camera around a lens without a sensor. Focus: that of a lens file; infinity for a published lens. The image is a
+/// square with the requested radius; a lens with a smaller image circle is measured as far as it has light.
 fn made_camera(lens: &str, radius_mm: f64) -> String {
     const PIXELS: f64 = 1000.0;
     let pitch_um = 1000.0 * radius_mm * std::f64::consts::SQRT_2 / PIXELS;
@@ -114,7 +114,7 @@ impl Fields {
         })
     }
 
-    /// Where on the sensor it lies: an angle where the lens sees it, an object's height by first order.
+    /// Returns its radius on the sensor: for an angle, where the lens images it; for an object height, from first order.
     fn radius_mm(self, lens: &Lens, made: impl Fn(f64) -> Result<CameraBody, Error>) -> Option<f64> {
         let f = lens.focal_length_mm();
         let radius_mm = match self {
@@ -125,7 +125,7 @@ impl Fields {
             }
             Self::Angle { rad } => {
                 let (sine, cosine) = sin_cos(rad);
-                // A picture that surely reaches as far, for distortions of usual lenses.
+                // An image that is large enough for the distortion of usual lenses.
                 let rectilinear = if cosine > 0.0 { 1.3 * sine / cosine } else { f64::INFINITY };
                 let wide = made(f * rectilinear.min(2.5 * rad)).ok()?;
                 wide.lens.project(DVec3::new(sine, 0.0, cosine))?.length()

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::report::fixed;
 
-/// How many are told of each field point.
+/// Number of ghosts reported per field point.
 const TOLD: usize = 3;
 
 fn of(lens: &Prescribed, height_mm: f64) -> Vec<GhostReport> {

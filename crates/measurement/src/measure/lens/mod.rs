@@ -1,4 +1,4 @@
-//! `measure lens`: what a lens does, without rendering.
+//! `measure lens`: properties of a lens, without rendering.
 
 mod body;
 mod ghosts;
@@ -18,7 +18,7 @@ use crate::report::fixed;
 
 pub use request::LensRequest;
 
-/// What a lens does by first order and by field heights.
+/// Properties of a lens: first order and by field height.
 #[derive(Clone, Debug)]
 pub struct LensMeasurement {
     body: CameraBody,
@@ -27,10 +27,10 @@ pub struct LensMeasurement {
     wavelength_nm: Option<f64>,
 }
 
-/// Finds what a lens does, without rendering.
+/// Measures a lens without rendering.
 ///
 /// # Errors
-/// Where the camera or lens file cannot be used.
+/// If the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
     check_whole("fields", request.fields, request::FIELDS)?;
     let wavelength_nm = request.wavelength_nm;
@@ -51,7 +51,7 @@ pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
 }
 
 impl LensMeasurement {
-    /// The measurement as JSON; what is unknown or not finite is null.
+    /// The measurement as JSON; unknown or non-finite values are null.
     #[must_use]
     pub fn json(&self) -> Value {
         let mut value = match &self.body.lens {
@@ -66,7 +66,7 @@ impl LensMeasurement {
         lens.report_at(self.fields, self.wavelength_nm.unwrap_or(lens.prescription().reference_nm()))
     }
 
-    /// The measurement as tables for people.
+    /// The measurement as readable tables.
     #[must_use]
     pub fn text(&self) -> String {
         let text = match &self.body.lens {
@@ -77,7 +77,7 @@ impl LensMeasurement {
     }
 }
 
-/// What a plan would remark of the camera; nothing where it remarks nothing.
+/// Notes that a plan would make on the camera; empty if none.
 fn remarks_text(remarks: &[String]) -> String {
     let lines: String = remarks.iter().map(|remark| format!("  {remark}\n")).collect();
     if lines.is_empty() { lines } else { format!("\nremarks\n{lines}") }
@@ -110,7 +110,7 @@ fn traced_json(lens: &Prescribed, r: &LensReport) -> Value {
     })
 }
 
-/// JSON knows no infinity.
+/// Returns `None` for infinity, which JSON cannot express.
 fn finite(x: f64) -> Option<f64> {
     Some(x).filter(|x| x.is_finite())
 }
@@ -233,7 +233,7 @@ fn field_row(field: &FieldReport) -> String {
     )
 }
 
-/// Fields whose light comes by several ways; nothing where none does.
+/// Fields whose light arrives in several bundles; empty if none.
 fn bundles_text(fields: &[FieldReport]) -> String {
     let row = |field: &FieldReport, bundle: &OtherBundle| {
         let OtherBundle { light, spot } = bundle;
@@ -251,7 +251,7 @@ fn bundles_text(fields: &[FieldReport]) -> String {
     )
 }
 
-/// Field points of a lens that is no prescription: along the picture's half diagonal, from the principal point.
+/// Field points of a lens without a prescription: along the half diagonal of the image, from the principal point.
 fn field_points(body: &CameraBody, fields: usize) -> Vec<(DVec2, f64)> {
     let edge = fields.max(2) - 1;
     let raster = &body.raster;
@@ -260,7 +260,7 @@ fn field_points(body: &CameraBody, fields: usize) -> Vec<(DVec2, f64)> {
     (0..=edge).map(|i| corner * (i as f64 / edge as f64)).map(|at| (at, at.length())).collect()
 }
 
-/// Angle from the axis in degrees, distortion against c tan θ, light over the axis's.
+/// Angle from the axis in degrees, distortion against c tan θ, illumination relative to the axis.
 fn simple_field(lens: &Lens, at_mm: DVec2) -> (Option<f64>, Option<f64>, f64) {
     let angle = lens.angle_between_rad(DVec2::ZERO, at_mm).map(f64::to_degrees);
     let ideal = lens.tangent(at_mm).map(|t| t.length() * lens.principal_distance_mm());

@@ -1,4 +1,4 @@
-//! `measure ptc`: photon transfer after EMVA 1288, from a descriptor's pictures to a report.
+//! `measure ptc`: photon transfer after EMVA 1288, from the images of a descriptor to a report.
 
 mod plots;
 mod reading;
@@ -25,7 +25,7 @@ pub(crate) use request::Found;
 /// Photon transfer after EMVA 1288 release 4.0 linear. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the descriptor or a picture cannot be used, or the series does not determine the figures.
+/// If the descriptor or an image cannot be used, or the series does not determine the results.
 pub fn ptc(request: &PtcRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let descriptor = read_emva_descriptor(&request.descriptor).map_err(Error::input)?;
     let found = measure(request, &descriptor, observer)?;
@@ -34,14 +34,14 @@ pub fn ptc(request: &PtcRequest, observer: &dyn Observer) -> Result<Report, Erro
     Ok(report)
 }
 
-/// What the numbers of a descriptor's pictures are taken for, by the first of them.
+/// Encoding of a descriptor's images, from the first of them.
 fn stated(selection: &Selection, descriptor: &EmvaDescriptor) -> Result<Stated, Error> {
     let first = descriptor.levels.iter().find_map(|level| level.files.first()).expect("a descriptor has pictures");
     let photograph = selection.encoding.photograph(first)?;
     Ok(selection.encoding.raw(first, photograph)?.stated)
 }
 
-/// The curve's figures, and what the pictures' numbers are taken for.
+/// The figures of the curve, and the encoding of the images.
 pub(crate) fn measured(request: &PtcRequest, observer: &dyn Observer) -> Result<(Figures, Stated), Error> {
     let descriptor = read_emva_descriptor(&request.descriptor).map_err(Error::input)?;
     Ok((measure(request, &descriptor, observer)?.figures, stated(&request.selection, &descriptor)?))

@@ -1,10 +1,10 @@
-//! From a descriptor's pictures to the curve and the fixed patterns.
+//! From a descriptor's images to the curve and the fixed patterns.
 //!
-//! Photon transfer of groups of frames, each of one exposure time, of any number of frames: what a laboratory takes without a descriptor.
+//! Photon transfer also takes groups of any number of frames, each of one exposure time, from a laboratory without a descriptor.
 //!
-//! Every group is a level of the curve. The fixed patterns are those of the largest group with light below saturation and of the dark one of its exposure time,
-//! where both have three frames or more. The dark current is that of all dark groups; all else of those at the exposure times of the
-//! groups with light, as long exposures have the noise of their dark current.
+//! Every group is a level of the curve. The fixed patterns come from the largest lit group below saturation and from the dark
+//! group of its exposure time, if both have three frames or more. The dark current comes from all dark groups. Everything else
+//! comes from the dark groups at the exposure times of the lit groups, as long exposures contain the noise of their dark current.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicUsize;
@@ -20,10 +20,10 @@ use super::request::{Fixed, Found};
 use crate::measure::pictures::{Cut, Pictures};
 use crate::measure::readings::Selection;
 
-/// Levels measured side by side, and frames read ahead: twice as many pictures are in memory at a time.
+/// Levels measured in parallel, and frames read ahead: twice as many images are in memory at a time.
 const AT_A_TIME: usize = 4;
 
-/// Reading of a descriptor's pictures.
+/// Reader of a descriptor's images.
 pub(super) struct Reading<'a> {
     pub(super) selection: &'a Selection,
     pub(super) descriptor: &'a EmvaDescriptor,
@@ -34,7 +34,7 @@ pub(super) fn refused(error: TransferError) -> Error {
     Error::coded(ErrorCode::NotMeasurable, error.to_string())
 }
 
-/// Adds pictures to a stack, which the first begins.
+/// Adds images to a stack; the first creates it.
 fn add(stack: &mut Option<Stack>, images: &[(&Path, Image)]) -> Result<(), Error> {
     for (file, image) in images {
         let named =
@@ -46,7 +46,7 @@ fn add(stack: &mut Option<Stack>, images: &[(&Path, Image)]) -> Result<(), Error
 }
 
 impl Reading<'_> {
-    /// Everything that the pictures tell.
+    /// Measures everything that the images determine.
     pub(super) fn found(&self) -> Result<Found, Error> {
         let (pairs, stacks): (Vec<_>, Vec<_>) = self.descriptor.levels.iter().partition(|level| level.files.len() == 2);
         let mut levels = Vec::new();
@@ -91,7 +91,7 @@ impl Reading<'_> {
         Ok((Level { exposure_s: level.exposure_s, photons: level.photons, statistics }, marks))
     }
 
-    /// A level's pictures, added up in their order while the next are read.
+    /// Reads the images of a level in order and adds them up, while the next are read.
     pub(super) fn stack(&self, level: &DescribedLevel) -> Result<Stack, Error> {
         let mut stack: Option<Stack> = None;
         let mut waiting = Vec::new();
@@ -125,7 +125,7 @@ impl Reading<'_> {
         Ok(image)
     }
 
-    /// Refuses readings beyond the descriptor's bits, which is 0 where nobody states them.
+    /// Refuses readings beyond the descriptor's bits; 0 bits mean unstated.
     fn check_bits(&self, file: &Path, image: &Image) -> Result<(), Error> {
         let bits = self.descriptor.bits;
         let full = ((1_u64 << bits.min(32)) - 1) as f64;
@@ -188,19 +188,19 @@ impl Reading<'_> {
     }
 }
 
-/// Frames of a fixed pattern.
+/// Minimum number of frames for a fixed pattern.
 const STACK: usize = 3;
 
-/// A group that was read.
+/// A group of frames, read.
 pub(crate) struct Group {
     pub(crate) level: Level,
     pub(crate) stack: Stack,
 }
 
-/// The frames of groups, read and added up.
+/// Reads and adds up the frames of groups.
 ///
 /// # Errors
-/// Where a picture cannot be used, or a group has one frame only.
+/// If an image cannot be used, or a group has only one frame.
 pub(crate) fn groups(
     selection: &Selection,
     levels: &[DescribedLevel],
@@ -218,10 +218,10 @@ pub(crate) fn groups(
     levels.iter().map(group).collect()
 }
 
-/// What groups with light and without tell.
+/// Results from lit and dark groups.
 ///
 /// # Errors
-/// Where they do not determine the curve.
+/// If they do not determine the curve.
 pub(crate) fn of_groups(groups: &[Group]) -> Result<Found, TransferError> {
     let lit = |group: &&Group| group.level.photons > 0.0;
     let times: Vec<f64> = groups.iter().filter(lit).map(|group| group.level.exposure_s).collect();
@@ -243,7 +243,7 @@ pub(crate) fn of_groups(groups: &[Group]) -> Result<Found, TransferError> {
     Ok(Found { data, figures, fixed, cuts: Vec::new() })
 }
 
-/// The stacks of the fixed patterns: without light and with it.
+/// The stacks of the fixed patterns: dark and lit.
 fn stacks<'a>(groups: &'a [Group], data: &TransferData) -> Option<(&'a Stack, &'a Stack)> {
     let saturation = data.bright()[data.saturation()].statistics.mean_dn.value;
     let below = |group: &&Group| group.level.photons > 0.0 && group.level.statistics.mean_dn.value < 0.9 * saturation;

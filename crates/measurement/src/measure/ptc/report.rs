@@ -1,4 +1,4 @@
-//! What photon transfer found, in words and as keys of a camera file.
+//! Results of photon transfer, as text and as keys of a camera file.
 
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::{Figures, Nonuniformity, Parts, TransferData};

@@ -1,4 +1,4 @@
-//! Request and findings of `measure ptc`, with histograms of how far pixels lie off.
+//! Request and results of `measure ptc`, with histograms of the deviations of pixels.
 
 use std::path::PathBuf;
 
@@ -12,33 +12,33 @@ use crate::report::{Cell, Report, Table};
 /// `etendue measure ptc`
 #[derive(Args, Clone, Debug)]
 pub struct PtcRequest {
-    /// A descriptor file of the EMVA 1288 reference program: levels of light with their pictures, two a level for the curve, more
-    /// for DSNU and PRNU
+    /// Descriptor file of the EMVA 1288 reference program: light levels with their images, two per level for the curve, more for
+    /// DSNU and PRNU
     #[arg(value_name = "DESCRIPTOR.txt")]
     pub descriptor: PathBuf,
-    /// The descriptor's photons are relative: leave out what needs their number
+    /// The descriptor's photons are relative: leave out results that need their number
     #[arg(long)]
     pub relative_light: bool,
-    /// Which part and channel of the pictures.
+    /// Part and channel of the images.
     #[command(flatten)]
     pub selection: Selection,
 }
 
 impl PtcRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(descriptor: impl Into<PathBuf>) -> Self {
         Self { descriptor: descriptor.into(), relative_light: false, selection: Selection::default() }
     }
 }
 
 impl PtcRequest {
-    /// A measurement for its figures alone.
+    /// Creates a request for the figures alone.
     pub(crate) fn of(descriptor: PathBuf, selection: &Selection) -> Self {
         Self { descriptor, relative_light: true, selection: selection.clone() }
     }
 }
 
-/// Everything that was found.
+/// All results.
 pub(crate) struct Found {
     pub(crate) data: TransferData,
     pub(crate) figures: Figures,
@@ -47,7 +47,7 @@ pub(crate) struct Found {
     pub(crate) cuts: Vec<String>,
 }
 
-/// Of the stacks.
+/// Fixed patterns, from the stacks.
 pub(crate) struct Fixed {
     pub(crate) dark: Stack,
     pub(crate) bright: Stack,
@@ -84,7 +84,7 @@ fn shares(key: &'static str, found: &Deviations) -> Table {
     Table { key, columns, rows: found.accumulated.iter().map(row).collect() }
 }
 
-/// Bins without a pixel are not drawn, nor the normal distribution below a tenth of a pixel.
+/// Omits bins without a pixel, and the normal distribution below a tenth of a pixel.
 fn logarithmic(title: &str, axis: &str, found: &Deviations) -> Plot {
     const LEAST: f64 = 0.1;
     let counted = found.bins.iter().filter(|(_, n)| *n > 0).map(|(x, n)| (*x, *n as f64));

@@ -1,4 +1,4 @@
-//! `measure sfr`: the response of slanted edges, which are sought in a picture.
+//! `measure sfr`: the response of slanted edges, detected in an image.
 
 mod report;
 mod request;
@@ -22,7 +22,7 @@ const CHARTS: [&str; 2] = [SlantedEdges::NAME, SlantedStar::NAME];
 /// The spatial frequency response of slanted edges (ISO 12233:2023). Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the picture holds no edge that can be measured.
+/// If the image contains no measurable edge.
 pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
     Ok(responses(request)?.0)
 }
@@ -89,7 +89,7 @@ fn sought(request: &SfrRequest, truth: Option<&Truth>, readings: &Readings) -> R
     }
 }
 
-/// The response in cycles a pixel of the picture, whatever the distance of the readings.
+/// The response in cycles per pixel of the image, whatever the distance of the readings.
 fn measured(request: &SfrRequest, sought: &Sought, readings: &Readings) -> Result<Result<Sfr, SfrError>, Error> {
     let settings = SfrSettings {
         edge_degree: request.edge_degree.into(),

@@ -1,4 +1,4 @@
-//! What `measure sfr` tells.
+//! Report of `measure sfr`.
 
 use etendue_metrology::Estimate;
 use etendue_metrology::sfr::{Orientation, SfrError, SfrPoint, acutance, crossing};
@@ -45,10 +45,10 @@ pub(super) fn report(
     report
 }
 
-/// Shares of the response that matter.
+/// Minimum fraction of the response that is worth reporting.
 const UNEVEN: f64 = 0.005;
 
-/// Of edges whose sides are not even.
+/// Reports edges whose sides are not uniform.
 fn shading(report: &mut Report, request: &SfrRequest, found: &[Found<'_>]) {
     let most = found.iter().map(|one| one.sfr.shading).fold(0.0, f64::max);
     if most > UNEVEN {
@@ -66,7 +66,7 @@ fn place(sought: &Sought) -> String {
     format!("{},{}", sought.at[0], sought.at[1])
 }
 
-/// The edges of a chart that could not be measured, and why.
+/// The edges of a chart that could not be measured, with the reasons.
 fn refusals(request: &SfrRequest, left_out: &[(&Sought, SfrError)]) -> Table {
     let words = |error: &SfrError| format!("{error}{}", shading_hint(request, error));
     let row = |(sought, error): &(&Sought, SfrError)| vec![Cell::Text(place(sought)), Cell::Text(words(error))];
@@ -77,7 +77,7 @@ fn refusals(request: &SfrRequest, left_out: &[(&Sought, SfrError)]) -> Table {
     }
 }
 
-/// Of the response, across the edge.
+/// Direction of the response, across the edge.
 fn direction(one: &Found<'_>) -> &'static str {
     match one.sfr.orientation {
         Orientation::Vertical => "horizontal",
@@ -85,7 +85,7 @@ fn direction(one: &Found<'_>) -> &'static str {
     }
 }
 
-/// Columns of what follows from a response, and their cells.
+/// Columns of the quantities derived from a response, and their cells.
 fn columns(request: &SfrRequest) -> Vec<(&'static str, &'static str)> {
     let mut columns = vec![("mtf50_cycles_per_px", "MTF50 c/px"), ("mtf10_cycles_per_px", "MTF10 c/px")];
     if request.pixel_pitch_um.is_some() {
@@ -147,12 +147,12 @@ fn plane_table(request: &SfrRequest, planes: &[Plane]) -> Table {
     }
 }
 
-/// Every twentieth of a cycle a pixel.
+/// True at every twentieth of a cycle per pixel.
 fn twentieths(point: &SfrPoint) -> bool {
     (20.0 * point.frequency - (20.0 * point.frequency).round()).abs() < 1e-6
 }
 
-/// Every point: hundredths of a cycle a pixel, or less.
+/// True at every point: hundredths of a cycle per pixel, or less.
 fn every(_: &SfrPoint) -> bool {
     true
 }
@@ -201,10 +201,10 @@ fn response_plot(series: Vec<Series>) -> Plot {
     }
 }
 
-/// The most curves that a legend names.
+/// Maximum number of curves that a legend names.
 const NAMED: usize = 8;
 
-/// An edge's name in a legend, where there is room.
+/// Name of an edge in a legend, if there is room.
 fn name(one: &Found<'_>, count: usize) -> String {
     if count > NAMED { String::new() } else { format!("edge at {}", place(one.sought)) }
 }
@@ -214,7 +214,7 @@ fn edge_plot(found: &[Found<'_>]) -> Plot {
     response_plot(found.iter().map(of).collect())
 }
 
-/// Sagittal as lines, tangential broken.
+/// Sagittal as lines, tangential dashed.
 fn plane_plot(planes: &[Plane]) -> Plot {
     let of = |plane: &Plane| {
         let mark = if plane.name == request::SAGITTAL { Mark::Line } else { Mark::Broken };

@@ -1,8 +1,8 @@
-//! Request and findings of `measure sfr`, the planes that it measures, and why an edge is not measured.
+//! Request and results of `measure sfr`, the measured planes, and the reasons for leaving out an edge.
 //!
-//! Sagittal and tangential responses of slanted stars (after ISO 12233:2023): the means of a star's edges that lie within 22.5° of the radius
-//! from the picture's middle (sagittal: structure across the radius is told by edges along it), and within 22.5° of its perpendicular (tangential).
-//! A star in the middle has neither: its plane is every direction.
+//! Sagittal and tangential responses of slanted stars (after ISO 12233:2023) are means of a star's edges. Sagittal: edges within
+//! 22.5° of the radius from the image centre, which measure structure across the radius. Tangential: edges within 22.5° of its
+//! perpendicular. A star in the centre has neither: its plane is every direction.
 
 use std::{ops::RangeInclusive, path::PathBuf};
 
@@ -15,42 +15,43 @@ use glam::DVec2;
 use crate::measure::pictures::{PictureInput, refused};
 use crate::measure::truth::place::{Sought, Star};
 
-/// Degrees of the curve that an edge may follow.
+/// Allowed degrees of the curve of an edge.
 pub(super) const EDGE_DEGREES: RangeInclusive<u8> = 1..=5;
-/// Degrees of the surfaces of shading beside an edge.
+/// Allowed degrees of the shading surfaces on either side of an edge.
 pub(super) const SHADING_DEGREES: RangeInclusive<u8> = 0..=2;
 
 /// `etendue measure sfr`
 #[derive(Args, Clone, Debug)]
 pub struct SfrRequest {
-    /// A picture of one or more slanted edges
+    /// Image of one or more slanted edges
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// A part of the picture that holds one edge: left column, top row, width, height; once an edge [default: all of it]
+    /// Part of the image that contains one edge: left column, top row, width, height; once per edge [default: all of it]
     #[arg(long = "edge", value_name = "X,Y,W,H", value_parser = region, conflicts_with = "truth")]
     pub edges: Vec<[usize; 4]>,
-    /// Degree of the curve that the edges follow: 2 or 3 where the lens bends them
+    /// Degree of the curve of the edges: 2 or 3 if the lens bends them
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = in_range(EDGE_DEGREES))]
     pub edge_degree: u8,
-    /// How far from the edge its profile has fine detail, pixels [default: 10]
+    /// Reach of the profile's fine detail on either side of the edge, pixels [default: 10]
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     pub reach_px: Option<f64>,
-    /// Take off shading by surfaces of this degree, one on either side of the edge: 1 or 2 where the lens's fall-off makes the sides slope
+    /// Degree of the surfaces that model shading, one on either side of the edge: 1 or 2 if the lens's fall-off makes the sides
+    /// slope
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = in_range(SHADING_DEGREES))]
     pub shading_degree: u8,
-    /// The pixels' pitch, µm: tells MTF50 and MTF10 in line pairs a millimetre, too
+    /// Pixel pitch, µm: adds MTF50 and MTF10 in line pairs per millimetre
     #[arg(long, value_name = "UM", allow_negative_numbers = true)]
     pub pixel_pitch_um: Option<f64>,
-    /// From where the picture is viewed, for acutance: its pixels a degree at the eye
+    /// Viewing condition for acutance: pixels per degree at the eye
     #[arg(long, value_name = "N", default_value_t = 60.0, allow_negative_numbers = true)]
     pub pixels_per_degree: f64,
-    /// Which readings of the picture, what they mean, and the chart's truth.
+    /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
 }
 
 impl SfrRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(picture: impl Into<PathBuf>) -> Self {
         Self {
             picture: picture.into(),
@@ -65,7 +66,7 @@ impl SfrRequest {
     }
 }
 
-/// An edge that was measured.
+/// A measured edge.
 pub(super) struct Found<'a> {
     pub(super) sought: &'a Sought,
     pub(super) field: f64,
@@ -77,21 +78,21 @@ const TANGENTIAL: &str = "tangential";
 const EVERY: &str = "every direction";
 /// cos 22.5°.
 const NEAR: f64 = 0.923_879_532_511_286_7;
-/// Stars nearer to the middle than this share of the half diagonal have no radius.
+/// Stars closer to the centre than this fraction of the half diagonal have no radius.
 const MIDDLE: f64 = 0.05;
 
-/// A star's response in a plane.
+/// Response of a star in a plane.
 pub(super) struct Plane {
     /// The star's centre, px.
     pub place: String,
-    /// Of the half diagonal.
+    /// Relative to the half diagonal.
     pub field: f64,
     pub name: &'static str,
     pub edges: usize,
     pub curve: Vec<SfrPoint>,
 }
 
-/// The planes of the stars among what was found, star by star.
+/// The planes of the stars among the results, star by star.
 pub(super) fn of(found: &[Found<'_>], width: usize, height: usize) -> Vec<Plane> {
     let mut stars: Vec<Star> = Vec::new();
     for star in found.iter().filter_map(|one| one.sought.spoke.as_ref().map(|spoke| spoke.star)) {
@@ -125,13 +126,13 @@ fn of_star(star: &Star, found: &[Found<'_>], half: DVec2) -> Vec<Plane> {
     [sagittal, tangential].into_iter().flatten().collect()
 }
 
-/// An edge that cannot be measured, by its picture and its place.
+/// Error of an edge that cannot be measured, with its image and position.
 pub(super) fn failure(request: &SfrRequest, sought: &Sought, error: &SfrError) -> Error {
     let hint = shading_hint(request, error);
     refused(&request.picture, format!("edge at {},{}: {error}{hint}", sought.at[0], sought.at[1]))
 }
 
-/// What else may be tried where sides that are not even are taken for no edge.
+/// Remedy if non-uniform sides prevent the detection of an edge.
 pub(super) fn shading_hint(request: &SfrRequest, error: &SfrError) -> &'static str {
     match error {
         SfrError::NoEdge(_) if request.shading_degree == 0 => {

@@ -1,4 +1,4 @@
-//! What the truth.json of a chart says of a picture of it.
+//! Ground truth of an image from the truth.json of its chart.
 
 pub(crate) mod place;
 pub(crate) mod points;
@@ -16,31 +16,32 @@ use super::readings::{Readings, pixels};
 use place::{Patch, Sought, Spoke, Star, StarPlace, TrapPlace};
 use truth_file::{CameraSaid, FeatureSaid, Said};
 
-/// Where the chart's truth lies.
+/// Location of the chart's ground truth.
 #[derive(Args, Clone, Debug, Default)]
 pub struct TruthInput {
-    /// The truth.json of `etendue chart`, which says what is in the picture and where
+    /// The truth.json of `etendue chart`, which describes the content of the image and its position
     #[arg(long, value_name = "truth.json", conflicts_with = "region")]
     pub truth: Option<PathBuf>,
-    /// With --truth: the camera that took the picture [default: the first]
+    /// With --truth: camera of the image [default: the first]
     #[arg(long, value_name = "NAME", requires = "truth")]
     pub camera: Option<String>,
 }
 
-/// How much of an edge's length its region takes along it, and across it to both sides together.
+/// Size of an edge's region as a fraction of the edge's length: along it, and across it (both sides together).
 const ALONG: f64 = 0.6;
 const ACROSS: f64 = 0.5;
-/// The part of a star's edge that is measured, from its end to its beginning or the other way, and how much of the way to its neighbours.
+/// Measured part of a star's edge, from its end to its beginning or the other way, and fraction of the distance to its
+/// neighbours.
 const SPOKE: [f64; 2] = [0.15, 0.95];
 const CLEAR: f64 = 0.8;
-/// What is left out at a patch's outline: this many pixels of the picture, which lenses blur and demosaicing mixes, and at least this
-/// share of half its side.
+/// Margin left out at a patch's outline, px of the image (lens blur, demosaicing), and the minimum as a fraction of half its
+/// side.
 const MARGIN_PX: f64 = 2.0;
 const MARGIN_SHARE: f64 = 0.2;
-/// Part of an even surface that is measured, along each side, where a fall-off must not count.
+/// Measured part of a uniform surface along each side, where a fall-off must not matter.
 const MIDDLE: f64 = 0.25;
 
-/// A chart's truth as one of its cameras sees it.
+/// Ground truth of a chart as seen by one of its cameras.
 pub(crate) struct Truth {
     file: PathBuf,
     said: Said,
@@ -48,7 +49,7 @@ pub(crate) struct Truth {
 }
 
 impl TruthInput {
-    /// The truth of one of these charts; `None` where none is given.
+    /// Reads the ground truth of one of these charts; `None` if none is given.
     pub(crate) fn read(&self, charts: &[&str]) -> Result<Option<Truth>, Error> {
         self.truth.as_deref().map(|file| Truth::read(file, self.camera.as_deref(), charts)).transpose()
     }
@@ -82,7 +83,7 @@ impl Truth {
         &self.said.cameras[self.camera]
     }
 
-    /// Whether a picture has the size of the camera's.
+    /// Checks that an image has the camera's image size.
     pub(crate) fn fits(&self, picture: &Path, readings: &Readings) -> Result<(), Error> {
         self.sized(picture, readings.picture_px.0, readings.picture_px.1)
     }
@@ -111,7 +112,7 @@ impl Truth {
         self.said.light.xyz
     }
 
-    /// The middle of an even surface that fills the picture.
+    /// The centre of a uniform surface that fills the image.
     pub(crate) fn middle(&self, readings: &Readings) -> Result<[usize; 4], Error> {
         self.filled()?;
         let [w, h] = self.seen().picture_px.map(|n| n as f64);
@@ -120,7 +121,7 @@ impl Truth {
             .ok_or_else(|| self.refused("the picture is too small"))
     }
 
-    /// Refuses a sheet that the camera sees past.
+    /// Refuses a sheet that does not fill the camera's view.
     pub(crate) fn filled(&self) -> Result<(), Error> {
         match self.said.seen.fills_the_field {
             true => Ok(()),
@@ -130,7 +131,7 @@ impl Truth {
         }
     }
 
-    /// Luminance and exposure time of each camera that sees the light, in their order: cd s/m².
+    /// Luminance times exposure time of each camera that sees the light, in order, cd s/m².
     pub(crate) fn exposures(&self) -> Result<Vec<(&str, f64)>, Error> {
         let lit = self.said.cameras.iter().filter(|c| !c.dark);
         let exposure = |c: &'_ CameraSaid| c.exposure_s.map(|s| s * self.said.light.luminance_cd_m2);
@@ -138,7 +139,7 @@ impl Truth {
             .collect()
     }
 
-    /// The patches that are whole in the picture and large enough, and the names of the others.
+    /// The patches that are entirely in the image and large enough, and the names of the others.
     pub(crate) fn patches(&self, readings: &Readings) -> Result<(Vec<Patch>, Vec<String>), Error> {
         let (mut found, mut left_out) = (Vec::new(), Vec::new());
         for (patch, places) in self.said.patches.iter().zip(&self.seen().patches_px) {
@@ -160,7 +161,7 @@ impl Truth {
         Ok((found, left_out))
     }
 
-    /// Refuses a picture that shows these patches mirrored or turned, or does not show them.
+    /// Refuses an image that shows these patches mirrored or turned, or does not show them.
     pub(crate) fn shown(&self, picture: &Path, patches: &[Patch], readings: &Readings) -> Result<(), Error> {
         place::wrong(patches, readings).map_or(Ok(()), |what| {
             Err(Error::coded(
@@ -170,19 +171,19 @@ impl Truth {
         })
     }
 
-    /// Frequency (Hz) and duty of a lamp whose light goes up and down, by its patch's name.
+    /// Frequency (Hz) and duty cycle of a modulated lamp, by its patch's name.
     pub(crate) fn lamp(&self, name: &str) -> Option<(f64, f64)> {
         let lamps = self.said.sizes.get("lamps")?.as_array()?;
         let lamp = lamps.iter().find(|lamp| lamp["name"].as_str() == Some(name))?;
         Some((lamp["frequency_hz"].as_f64()?, lamp["duty_cycle"].as_f64()?))
     }
 
-    /// What the bottom of a light trap sends of the white's light.
+    /// Light from the bottom of a light trap relative to the white's.
     pub(crate) fn light_of_traps(&self) -> Option<f64> {
         self.said.size("luminance_of_a_trap_s_bottom_over_white_about")
     }
 
-    /// Light traps that are whole in the picture with the white midway to their neighbours.
+    /// Light traps that are entirely in the image, with the white midway to their neighbours.
     pub(crate) fn traps(&self, readings: &Readings) -> Result<Vec<TrapPlace>, Error> {
         let opening = self.said.size("opening_mm").zip(self.said.size("pitch_mm"));
         let (opening, pitch) = opening.ok_or_else(|| self.refused("lacks the sizes of the traps"))?;
@@ -216,7 +217,7 @@ impl Truth {
         })
     }
 
-    /// Strips about the edges of stars that are whole in the picture, clear of their neighbours.
+    /// Strips along the edges of stars that are entirely in the image, clear of their neighbours.
     pub(crate) fn spokes(&self, readings: &Readings) -> Result<Vec<Sought>, Error> {
         let wedges = self.said.size("dark_wedges").ok_or_else(|| self.refused("lacks the number of wedges"))?;
         let clear = CLEAR * sin(core::f64::consts::PI / wedges);
@@ -236,13 +237,13 @@ impl Truth {
         Ok(spokes)
     }
 
-    /// Features that are whole in the picture.
+    /// Features that are entirely in the image.
     fn seen_features(&self) -> impl Iterator<Item = (&FeatureSaid, Vec<DVec2>)> {
         let pairs = self.said.features.iter().zip(&self.seen().features_px);
         pairs.filter_map(|(feature, places)| Some((feature, whole(places)?)))
     }
 
-    /// Regions about the edges of squares that are whole in the picture.
+    /// Regions around the edges of squares that are entirely in the image.
     pub(crate) fn edges(&self, readings: &Readings) -> Result<Vec<[usize; 4]>, Error> {
         let edges = self.seen_features().filter(|(f, _)| f.kind == "edge");
         let regions: Vec<[usize; 4]> = edges.filter_map(|(_, ends)| region(&ends, readings)).collect();
@@ -253,26 +254,26 @@ impl Truth {
     }
 }
 
-/// The points of an outline or edge that are all in the picture.
+/// The points of an outline or edge, if all are in the image.
 fn whole(places: &[Option<[f64; 2]>]) -> Option<Vec<DVec2>> {
     let points: Option<Vec<DVec2>> = places.iter().map(|p| p.map(DVec2::from)).collect();
     points.filter(|points| !points.is_empty())
 }
 
-/// The pixels of the largest square within an outline, less its margin.
+/// The pixels of the largest square inside an outline, less its margin.
 fn square(outline: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
     let (middle, half) = place::largest_square(outline);
     within(middle, half - MARGIN_PX.max(MARGIN_SHARE * half), readings)
 }
 
-/// The pixels of a square by its middle and half its side, which must hold two readings each way.
+/// The pixels of a square with this centre and half side, which must contain two readings each way.
 fn within(middle: DVec2, half: f64, readings: &Readings) -> Option<[usize; 4]> {
     let (low, high) = ((middle - half).into(), (middle + half).into());
     let held = readings.between(low, high).is_some_and(|at| at[2] > 1 && at[3] > 1);
     pixels(low, high, readings.picture_px.0, readings.picture_px.1).filter(|_| held && half > 0.0)
 }
 
-/// A strip about a part of a star's edge, in the picture, which widens outwards.
+/// A strip along a part of a star's edge, in the image, which widens outwards.
 fn spoke(index: [usize; 2], centre: DVec2, ends: [DVec2; 2], clear: f64, readings: &Readings) -> Option<Sought> {
     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
     let at = pixels(low.into(), high.into(), readings.picture_px.0, readings.picture_px.1)?;
@@ -284,7 +285,7 @@ fn spoke(index: [usize; 2], centre: DVec2, ends: [DVec2; 2], clear: f64, reading
     Some(Sought { at, spoke: Some(Spoke { strip, star: Star { index, centre_px: centre.into() } }) })
 }
 
-/// About an edge from one end to the other.
+/// Region around an edge from one end to the other.
 fn region(ends: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
     let [a, b] = [*ends.first()?, *ends.get(1)?];
     let run = (b - a).abs();

@@ -1,10 +1,12 @@
-//! Places of a chart's truth in a picture: patches and spokes, squares in and beside outlines, and which way the chart is seen.
+//! Positions of a chart's ground truth in an image: patches and spokes, squares inside and next to outlines, and the orientation
+//! of the chart.
 //!
-//! Whether a picture shows a chart as its camera sees it, or mirrored, turned, or another chart.
+//! Detects whether an image shows a chart as its camera sees it, or mirrored, turned, or another chart.
 //!
-//! What tells is the rank correlation (Spearman 1904) of the readings of the patches with their luminances, which no tone curve changes: where the places of the truth give less than
-//! 0.9, and those of a mirrored or turned picture 0.9 or more, the picture is one of these; where they give less than 0.6, and none of those does better, it shows
-//! something else. (Half of the patches saturated leave 0.87.) Fewer than four patches tell nothing, nor do readings that are all one.
+//! The criterion is the rank correlation (Spearman 1904) of the patches' readings with their luminances, which is independent of
+//! the tone curve. If the positions of the ground truth give less than 0.9, and those of a mirrored or turned image 0.9 or more,
+//! the image is one of these. If they give less than 0.6, and none of those is better, it shows something else. (With half of the
+//! patches saturated the correlation is 0.87.) Fewer than four patches, or readings that are all equal, give no result.
 
 use etendue_charts::shape::{bounds, centroid};
 use etendue_metrology::sfr::Strip;
@@ -12,19 +14,19 @@ use glam::DVec2;
 
 use super::Readings;
 
-/// A patch in the picture.
+/// A patch in the image.
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
     pub name: String,
-    /// Left column, top row, width, height, of the picture.
+    /// Left column, top row, width, height, of the image.
     pub at: [usize; 4],
     /// Its luminance, cd/m².
     pub luminance_cd_m2: f64,
-    /// CIE XYZ, Y of the perfect diffuser 1.
+    /// CIE XYZ, with Y = 1 for the perfect diffuser.
     pub xyz: [f64; 3],
 }
 
-/// A star in the picture: its centre, and the rims of its ground and its own.
+/// A star in the image: its centre, and the edges of its ground and of itself.
 pub(crate) struct StarPlace {
     pub centre_px: [f64; 2],
     pub cycles: u32,
@@ -32,37 +34,37 @@ pub(crate) struct StarPlace {
     pub outer_px: f64,
 }
 
-/// A light trap and the white about it.
+/// A light trap and the white around it.
 pub(crate) struct TrapPlace {
     pub trap: [usize; 4],
     pub whites: Vec<[usize; 4]>,
 }
 
-/// An edge of a star among its others.
+/// An edge of a star with its neighbours.
 pub(crate) struct Spoke {
     pub strip: Strip,
     pub star: Star,
 }
 
-/// A star: which, and where its centre is in the picture.
+/// A star: its index, and its centre in the image.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Star {
     pub index: [usize; 2],
     pub centre_px: [f64; 2],
 }
 
-/// An edge and where it is sought.
+/// An edge and the region in which to search for it.
 pub(crate) struct Sought {
-    /// Left column, top row, width, height, of the picture.
+    /// Left column, top row, width, height, of the image.
     pub at: [usize; 4],
     pub spoke: Option<Spoke>,
 }
 
-/// Places along each side of an outline's bounds at which the search begins, and the step that ends it, px.
+/// Starting positions of the search along each side of an outline's bounds, and the step that ends it, px.
 const LATTICE: usize = 16;
 const EXACT_PX: f64 = 0.02;
 
-/// The largest upright square within an outline: its middle and half its side.
+/// The largest upright square inside an outline: its centre and half its side.
 pub(crate) fn largest_square(outline: &[DVec2]) -> (DVec2, f64) {
     let (low, high) = bounds(outline);
     let cell = (high - low) / LATTICE as f64;
@@ -84,16 +86,16 @@ pub(crate) fn largest_square(outline: &[DVec2]) -> (DVec2, f64) {
     best
 }
 
-/// Half the side of the largest square about a place within an outline; 0 outside.
+/// Half the side of the largest square around a position inside an outline; 0 outside.
 fn half_side(outline: &[DVec2], place: DVec2) -> f64 {
     let sides = || outline.iter().zip(outline.iter().cycle().skip(1)).map(|(a, b)| (*a - place, *b - place));
-    // Sides that a ray to the right crosses: an odd number from within.
+    // Sides that a ray to the right crosses: an odd number if the point is inside.
     let crosses = |(a, b): &(DVec2, DVec2)| (a.y > 0.0) != (b.y > 0.0) && a.x + (b.x - a.x) * a.y / (a.y - b.y) > 0.0;
     let within = sides().filter(crosses).count() % 2 == 1;
     if within { sides().map(|(a, b)| reach(a, b)).fold(f64::INFINITY, f64::min) } else { 0.0 }
 }
 
-/// The least of max(|x|, |y|) on a side: at one of its ends or on a diagonal.
+/// Minimum of max(|x|, |y|) on a side: at one of its ends or on a diagonal.
 fn reach(a: DVec2, b: DVec2) -> f64 {
     let run = b - a;
     let on = |numerator: f64, denominator: f64| (numerator / denominator).clamp(0.0, 1.0);
@@ -102,7 +104,7 @@ fn reach(a: DVec2, b: DVec2) -> f64 {
     shares.into_iter().filter(|t| t.is_finite()).map(far).fold(f64::INFINITY, f64::min)
 }
 
-/// Squares beside a round opening, midway to its neighbours in the four directions, clear of both by a third of what lies between.
+/// Squares next to a round opening, midway to its neighbours in the four directions, clear of both by a third of the gap.
 pub(crate) fn beside(outline: &[DVec2], opening: f64, pitch: f64) -> Vec<(DVec2, f64)> {
     let (low, high) = bounds(outline);
     let (middle, reach) = (0.5 * (low + high), 0.5 * (high - low));
@@ -111,16 +113,17 @@ pub(crate) fn beside(outline: &[DVec2], opening: f64, pitch: f64) -> Vec<(DVec2,
     [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|way| (middle + away * way, half)).to_vec()
 }
 
-/// Ranks that agree, and that are those of something else.
+/// Minimum rank correlation of an agreement, and maximum of another chart.
 const AGREES: f64 = 0.9;
 const UNLIKE: f64 = 0.6;
-/// The least number of patches that tell.
+/// Minimum number of patches for a result.
 const MIN_PATCHES: usize = 4;
 
-/// Where a part of the picture is in a picture that is mirrored or turned, both of a size.
+/// Position of a part of the image in a mirrored or turned image, both of one size.
 type Turned = fn([usize; 4], (usize, usize)) -> [usize; 4];
 
-/// What was done to a picture, in words, and what undoes it. Those that exchange columns and rows are of square pictures; others no longer have their size.
+/// Transformation of an image, as text, and its remedy. Those that exchange columns and rows apply to square images only; others
+/// no longer have their size.
 const UPRIGHT: [(&str, Turned); 3] = [
     ("mirrored left to right", |[x, y, w, h], (width, _)| [width - x - w, y, w, h]),
     ("mirrored top to bottom", |[x, y, w, h], (_, height)| [x, height - y - h, w, h]),
@@ -133,7 +136,7 @@ const SQUARE: [(&str, Turned); 4] = [
     ("mirrored about its other diagonal", |[x, y, w, h], (width, height)| [width - y - h, height - x - w, h, w]),
 ];
 
-/// What is wrong with a picture of these patches; `None` where it is as it should be, or does not tell.
+/// Error of an image of these patches; `None` if it is correct or cannot be decided.
 pub(super) fn wrong(patches: &[Patch], readings: &Readings) -> Option<String> {
     if patches.len() < MIN_PATCHES {
         return None;
@@ -168,14 +171,14 @@ pub(super) fn wrong(patches: &[Patch], readings: &Readings) -> Option<String> {
     }
 }
 
-/// Ranks, equal values at the mean of theirs.
+/// Ranks; equal values have their mean rank.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let below = |v: f64| values.iter().filter(|other| **other < v).count() as f64;
     let alike = |v: f64| values.iter().filter(|other| **other == v).count() as f64;
     values.iter().map(|v| below(*v) + 0.5 * (alike(*v) - 1.0)).collect()
 }
 
-/// `None` where one of them is all one value, or no number.
+/// `None` if one of them is constant or not a number.
 fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let (mean_a, mean_b) = (mean(a), mean(b));
@@ -192,7 +195,7 @@ mod tests {
     fn squares_fill_their_outlines() {
         let tilted = [DVec2::new(10.0, 0.0), DVec2::new(20.0, 10.0), DVec2::new(10.0, 20.0), DVec2::new(0.0, 10.0)];
         let (middle, half) = largest_square(&tilted);
-        // In a square on its corner of half diagonal 10: half a side of 5.
+        // A square on its corner with half diagonal 10: half a side of 5.
         assert!((half - 5.0).abs() < 1e-9 && (middle - 10.0).length() < 0.1, "{middle} {half}");
         let corner = [[0.0, 0.0], [30.0, 0.0], [30.0, 8.0], [8.0, 8.0], [8.0, 30.0], [0.0, 30.0]].map(DVec2::from);
         let (middle, half) = largest_square(&corner);
@@ -214,7 +217,7 @@ mod tests {
         assert_eq!(correlation(&[1.0, 1.0], &[0.0, 1.0]), None);
     }
 
-    /// A pixel and where it is in each turned picture: the words say what is done to the pictures.
+    /// A pixel and its position in each turned image: the texts name the transformation of the images.
     #[test]
     fn places_are_those_of_the_turned_picture() {
         let at = |words: &str| {

@@ -1,4 +1,4 @@
-//! What the truth of a chart of points says: its kind and pitch, and how far the camera stands from it.
+//! Ground truth of a chart of points: its kind and pitch, and the distance of the camera.
 
 use std::path::Path;
 
@@ -15,9 +15,9 @@ pub(crate) const CHARTS: [&str; 3] = [Dots::NAME, Checkerboard::NAME, Circles::N
 /// A chart of points.
 pub(crate) struct PointsTold {
     pub target: Target,
-    /// The distance of neighbouring points, mm.
+    /// Distance of neighbouring points, mm.
     pub pitch_mm: f64,
-    /// From the entrance pupil to the chart's plane, mm; `None` where the truth does not say where both stand.
+    /// From the entrance pupil to the chart's plane, mm; `None` if the ground truth does not state both positions.
     pub distance_mm: Option<f64>,
 }
 
@@ -28,7 +28,7 @@ impl Truth {
         let checkerboard = self.said.chart == Checkerboard::NAME;
         Ok(PointsTold {
             target: if checkerboard { Target::Checkerboard } else { Target::Dots },
-            // Of cells in which every other one holds a circle.
+            // Pitch of cells of which every other one holds a circle.
             pitch_mm: if staggered { core::f64::consts::SQRT_2 * pitch_mm } else { pitch_mm },
             distance_mm: self.distance_mm(),
         })
@@ -41,7 +41,7 @@ impl Truth {
         Some(1000.0 * normal.dot(column(sheet, 3) - column(&camera, 3)).abs())
     }
 
-    /// Whether a picture, or a list of points, has the size of the camera's.
+    /// Checks that an image, or a list of points, has the camera's image size.
     pub(crate) fn fits_size(&self, file: &Path, [width, height]: [usize; 2]) -> Result<(), Error> {
         self.sized(file, width, height)
     }

@@ -6,7 +6,7 @@ use etendue_io::failure::{Error, ErrorCode};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-/// Points of the picture, px; `None` beyond it.
+/// Points of the image, px; `None` outside it.
 type Places = Vec<Option<[f64; 2]>>;
 
 #[derive(Debug, Deserialize)]
@@ -25,7 +25,7 @@ pub(crate) struct Said {
     pub panels: Vec<PanelSaid>,
 }
 
-/// A sheet: from its millimetres to the world's metres.
+/// A sheet: transform from its millimetres to the world's metres.
 #[derive(Debug, Deserialize)]
 pub(crate) struct PanelSaid {
     pub sheet_mm_to_world_m: [[f64; 4]; 3],
@@ -75,7 +75,7 @@ pub(crate) struct CameraSaid {
 }
 
 impl Said {
-    /// A number among the chart's sizes.
+    /// Returns a number among the chart's sizes.
     pub(crate) fn size(&self, key: &str) -> Option<f64> {
         self.sizes.get(key)?.as_f64()
     }

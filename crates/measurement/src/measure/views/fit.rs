@@ -1,4 +1,4 @@
-//! A camera fitted to its views: what is assumed, whether the model suits the points, and the result as a camera file.
+//! Fit of a camera to its views: assumptions, suitability of the model, and the result as a camera file.
 
 use std::{fmt::Display, path::Path};
 
@@ -16,7 +16,7 @@ use glam::DVec2;
 use super::{Found, ViewsRequest};
 use crate::measure::point_list::{Seen, WithoutChart, all};
 
-/// An error by its picture.
+/// An error with the name of its image.
 fn of_files(error: &CalibrateError, views: &[Seen]) -> String {
     match error {
         CalibrateError::View { view, .. } | CalibrateError::Sparse { view, .. } => {
@@ -31,7 +31,7 @@ impl ViewsRequest {
         self.found_by(|_| options, observer)
     }
 
-    /// The same with the principal point in the picture's middle, which is uncertain.
+    /// The same with the principal point at the image centre, with its uncertainty.
     pub(crate) fn found_about_middle(&self, options: Options, observer: &dyn Observer) -> Result<Found, Error> {
         let middle = |[width, height]: [usize; 2]| 0.5 * DVec2::new(width as f64, height as f64);
         let about = |size| Options { principal_px: Some(middle(size)), ..options };
@@ -48,7 +48,7 @@ impl ViewsRequest {
         Ok(found)
     }
 
-    /// By options that may follow from the picture's size.
+    /// Fit with options that may depend on the image size.
     fn found_by(&self, options: impl Fn([usize; 2]) -> Options, observer: &dyn Observer) -> Result<Found, Error> {
         let seen = all(&self.chart, &self.files, observer)?;
         let options = options(seen.0[0].size_px);
@@ -56,8 +56,9 @@ impl ViewsRequest {
         self.advised(self.model, found, options)
     }
 
-    /// By the model of several that suits the points best: the least of ln(Σ r²/n) + 2 k ln n/n, n coordinates and k coefficients: the criterion of Schwarz
-    /// (1978) with twice its price of a coefficient, as errors that neighbouring points share are fewer than there are points.
+    /// Fit with the best of several models: minimum of ln(Σ r²/n) + 2 k ln n/n, with n coordinates and k coefficients. This is the
+    /// criterion of Schwarz (1978) with twice its penalty per coefficient, as neighbouring points share errors, so that there are
+    /// fewer independent errors than points.
     pub(crate) fn found_by_best_of(
         &self,
         models: &[CameraModel],
@@ -79,7 +80,7 @@ impl ViewsRequest {
             let (count, squares) = residuals.fold((0.0, 0.0), |(n, s), r| (n + 2.0, s + r.length_squared()));
             let coefficients = found.camera.parameters.len() as f64;
             let information = ln(squares / count) + 2.0 * coefficients * ln(count) / count;
-            // One that folds the picture over is no camera.
+            // A model that folds the image over is not a valid camera.
             let whole = found.camera.calibration.check().is_ok();
             tried.push(TriedModel { model: *model, rms_px: found.camera.rms_px(), information, whole });
             if whole && best.as_ref().is_none_or(|(least, ..)| information < *least) {
@@ -115,7 +116,7 @@ impl ViewsRequest {
         Ok(Found { model: model.name().to_owned(), views, camera: spared.camera, notes })
     }
 
-    /// The same with a warning where another model would suit the points far better.
+    /// The same with a warning if another model would fit the points much better.
     fn advised(&self, model: CameraModel, mut found: Found, options: Options) -> Result<Found, Error> {
         let pitch_mm = self.pitch_mm()?;
         let sightings: Vec<Sightings> = found.views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
@@ -125,23 +126,22 @@ impl ViewsRequest {
     }
 }
 
-/// A model that was fitted.
+/// A fitted model.
 pub(crate) struct TriedModel {
     pub(crate) model: CameraModel,
     pub(crate) rms_px: f64,
     /// Schwarz's criterion over the number of coordinates: less is better.
     pub(crate) information: f64,
-    /// Whether it does not fold the picture over.
+    /// True if the model does not fold the image over.
     pub(crate) whole: bool,
 }
 
-/// Standard uncertainty of a principal point that is taken for the picture's middle, of its wider side.
+/// Standard uncertainty of a principal point at the image centre, relative to the wider side.
 pub(crate) const MIDDLE: f64 = 0.01;
 
-/// Takes into a camera's covariance that its principal point is not known, and that its lens may bend beyond its model:
-/// of the first half the change from one standard uncertainty more to one less, and what is left of it to second order
-/// (z² of a normal z has the mean square 3); of the second the change to a model of one term more, where that is more than the noise
-/// which the term lets in.
+/// Adds two uncertainties to a camera's covariance: the unknown principal point, and possible distortion beyond the model. The
+/// first is half the change between plus and minus one standard uncertainty, and the second-order remainder (z² of a normal z has
+/// the mean square 3). The second is the change to a model with one more term, where that exceeds the noise that the term adds.
 fn widen(found: &mut Found, sightings: &[Sightings], family: Family, options: Options) -> Result<(), Error> {
     let size = found.camera.calibration.size_px();
     let values = |camera: &Calibrated| camera.parameters.iter().map(|p| p.estimate.value).collect::<Vec<f64>>();
@@ -174,7 +174,7 @@ fn widen(found: &mut Found, sightings: &[Sightings], family: Family, options: Op
     Ok(())
 }
 
-/// The same with a radial term more.
+/// The same family with one more radial term.
 fn richer(family: Family) -> Option<Family> {
     match family {
         Family::Perspective { radial: Radial::Polynomial(n), tangential } if n < 3 => {
@@ -199,10 +199,10 @@ fn add(found: &mut Found, weight: f64, d: impl Fn(usize) -> f64) {
 }
 
 impl Found {
-    /// A camera file by a verb; the f-number cannot be told from these pictures.
+    /// A camera file, generated by a verb; the f-number cannot be determined from these images.
     ///
     /// # Errors
-    /// Where the camera folds over inside its picture.
+    /// If the camera folds over inside its image.
     pub(crate) fn camera_file(&self, verb: &str, pixel_pitch_um: f64, f_number: Option<f64>) -> Result<String, Error> {
         let refused =
             |folds| Error::coded(ErrorCode::UnusableLens, format!("no camera file of this, figures only: {folds}"));
@@ -225,13 +225,14 @@ impl Found {
     }
 }
 
-/// A fit that leaves this many times the points' own uncertainty, and this much, is looked into.
+/// Residuals of this many times the points' own uncertainty, and this much, are checked.
 const TIMES: f64 = 5.0;
 const MIN_PX: f64 = 0.05;
-/// It is told where another model leaves less than this share of it, or where it is as many times the uncertainty, and as much, again.
+/// Another model is suggested if it leaves less than this fraction of the residual. Without such a model, a warning is given if
+/// the residual exceeds the limits above by the second factor.
 const SHARE: f64 = 0.5;
 const SURELY: f64 = 4.0;
-/// Models that are tried.
+/// Candidate models.
 const OTHERS: [CameraModel; 5] = [
     CameraModel::Opencv,
     CameraModel::KannalaBrandt,
@@ -240,7 +241,7 @@ const OTHERS: [CameraModel; 5] = [
     CameraModel::Opencv5,
 ];
 
-/// A warning where the fit leaves far more than the points' own uncertainties.
+/// A warning if the residuals are far larger than the points' own uncertainties.
 fn unsuited(
     model: CameraModel,
     camera: &Calibrated,

@@ -1,4 +1,4 @@
-//! Cameras from views of a chart, what `measure focal` and `calibrate` share: request, findings, and stated lengths.
+//! Cameras from views of a chart, shared by `measure focal` and `calibrate`: request, results, and stated lengths.
 
 mod fit;
 mod report;
@@ -16,54 +16,55 @@ use super::point_list::{ChartInput, Seen};
 
 pub(crate) use fit::TriedModel;
 
-/// The views and the camera that saw them.
+/// The views and the fitted camera.
 pub(crate) struct Found {
     /// The model's name.
     pub model: String,
-    /// Those that are in it.
+    /// Views used in the fit.
     pub views: Vec<Seen>,
     pub camera: Calibrated,
-    /// What a user should know of the fit.
+    /// Notes on the fit for the user.
     pub notes: Vec<String>,
 }
 
-/// The pictures, the chart and what is known of the camera.
+/// The images, the chart and the known properties of the camera.
 #[derive(Args, Clone, Debug)]
 pub struct ViewsRequest {
-    /// Pictures of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together
+    /// Images of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about
+    /// different axes, filling the field together
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
-    /// The chart, and which readings show it.
+    /// The chart, and the readings that show it.
     #[command(flatten)]
     pub chart: ChartInput,
-    /// The distance of neighbouring points of the chart, mm [with --truth: as it says]
+    /// Distance of neighbouring points of the chart, mm [with --truth: as it states]
     #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true, required_unless_present = "truth")]
     pub pitch_mm: Option<f64>,
-    /// The camera model
+    /// Camera model
     #[arg(long, value_parser = choice(CameraModel::ALL.iter().map(|m| (*m, m.name(), m.about()))), default_value = CameraModel::Opencv.name())]
     pub model: CameraModel,
-    /// Pixels are square: one focal length for columns and rows
+    /// Assume square pixels: one focal length for columns and rows
     #[arg(long)]
     pub square_pixels: bool,
-    /// The principal point is known, raster coordinates, px
+    /// Known principal point, raster coordinates, px
     #[arg(long, value_name = "X,Y", value_parser = place)]
     pub principal_px: Option<[f64; 2]>,
-    /// The distance from the entrance pupil to the chart's plane, mm, the same in every picture
+    /// Distance from the entrance pupil to the chart's plane, mm, the same in every image
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub distance_mm: Option<StatedLength>,
-    /// Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit]
+    /// Standard uncertainty of the distance, mm; 0 if exact [default: of rounding to its last digit]
     #[arg(long, value_name = "MM", value_parser = not_negative, allow_negative_numbers = true, requires = "distance_mm")]
     pub distance_uncertainty_mm: Option<f64>,
-    /// The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well
+    /// Pixel pitch of the sensor, µm: adds focal lengths in mm
     #[arg(long, value_name = "UM", value_parser = positive, allow_negative_numbers = true)]
     pub pixel_pitch_um: Option<f64>,
-    /// Points far from the fit count less (Huber)
+    /// Reduce the weight of points far from the fit (Huber)
     #[arg(long)]
     pub robust: bool,
 }
 
 impl ViewsRequest {
-    /// The same as the program without options.
+    /// Creates a request with the program's defaults.
     pub fn new(files: Vec<PathBuf>) -> Self {
         Self {
             files,
@@ -81,7 +82,7 @@ impl ViewsRequest {
 }
 
 impl ViewsRequest {
-    /// As stated, or as the truth says.
+    /// As stated, or from the ground truth.
     fn pitch_mm(&self) -> Result<f64, Error> {
         let told = || {
             Error::argument("pitch_mm", "`pitch_mm`: state the distance of neighbouring points, or give `truth`")
@@ -93,13 +94,13 @@ impl ViewsRequest {
         })
     }
 
-    /// The distance: as well known as is stated, or as its last digit tells.
+    /// The distance with its stated uncertainty, otherwise that of its last digit.
     fn distance(&self) -> Option<Estimate> {
         let rounded = self.distance_mm?.rounded();
         Some(Estimate::new(rounded.value, self.distance_uncertainty_mm.unwrap_or(rounded.standard_uncertainty)))
     }
 
-    /// What is told of the camera.
+    /// Known properties of the camera.
     pub(crate) fn options(&self) -> Options {
         Options {
             square_pixels: self.square_pixels,
@@ -116,19 +117,19 @@ impl ViewsRequest {
 pub struct StatedLength {
     /// The length.
     pub value: f64,
-    /// What its last digit counts; 0 where it is exact.
+    /// Value of a unit in its last digit; 0 if exact.
     pub digit: f64,
 }
 
 impl StatedLength {
-    /// Rounded to its last digit: anywhere within half of it either way (GUM, JCGM 100:2008, F.2.2.1).
+    /// Rounded to its last digit: uniformly distributed within half of it either way (GUM, JCGM 100:2008, F.2.2.1).
     #[must_use]
     pub fn rounded(self) -> Estimate {
         Estimate::new(self.value, self.digit / 12_f64.sqrt())
     }
 }
 
-/// A length as typed: the decimals after the point are its digits; of whole numbers the last digit counts, 0 or not.
+/// Parses a length as typed: the decimals after the point are its digits; for whole numbers the last digit counts, 0 or not.
 impl FromStr for StatedLength {
     type Err = String;
 
@@ -138,7 +139,7 @@ impl FromStr for StatedLength {
         let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
         let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
         let digit = format!("1e{}", exponent.parse::<i64>().unwrap_or(0) - decimals as i64);
-        // 1e3 is 1000 written shortly.
+        // 1e3 is short for 1000.
         Ok(Self { value, digit: digit.parse::<f64>().unwrap_or(0.0).min(1.0) })
     }
 }

@@ -1,4 +1,4 @@
-//! What was found, as figures, tables and plots.
+//! Results as figures, tables and plots.
 
 use etendue_core::maths::f64::{acos, atan};
 use etendue_metrology::target::Node;
@@ -10,7 +10,7 @@ use crate::measure::point_list::Seen;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 
-/// Unit of a parameter, by its name.
+/// Unit of a parameter, from its name.
 fn unit(name: &str) -> &'static str {
     match name {
         _ if name.ends_with("_px") => "px",
@@ -20,7 +20,7 @@ fn unit(name: &str) -> &'static str {
 }
 
 impl Found {
-    /// Parameters, how well the views fit, and the views.
+    /// Adds parameters, quality of the fit, and the views.
     pub(crate) fn add_to(&self, report: &mut Report, request: &ViewsRequest) {
         let (pixel_pitch_um, points) = (request.pixel_pitch_um, request.chart.points);
         self.views.iter().filter_map(|view| view.stated.as_ref()).for_each(|stated| report.encoding(stated));
@@ -135,7 +135,7 @@ impl Found {
         }
     }
 
-    /// Field angle against distance from the principal point, towards the picture's farthest corner.
+    /// Field angle against distance from the principal point, towards the farthest corner of the image.
     fn projection(&self) -> Plot {
         const STEPS: i32 = 60;
         let camera = &self.camera.calibration;

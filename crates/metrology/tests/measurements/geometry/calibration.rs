@@ -1,4 +1,4 @@
-//! Cameras given back from views of charts.
+//! Recovery of cameras from views of charts.
 
 use super::cameras::{calibration, fisheye, perspective};
 use super::paint::View;
@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 const BROWN: Family = Family::Perspective { radial: Radial::Polynomial(2), tangential: true };
 const SIZE: [usize; 2] = [640, 480];
 
-/// Views of a 9 × 7 grid of steps of 30 mm, turned about all axes.
+/// Views of a 9 × 7 grid with steps of 30 mm, rotated about all axes.
 fn views(camera: &Calibration, distance: f64) -> Vec<View> {
     let turns =
         [[0.0, 0.0, 0.0], [0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.0, 0.5, 0.2], [0.1, -0.5, 1.6], [0.4, 0.4, 0.8]];
@@ -25,7 +25,7 @@ fn views(camera: &Calibration, distance: f64) -> Vec<View> {
     turns.iter().zip(&places).map(view).collect()
 }
 
-/// Where the points are seen, with normal noise of a standard deviation.
+/// Observed positions of the points, with normal noise of a standard deviation.
 fn seen(view: &View, sigma_px: f64, word: &mut u64) -> Sightings {
     let mut noise = || {
         *word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -43,7 +43,7 @@ fn all(camera: &Calibration, distance: f64, sigma_px: f64, mut word: u64) -> Vec
     views(camera, distance).iter().map(|v| seen(v, sigma_px, &mut word)).collect()
 }
 
-/// The largest difference in the picture, px, of what two cameras see in the same directions.
+/// The largest difference in the image, px, of two cameras for the same directions.
 fn largest_difference(a: &Calibration, b: &Calibration) -> f64 {
     let places = (0..=16).flat_map(|i| (0..=12).map(move |j| DVec2::new(40.0 * f64::from(i), 40.0 * f64::from(j))));
     let off = |at: DVec2| Some((b.project(a.unproject(at)?)? - at).length());
@@ -78,7 +78,7 @@ fn exact_points_give_every_model_back() {
         let found = found.unwrap_or_else(|e| panic!("{family:?}: {e}"));
         assert!(found.rms_px() < 1e-5, "{family:?}: {}", found.rms_px());
         let off = largest_difference(&camera, &found.calibration);
-        // Where the model has few numbers the whole picture follows; polynomials beyond the chart's reach follow less.
+        // For models with few parameters the whole image is accurate; for polynomials the region beyond the chart is less so.
         assert!(off < 1e-2, "{family:?}: {off}");
     }
 }
@@ -91,7 +91,7 @@ fn one_view_from_the_front_has_no_focal_length() {
     let told = calibrate(&front, SIZE, BROWN, Options { square_pixels: true, ..Options::default() });
     let Err(CalibrateError::Undetermined { names }) = told else { panic!("{told:?}") };
     assert!(names.contains(&"fx_px".to_owned()), "{names:?}");
-    // Its distance stated, it has one, as uncertain as that.
+    // With its distance stated, it has one, with the same uncertainty.
     let known = Options {
         square_pixels: true,
         principal_px: Some(DVec2::new(326.3, 235.3)),
@@ -111,7 +111,7 @@ fn one_view_from_the_front_has_no_focal_length() {
 fn a_stated_distance_counts_as_much_as_it_is_known() {
     let camera = perspective(500.0, &[-0.2, 0.05, 0.001, -0.002], SIZE);
     const DISTANCE: f64 = 0.5;
-    // Turned charts whose planes are all as far away.
+    // Tilted charts whose planes are all at the same distance.
     let level = |v: &View| {
         let far = v.turn.z_axis.dot(v.place);
         View { place: v.place + v.turn.z_axis * (DISTANCE - far), ..v.clone() }
@@ -127,10 +127,10 @@ fn a_stated_distance_counts_as_much_as_it_is_known() {
     let focal = |value, u| found(&seen, value, u).expect("determined").estimate("fx_px").expect("fitted");
     let free = calibrate(&seen, SIZE, BROWN, Options::default()).expect("determined");
     let free = free.estimate("fx_px").expect("fitted");
-    // One standard uncertainty off, which says next to nothing beside what the views know of it.
+    // One standard uncertainty off, which is negligible compared with the information of the views.
     let vague = focal(0.52, 0.02);
     assert!((vague.value - free.value).abs() < 0.2 * free.standard_uncertainty, "{vague:?} {free:?}");
-    // The views know the distance to some 2·10⁻⁴; one that is stated better decides.
+    // The views determine the distance to about 2·10⁻⁴; a more accurate stated distance dominates.
     let sharp = focal(DISTANCE, 1e-5);
     assert!(sharp.standard_uncertainty < 0.5 * free.standard_uncertainty, "{sharp:?} {free:?}");
     assert!((sharp.value - 500.0).abs() < 3.0 * sharp.standard_uncertainty, "{sharp:?}");
@@ -138,7 +138,7 @@ fn a_stated_distance_counts_as_much_as_it_is_known() {
     for u in [0.0, 0.005] {
         assert!(matches!(found(&seen, 0.55, u), Err(CalibrateError::Distance { .. })));
     }
-    // Where the views say nothing, its uncertainty is the focal length's.
+    // If the views do not determine it, its uncertainty is that of the focal length.
     let front = Options {
         distance: Some(Estimate::new(DISTANCE, 0.005)),
         square_pixels: true,

@@ -1,4 +1,4 @@
-//! Points of charts: found where they are.
+//! Positions of detected chart points.
 
 use super::cameras::{fisheye, perspective};
 use super::paint::{View, checkerboard, dots, noisy};
@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 const BOARD: Sought = Sought { target: Some(Target::Checkerboard), size: None };
 const DOTS: Sought = Sought { target: Some(Target::Dots), size: None };
 
-/// Distances of found points from where they are seen, sorted; panics where the grid is not the whole chart.
+/// Distances of detected points from their true positions, sorted; panics if the grid is not the whole chart.
 fn errors(view: &View, grid: &Grid, size: [usize; 2]) -> Vec<f64> {
     assert_eq!((grid.size, grid.nodes.len()), (size, size[0] * size[1]), "the whole chart");
     let mut errors: Vec<f64> = grid
@@ -39,7 +39,7 @@ fn corners_of_a_barrel_are_found_to_two_hundredths_of_a_pixel() {
     let noisy = find(&noisy(&picture, 0.02, 1), BOARD).expect("a board");
     let told = rms(&noisy.nodes.iter().map(|n| std::f64::consts::SQRT_2 * n.uncertainty_px).collect::<Vec<_>>());
     let ratio = rms(&errors(&view, &noisy, [11, 8])) / told;
-    // 176 coordinates: their mean square has a relative standard deviation of 11 %, its root 5 %; four of them.
+    // 176 coordinates: their mean square has a relative standard deviation of 11 %, its root 5 %; the limit is four of them.
     assert!((ratio - 1.0).abs() < 0.22, "{ratio}");
 }
 
@@ -106,7 +106,7 @@ fn the_photons_of_bright_dots_count_in_their_uncertainty() {
     let grid = find(&Image::from_samples(640, 480, shot.collect()).expect("as large"), DOTS).expect("dots");
     let told = rms(&grid.nodes.iter().map(|n| std::f64::consts::SQRT_2 * n.uncertainty_px).collect::<Vec<_>>());
     let ratio = rms(&errors(&view, &grid, [11, 8])) / told;
-    // 176 coordinates: 5 %; four of them, and as much for the edges, whose variance lies between.
+    // 176 coordinates: 5 %; the limit is four of them, and as much for the edges, whose variance is in between.
     assert!((ratio - 1.0).abs() < 0.3, "{ratio}");
 }
 
@@ -121,8 +121,8 @@ fn shading_does_not_move_dots() {
     });
     let shaded = Image::from_samples(640, 480, shaded.collect()).expect("as large");
     let grid = find(&shaded, DOTS).expect("dots");
-    // Seen from the front without distortion a disc's centroid is its centre's image. The light falls by a third across a
-    // dot's neighbourhood's width/40, bent by less than a thousandth within it.
+    // Seen frontally without distortion, a disc's centroid is its centre's image. The light decreases across the image, with a
+    // curvature below a thousandth within the neighbourhood of a dot.
     let found = errors(&view, &grid, [11, 8]);
     assert!(found[found.len() - 1] < 0.01, "{found:?}");
 }
@@ -131,7 +131,7 @@ fn shading_does_not_move_dots() {
 fn a_staggered_grid_is_a_square_one_on_its_corner() {
     let camera = perspective(500.0, &[-0.1, 0.0, 0.0, 0.0], [640, 480]);
     let view = View::new(&camera, [0.2, -0.1, 0.0], DVec2::new(5.0, 4.0), DVec3::new(0.0, 0.0, 14.0));
-    // Dots where column and row are both even or both odd.
+    // Dots at positions where column and row are both even or both odd.
     let all = dots(11, 9, 0.35);
     let staggered = move |p: DVec2| {
         let [x, y] = p.round().to_array().map(|c| c as i32);
@@ -165,7 +165,8 @@ fn a_picture_without_a_chart_is_refused() {
     }
 }
 
-/// Seen askew at the edge of a fisheye, where one diagonal of every square is shorter than a side or nearly so: read as 18 × 8.
+/// Seen obliquely at the edge of a fisheye, where one diagonal of every square is shorter than a side or nearly so: misread as 18
+/// × 8.
 #[test]
 fn dots_seen_askew_are_numbered_by_rows_and_columns() {
     let camera = fisheye(150.0, [640, 480]);
@@ -198,7 +199,7 @@ fn two_charts_are_refused() {
     let (left, right) = (checkerboard(7, 7), checkerboard(6, 5));
     let boards = move |p: DVec2| if p.x < 7.5 { left(p) } else { right(p - DVec2::new(10.2, 1.1)) };
     let told = |paint: &(dyn Fn(DVec2) -> f64 + Sync), sought| find(&view.picture(6, &|p| paint(p)), sought);
-    // The chart whose size is stated is there whole.
+    // The chart with the stated size is complete.
     assert_eq!(told(&boards, Sought { size: Some([7, 7]), ..BOARD }).map(|g| g.size), Ok([7, 7]));
     for sought in [BOARD, Sought::default(), Sought { size: Some([8, 7]), ..BOARD }] {
         assert_eq!(told(&boards, sought), Err(TargetError::Several { points: [49, 30] }), "{sought:?}");

@@ -1,4 +1,4 @@
-//! Distortion and lateral colour of pictures in closed form.
+//! Distortion and lateral colour of images in closed form.
 
 use super::cameras::perspective;
 use super::paint::{View, checkerboard, dots, noisy};
@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 const SIZE: [usize; 2] = [800, 600];
 const HALF_DIAGONAL_PX: f64 = 500.0;
 
-/// A camera with r′ = r (1 + k₁ r² + k₂ r⁴), r in half diagonals, about the picture's middle.
+/// A camera with r′ = r (1 + k₁ r² + k₂ r⁴), r in half diagonals, about the image centre.
 fn camera(sense: Sense, k1: f64, k2: f64, f: f64) -> Calibration {
     let unit = HALF_DIAGONAL_PX / f;
     let model = Model::Radial(RadialDistortion::new(sense, k1, k2, unit).expect("finite"));
@@ -45,13 +45,13 @@ fn the_curve_is_the_camera_s() {
         let picture = view.picture(6, &dots(41, 31, 0.25));
         let grid = find(&picture, Sought { target: Some(Target::Dots), size: None }).expect("dots");
         let found = distortion(&grid, SIZE, None).expect("enough points");
-        // The bench asks for 0.1 % of the field; dots to 0.01 px and a polynomial of degree 9 do ten times better.
+        // The requirement is 0.1 % of the field; dots to 0.01 px and a polynomial of degree 9 are ten times better.
         check(&camera, &found, 1e-4);
         let fit = if sense == Sense::IdealToObserved { found.forward } else { found.backward };
         assert!(fit.rms_px < 0.02, "{fit:?}");
         assert!((fit.k1.value - k1).abs() < 1e-3 && (fit.k2.value - k2).abs() < 1e-3, "{fit:?}");
         let off = fit.centre_px.iter().zip([400.0, 300.0]).map(|(c, want)| (c.value - want, c.standard_uncertainty));
-        // Of 0.01 px of noise a thirtieth remains, over a distortion of a tenth; no more than a few standard uncertainties.
+        // A thirtieth of 0.01 px of noise remains, over a distortion of a tenth; at most a few standard uncertainties.
         assert!(off.into_iter().all(|(off, u)| off.abs() < 0.3 && u < 0.3), "{fit:?}");
         let worst = found.local.iter().filter(|l| l.field > 0.2);
         let off = worst.map(|l| (l.distortion.value + 1.0 - ratio(&camera, l.field)).abs()).fold(0.0, f64::max);
@@ -94,7 +94,7 @@ fn noise_is_covered_by_the_uncertainty() {
             all += 1;
         }
     }
-    // 95.4 %, over three independent curves whose points hang together.
+    // 95.4 %, over three independent curves whose points are correlated.
     assert!(inside as f64 > 0.8 * f64::from(all), "{inside} of {all}");
 }
 
@@ -121,7 +121,7 @@ fn a_channel_of_another_scale_is_displaced_in_proportion_to_the_field() {
     let (green, red) = (grid(1.0, 0.0), grid(1.002, 0.0));
     let list = displacements(&green, &red, SIZE);
     assert_eq!(list.len(), 336);
-    // About the principal point, (406.3, 295.3), not the middle; the rest is the centroids' 0.01 px.
+    // About the principal point, (406.3, 295.3), not the centre; the remainder is the centroids' 0.01 px.
     for d in &list {
         let want = 0.002 * (d.at - DVec2::new(406.3, 295.3));
         assert!((d.by - want).length() < 0.02, "{d:?} {want}");
@@ -129,7 +129,7 @@ fn a_channel_of_another_scale_is_displaced_in_proportion_to_the_field() {
     let outer = *rings(&list).last().expect("rings");
     let want = 0.002 * outer.field * HALF_DIAGONAL_PX;
     assert!((outer.radial.value - want).abs() < 3.0 * outer.radial.standard_uncertainty + 0.01, "{outer:?} {want}");
-    // Half a pixel aside: the same everywhere.
+    // Shifted by half a pixel: constant over the image.
     let aside = displacements(&green, &grid(1.0, 0.5 / 700.0 * 20.0), SIZE);
     let mean = aside.iter().map(|d| d.by).sum::<DVec2>() / aside.len() as f64;
     assert!((mean - DVec2::new(0.5, 0.0)).length() < 0.01, "{mean}");

@@ -1,4 +1,4 @@
-//! Charts seen square on by a pinhole, each pixel exactly the mean over its square; what is measured from one of them.
+//! Charts seen frontally by a pinhole, each pixel exactly the mean over its square; measurements from a single image.
 
 use super::paint::noisy;
 use crate::coverage::{Run, covers};
@@ -16,7 +16,7 @@ const BRIGHT: f64 = 0.9;
 const FOCAL_PX: f64 = 1600.0;
 const STEP_M: f64 = 0.03;
 
-/// Where a chart of points stands: its first point, and its step, px.
+/// Position of a chart of points in the image: its first point, and its step, px.
 #[derive(Clone, Copy, Debug)]
 struct Placed {
     first: DVec2,
@@ -25,7 +25,7 @@ struct Placed {
 }
 
 impl Placed {
-    /// A chart over most of the picture, its step and its place between the pixels by a seed.
+    /// A chart over most of the image, with a random step and sub-pixel phase from a seed.
     fn of(seed: u64) -> Self {
         let mut stream = NoiseStream::new(seed, 7, 0, 0, Pixel { x: 0, y: 0 }, NoiseDraw::Shot);
         let step = 20.0 + 12.0 * stream.unit_f64();
@@ -56,7 +56,7 @@ impl Placed {
         Image::from_samples(width, height, (0..width * height).map(pixel).collect()).expect("a rectangle")
     }
 
-    /// Means over pixels of a sign that changes at every point of a row, 0 beyond the chart.
+    /// Means over pixels of a sign that changes at every point of a row, 0 outside the chart.
     fn signs(&self, axis: usize) -> Vec<f64> {
         let edge = |k: i32| self.first[axis] + self.step * f64::from(k);
         let share = |i: usize, k: i32| (edge(k + 1).min(i as f64 + 1.0) - edge(k).max(i as f64)).clamp(0.0, 1.0);
@@ -87,7 +87,7 @@ impl Placed {
     }
 }
 
-/// Root mean square distance of found dots from where they are, px, without noise.
+/// Root mean square distance of detected dots from their true positions, px, without noise.
 fn error_px(placed: &Placed, radius_steps: f64) -> f64 {
     let sought = Sought { target: Some(Target::Dots), size: Some(placed.points) };
     let grid = find(&placed.dots(radius_steps), sought).expect("dots");
@@ -97,13 +97,13 @@ fn error_px(placed: &Placed, radius_steps: f64) -> f64 {
     (squares / grid.nodes.len() as f64).sqrt()
 }
 
-/// Sharp discs, wherever they lie between the pixels: what the raster does to the centroid is taken off.
+/// Sharp discs at any sub-pixel phase: the effect of the raster on the centroid is corrected.
 #[test]
 fn the_pixels_raster_does_not_move_dots() {
     for (seed, radius_steps) in (0..12).zip([0.15, 0.2, 0.25, 0.3].into_iter().cycle()) {
         let placed = Placed::of(seed);
         let error = error_px(&placed, radius_steps);
-        // Of 3 to 10 px radius; 0.0015 to 0.006 px without that.
+        // Radii of 3 to 10 px; 0.0015 to 0.006 px without the correction.
         assert!(error < 6e-4, "{placed:?}, radius {radius_steps}: {error}");
     }
 }
@@ -119,7 +119,7 @@ fn focal(grid: &Grid, family: Family, distance: Estimate) -> Estimate {
     found.estimate("fx_px").expect("fitted")
 }
 
-/// The focal length by one view of either chart, by a model without distortion and with it.
+/// The focal length from one view of either chart, with a model without distortion and one with it.
 fn of_charts(seed: u64, noise: f64) -> Run {
     let placed = Placed::of(seed);
     let pinhole = Family::Perspective { radial: Radial::Polynomial(0), tangential: false };

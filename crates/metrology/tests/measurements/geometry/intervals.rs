@@ -1,4 +1,4 @@
-//! Stated intervals cover the truth: distortion, focal length, calibration, lateral colour, by 200 seeds.
+//! Stated intervals cover the true value: distortion, focal length, calibration, lateral colour, with 200 seeds.
 
 use super::cameras::perspective;
 use super::paint::View;
@@ -17,7 +17,7 @@ const SIGMA_PX: f64 = 0.03;
 const SIZE: [usize; 2] = [800, 600];
 const HALF_DIAGONAL_PX: f64 = 500.0;
 
-/// r′ = r (1 + k₁ r² + k₂ r⁴), r in half diagonals, about the picture's middle.
+/// r′ = r (1 + k₁ r² + k₂ r⁴), r in half diagonals, about the image centre.
 fn barrel(k1: f64, k2: f64) -> Calibration {
     let f = 700.0;
     let radial = RadialDistortion::new(Sense::IdealToObserved, k1, k2, HALF_DIAGONAL_PX / f).expect("finite");
@@ -25,7 +25,7 @@ fn barrel(k1: f64, k2: f64) -> Calibration {
     Calibration::new(Model::Radial(radial), matrix, SIZE).expect("a camera")
 }
 
-/// Points of a chart of steps of 1 at places with noise.
+/// Observed points of a chart with steps of 1, with noise.
 fn seen(view: &View, [columns, rows]: [usize; 2], mut normal: impl FnMut() -> f64) -> Grid {
     let node = |i: usize| {
         let index = [i % columns, i / columns];
@@ -66,7 +66,7 @@ fn distortion_of_a_chart() {
     covers("distortion", distorted);
 }
 
-/// A chart over one side of the picture: the tilt at its edge does not average over directions.
+/// A chart over one side of the image: the tilt at its edge does not average over directions.
 fn to_one_side(seed: u64) -> Run {
     let camera = perspective(700.0, &[], SIZE);
     let view = View::new(&camera, [0.02, -0.03, 0.01], DVec2::new(4.0, 6.0), DVec3::new(0.0, 0.0, 18.0));
@@ -85,14 +85,14 @@ fn distortion_of_a_chart_to_one_side() {
     covers("distortion to one side", to_one_side);
 }
 
-/// A chart of so many points that fills the picture, all but its borders, through a camera, tilted a little.
+/// A chart with this many points that fills the image, except its borders, through a camera, slightly tilted.
 fn filling(camera: &Calibration, [columns, rows]: [usize; 2], tilt: f64) -> View {
     let [x, y] = [columns as f64 - 1.0, rows as f64 - 1.0];
     let distance = 700.0 / f64::min(720.0 / x, 540.0 / y);
     View::new(camera, [tilt, -tilt, 0.01], DVec2::new(0.5 * x, 0.5 * y), DVec3::new(0.0, 0.0, distance))
 }
 
-/// The largest local distortion, that of a corner of the chart and the curve's last point, of a chart of so many points.
+/// The largest local distortion, that of a corner of the chart, and the curve's last point, of a chart with this many points.
 fn of_grid(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64) -> f64, seed: u64) -> Run {
     let view = filling(camera, size, tilt);
     let grid = seen(&view, size, normals(seed, 0));
@@ -111,7 +111,7 @@ fn of_grid(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64
     ]
 }
 
-/// Charts of few points and of many, of few rows, through lenses without distortion and with it.
+/// Charts of few and of many points, of few rows, through lenses without distortion and with it.
 #[test]
 fn distortion_of_charts_of_few_points_and_many() {
     let none = ("none", [0.0, 0.0]);
@@ -167,7 +167,7 @@ fn calibration_from_views() {
     });
 }
 
-/// One view from the front; its distance is known to 1 mm of 500.
+/// One frontal view; its distance is known to 1 mm of 500.
 #[test]
 fn focal_length_from_a_distance() {
     let family = Family::Perspective { radial: Radial::Polynomial(2), tangential: false };
@@ -193,7 +193,8 @@ fn focal_length_from_a_distance() {
     });
 }
 
-/// One view from the front by a distance typed to half a millimetre: what was rounded is no normal error, and as large as that of the points.
+/// One frontal view with a distance typed to half a millimetre: the rounding error is not normally distributed, and as large as
+/// that of the points.
 #[test]
 fn focal_length_from_a_typed_distance() {
     const DIGIT: f64 = 5e-4;
@@ -217,7 +218,7 @@ fn focal_length_from_a_typed_distance() {
     });
 }
 
-/// Errors of 0.05 px that all points of a column or a row share, beside 0.02 px of each point's own.
+/// Errors of 0.05 px shared by all points of a column or a row, in addition to 0.02 px of each point's own.
 #[test]
 fn focal_length_by_points_that_share_errors() {
     let family = Family::Perspective { radial: Radial::Polynomial(0), tangential: false };
@@ -246,7 +247,7 @@ fn focal_length_by_points_that_share_errors() {
     });
 }
 
-/// Red is 0.1 % larger than green, and all of it 0.05 px aside.
+/// Red is 0.1 % larger than green, and shifted by 0.05 px.
 #[test]
 fn lateral_colour() {
     covers("chromatic", |seed| {

@@ -1,4 +1,4 @@
-//! The geometry of cameras from pictures in closed form.
+//! Geometry of cameras from images in closed form.
 
 mod calibration;
 mod cameras;

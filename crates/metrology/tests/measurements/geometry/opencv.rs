@@ -1,4 +1,4 @@
-//! Beside OpenCV, on its own photographs: tests/oracles/checkerboard.py, corners.py.
+//! Comparison with OpenCV, on its own photographs: tests/oracles/checkerboard.py, corners.py.
 
 use etendue_metrology::calibrate::{Family, Options, Radial, Sighting, Sightings, calibrate};
 use etendue_metrology::target::{Node, Sought, Target, TargetError, find};
@@ -27,7 +27,7 @@ fn file(name: &str) -> Image {
     Image::from_samples(read.width() as usize, read.height() as usize, samples).expect("as large")
 }
 
-/// Corners found in a picture, each with what is nearest in a list.
+/// Corners detected in an image, each with the nearest in a list.
 fn beside(name: &str, list: &[DVec2]) -> Vec<(Node, DVec2)> {
     let sought = Sought { target: Some(Target::Checkerboard), size: Some([9, 6]) };
     let ours = find(&file(name), sought).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -36,7 +36,7 @@ fn beside(name: &str, list: &[DVec2]) -> Vec<(Node, DVec2)> {
     ours.nodes.iter().map(|n| (*n, nearest(n).expect("a list of corners"))).collect()
 }
 
-/// Standard deviation of a coordinate of OpenCV's corners in a picture that is drawn like the photograph.
+/// Standard deviation of a coordinate of OpenCV's corners in a synthetic image similar to the photograph.
 fn deviation(name: &str) -> f64 {
     corner_figures()["photographs"][name]["opencv_deviation_px"].as_f64().expect("a number")
 }
@@ -54,7 +54,7 @@ fn corners_of_photographs_are_opencv_s_within_their_joint_uncertainty() {
         assert!(pairs.len() >= 52, "{name}: {}", pairs.len());
         let off: Vec<DVec2> = pairs.iter().map(|(n, theirs)| *theirs - n.at).collect();
         let mean = off.iter().sum::<DVec2>() / off.len() as f64;
-        // 0.05 px, and twice what OpenCV's scatter of 0.12 px at most leaves of a mean of 54.
+        // 0.05 px, and twice the contribution of OpenCV's scatter of 0.12 px at most to a mean of 54.
         assert!(mean.abs().max_element() < 0.05 + 0.033, "{name}: {mean}");
         let within = |((n, _), d): &(&(Node, DVec2), &DVec2)| {
             let joint = etendue_core::maths::f64::hypot(n.uncertainty_px, deviation(name));
@@ -63,7 +63,7 @@ fn corners_of_photographs_are_opencv_s_within_their_joint_uncertainty() {
         agreeing += pairs.iter().zip(&off).map(|pair| within(&pair)).sum::<usize>();
         all += 2 * off.len();
     }
-    // The share of coordinates within 0.05 px and the expanded joint uncertainty: what 95 % intervals promise.
+    // Fraction of coordinates within 0.05 px and the expanded joint uncertainty, the coverage of 95 % intervals.
     let share = agreeing as f64 / all as f64;
     assert!(share >= 0.95, "{share}");
 }
@@ -77,7 +77,7 @@ fn corners_of_drawn_photographs_are_nearer_to_the_truth_than_opencv_s() {
         let error = (0.5 * mean(&|(n, truth)| (n.at - *truth).length_squared())).sqrt();
         assert!(error < 0.5 * deviation(name), "{name}: {error}");
         let normal = (0.5 * mean(&|(n, truth)| ((n.at - *truth) / n.uncertainty_px).length_squared())).sqrt();
-        // 108 coordinates: 7 %; four of them. What compression leaves is no noise: some tenths more.
+        // 108 coordinates: 7 %; the limit is four of them, plus some tenths, as compression errors are not noise.
         assert!((0.6..1.5).contains(&normal), "{name}: {normal}");
     }
 }
@@ -110,7 +110,7 @@ fn cameras_from_both_s_corners_agree_within_their_joint_uncertainty() {
 
 const FAMILY: Family = Family::Perspective { radial: Radial::Polynomial(3), tangential: true };
 
-/// OpenCV's camera, in raster coordinates, by our names.
+/// OpenCV's camera, in raster coordinates, with this program's names.
 fn camera(figures: &Value) -> Vec<(String, Estimate)> {
     let named = |(name, theirs): (&String, &Value)| {
         let number = |key: &str| theirs[key].as_f64().expect("a number");
@@ -123,8 +123,8 @@ fn camera(figures: &Value) -> Vec<(String, Estimate)> {
 
 #[test]
 fn a_pattern_that_is_no_chart_is_refused() {
-    // Another of OpenCV's pictures: a print whose moiré lies in rows and columns, 8 px apart. Of the 125 pictures
-    // without a chart of Debian's opencv-doc it is the nearest to one (tests/oracles/figures/checkerboard/no_chart.json).
+    // Another of OpenCV's images: a print whose moiré forms rows and columns, 8 px apart. Of the 125 images without a chart of
+    // Debian's opencv-doc it is the most similar to one (tests/oracles/figures/checkerboard/no_chart.json).
     for target in [Some(Target::Checkerboard), Some(Target::Dots), None] {
         let told = find(&file("pic4.png"), Sought { target, size: None });
         assert!(matches!(told, Err(TargetError::None { .. } | TargetError::Small { .. })), "{told:?}");
@@ -148,9 +148,9 @@ fn the_camera_from_opencv_s_corners_is_opencv_s() {
     for (name, theirs) in camera(&figures) {
         let place = found.parameters.iter().position(|p| p.name == name).expect("fitted");
         let (ours, independent) = (found.parameters[place].estimate, found.independent_uncertainties[place]);
-        // The same points and the same sum of squares: the numbers agree to a hundredth of their uncertainty, and the uncertainties of
-        // independent points, which OpenCV states, to the linearisation. Ours know what points of a row or column share: on these photographs
-        // up to twice as much.
+        // The same points and the same sum of squares: the parameters agree to a hundredth of their uncertainty, and the
+        // uncertainties for independent points, which OpenCV states, to the linearisation. This program's uncertainties include
+        // errors shared by a row or column: on these photographs they are up to twice as large.
         assert!((ours.value - theirs.value).abs() < 0.01 * theirs.standard_uncertainty, "{name}: {ours:?} {theirs:?}");
         assert!((independent / theirs.standard_uncertainty - 1.0).abs() < 0.02, "{name}: {independent} {theirs:?}");
         assert!((1.0..2.0).contains(&(ours.standard_uncertainty / independent)), "{name}: {ours:?} {independent}");

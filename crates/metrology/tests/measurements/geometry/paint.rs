@@ -1,4 +1,4 @@
-//! Pictures of charts in closed form: each pixel is the mean of the chart over its area, seen through a camera model.
+//! Images of charts in closed form: each pixel is the mean of the chart over its area, seen through a camera model.
 
 use crate::draws::normals;
 use etendue_core::maths::f64::sin_cos;
@@ -7,16 +7,16 @@ use etendue_projection::Calibration;
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
-/// A plane chart before a camera.
+/// A plane chart in front of a camera.
 #[derive(Clone)]
 pub(crate) struct View {
     pub(crate) camera: Calibration,
-    /// From the chart's frame (x along columns, y along rows, z away from the camera) to the camera's.
+    /// Rotation from the chart's frame (x along columns, y along rows, z away from the camera) to the camera's.
     pub(crate) turn: DMat3,
     pub(crate) place: DVec3,
 }
 
-/// A turn by a vector of angle and axis.
+/// A rotation by a vector of angle and axis.
 pub(crate) fn turned(v: [f64; 3]) -> DMat3 {
     let v = DVec3::from(v);
     let angle = v.length();
@@ -38,16 +38,16 @@ impl Exact for DMat3 {
 impl View {
     pub(crate) fn new(camera: &Calibration, turn: [f64; 3], centre: DVec2, place: DVec3) -> Self {
         let turn = turned(turn);
-        // `place` is where the chart's point `centre` stands.
+        // `place` is the position of the chart's point `centre`.
         Self { camera: camera.clone(), turn, place: place - turn * centre.extend(0.0) }
     }
 
-    /// Where a point of the chart is seen.
+    /// The image of a point of the chart.
     pub(crate) fn image(&self, chart: DVec2) -> Option<DVec2> {
         self.camera.project(self.turn * chart.extend(0.0) + self.place)
     }
 
-    /// The point of the chart that is seen at a place of the picture.
+    /// The point of the chart at a position in the image.
     fn chart(&self, raster: DVec2) -> Option<DVec2> {
         let direction = self.turn.transpose() * self.camera.unproject(raster)?;
         let origin = self.turn.transpose() * -self.place;
@@ -55,8 +55,8 @@ impl View {
         (t > 0.0).then(|| (origin + t * direction).truncate())
     }
 
-    /// The picture of a chart whose brightness is `paint`; beside the plane it is 0.5. `fine` × `fine` samples of every pixel
-    /// that an edge may cross.
+    /// The image of a chart whose brightness is `paint`; outside the plane it is 0.5. `fine` × `fine` samples of every pixel that
+    /// an edge may cross.
     pub(crate) fn picture(&self, fine: u32, paint: &(impl Fn(DVec2) -> f64 + Sync)) -> Image {
         let [width, height] = self.camera.size_px();
         let sample = |x: f64, y: f64| self.chart(DVec2::new(x, y)).map_or(0.5, paint);
@@ -86,7 +86,7 @@ fn fine_mean(fine: u32, sample: impl Fn(f64, f64) -> f64) -> f64 {
     sum / f64::from(fine * fine)
 }
 
-/// Squares of side 1 about corners at whole numbers 0 … columns − 1, with one square more on each side and white around.
+/// Squares of side 1 about corners at integers 0 … columns − 1, with one square more on each side and white around.
 pub(crate) fn checkerboard(columns: i32, rows: i32) -> impl Fn(DVec2) -> f64 + Sync {
     move |p| {
         let [x, y] = p.floor().to_array().map(|c| c as i32);
@@ -95,7 +95,7 @@ pub(crate) fn checkerboard(columns: i32, rows: i32) -> impl Fn(DVec2) -> f64 + S
     }
 }
 
-/// Discs of a radius about whole numbers 0 … columns − 1.
+/// Discs of a radius about integers 0 … columns − 1.
 pub(crate) fn dots(columns: i32, rows: i32, radius: f64) -> impl Fn(DVec2) -> f64 + Sync {
     move |p| {
         let nearest = p.round();

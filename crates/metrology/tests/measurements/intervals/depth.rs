@@ -4,7 +4,7 @@ use super::{normals, picture};
 use crate::coverage::covers;
 use etendue_metrology::depth::{DepthSettings, measure_depth};
 
-/// A plane at 10 m, seen 0.05 m too far with noise of 0.2 m that neighbours share over squares of so many pixels.
+/// A plane at 10 m, measured 0.05 m too far with noise of 0.2 m shared by neighbours over squares of this many pixels.
 fn measured(seed: u64, shared_px: usize) -> crate::coverage::Run {
     const SIZE: usize = 160;
     let truth = picture(SIZE, SIZE, |_| 10.0);

@@ -1,4 +1,4 @@
-//! Even patches: noise, flare, contrast, colour.
+//! Uniform patches: noise, flare, contrast, colour.
 
 use super::{normals, picture};
 use crate::coverage::covers;
@@ -50,7 +50,8 @@ fn flare() {
     });
 }
 
-/// A patch as bilinear demosaicking leaves a channel that every other pixel has: the others are means of their neighbours.
+/// A patch with the correlation that bilinear demosaicing gives a channel of every other pixel: the others are means of their
+/// neighbours.
 pub(super) fn developed(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
     const SIDE: usize = 24;
     let own: Vec<f64> = (0..(SIDE + 2) * (SIDE + 2)).map(|_| mean + sigma * normal()).collect();
@@ -80,7 +81,7 @@ fn patches_of_developed_pictures() {
     });
 }
 
-/// An even patch of raw readings whose rows have noise in common, half as large as in a pixel.
+/// A uniform patch of raw readings with row noise, half as large as the pixel noise.
 fn with_rows(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
     const SIDE: usize = 32;
     let rows: Vec<f64> = (0..SIDE).map(|_| 0.5 * sigma * normal()).collect();
@@ -124,7 +125,7 @@ fn contrast() {
     });
 }
 
-/// A camera whose channels are a matrix of XYZ, each to a power: powers of 1 leave no error.
+/// A camera whose channels are a matrix of XYZ, each raised to a power: powers of 1 leave no error.
 fn patches(powers: [f64; 3], sigma: f64, side: usize, mut normal: impl FnMut() -> f64) -> Vec<ColourPatch> {
     let mut patch = |p: &etendue_spectra::reflectance::Patch| {
         let [x, y, z] = observer::xyz_of_reflectance(&p.reflectance, illuminant::d65());
@@ -138,7 +139,7 @@ fn patches(powers: [f64; 3], sigma: f64, side: usize, mut normal: impl FnMut() -
     colorchecker().iter().map(&mut patch).collect()
 }
 
-/// A camera of errors of some ΔE, and one whose colours are right: there none may be told from 0.
+/// A camera with errors of a few ΔE, and one with exact colours, whose errors must not differ from 0.
 fn colours(powers: [f64; 3], side: usize, seed: u64) -> [ColourError; 2] {
     let found = |sigma| measure_colour(&patches(powers, sigma, side, normals(seed, 0)), 16.0, None, D65_WHITE, 1);
     [3.0, 0.0].map(|sigma| found(sigma).expect("a chart"))
@@ -159,7 +160,7 @@ fn colour_errors() {
     });
 }
 
-/// Lengths that are 0: of all patches one in ten at most may have an interval that leaves 0 out, and their mean has none.
+/// Lengths of 0: at most one in ten patches may have an interval that excludes 0, and their mean has none.
 #[test]
 fn errors_of_colour_that_are_only_noise_are_told_as_such() {
     let told: Vec<Estimate> = (0..40)

@@ -1,4 +1,4 @@
-//! The camera's response from exposures known relatively.
+//! Response of the camera from relatively known exposures.
 
 use super::patches::developed;
 use super::{normals, picture};
@@ -30,8 +30,8 @@ fn response() {
     });
 }
 
-/// Pictures of eight bits behind a tone curve that begins straight and bends at 0.3 %, of a mosaic of 20 000 electrons: what is read beside what the curve makes of
-/// light that is as noisy.
+/// 8-bit images with a tone curve that begins linearly and bends at 0.3 %, from a mosaic of 20 000 electrons: readings compared
+/// with the curve applied to equally noisy light.
 #[test]
 fn tone_curve_of_developed_pictures() {
     let encoded = |light: f64| {
@@ -40,7 +40,7 @@ fn tone_curve_of_developed_pictures() {
     };
     covers("tone curve of developed pictures", |seed| {
         let mut normal = normals(seed, 0);
-        // Where in a step of the converter a mean falls is not the same in any two runs.
+        // The phase of a mean within an ADC step differs between runs.
         let shift = 1.0 + 0.1 * super::unit(seed);
         let mut error = |name, light: f64| {
             let light = light * shift;

@@ -7,7 +7,7 @@ use etendue_core::maths::f64::{atan2, exp, hypot, sin_cos};
 use etendue_metrology::texture::leaves::measure_texture;
 use etendue_metrology::texture::{Star, measure_star};
 
-/// A star behind a Gaussian, sampled in points.
+/// A star blurred by a Gaussian, sampled at points.
 #[test]
 fn star() {
     const CYCLES: u32 = 48;
@@ -35,7 +35,7 @@ fn star() {
     });
 }
 
-/// White structure by a kernel of three by three pixels that wraps, with noise.
+/// White texture filtered by a 3 × 3 kernel that wraps, with noise.
 #[test]
 fn leaves() {
     const SIDE: usize = 128;
@@ -52,7 +52,7 @@ fn leaves() {
         };
         let image = picture(SIDE, SIDE, |i| soft(i) + 20.0 * normal());
         let points = measure_texture(&image, &reference, None, None).expect("a texture").points;
-        // |S_xy|/S_xx of a band is the modulus of the mean transfer over its bins, all alike likely.
+        // |S_xy|/S_xx of a band is the modulus of the mean transfer over its bins, all equally probable.
         let transfer = |k: usize| {
             let signed = |b: i64| b as f64;
             let (mut sum, mut bins) = (0.0, 0.0);

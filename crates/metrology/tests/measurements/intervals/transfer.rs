@@ -1,4 +1,4 @@
-//! Photon transfer from levels whose means and variances are known to scatter, and dark currents over temperature.
+//! Photon transfer from levels with random means and variances of known distribution, and dark currents over temperature.
 
 use super::{normals, unit};
 use crate::coverage::{Run, covers};
@@ -12,10 +12,10 @@ const GAIN: f64 = 0.4;
 const QUANTUM_EFFICIENCY: f64 = 0.55;
 const DARK_NOISE_E: f64 = 8.0;
 const FULL_WELL_E: f64 = 9000.0;
-/// Pixels of a frame.
+/// Pixels per frame.
 const PIXELS: f64 = 40_000.0;
 
-/// Mean and variance of a Gaussian of mean and variance m that ends at the full well, e⁻.
+/// Mean and variance of a Gaussian of mean and variance m, clipped at the full well, e⁻.
 fn clipped(m: f64) -> (f64, f64) {
     let (s, z) = (m.sqrt(), (FULL_WELL_E - m) / m.sqrt());
     let (below, density) = (cdf(z), exp(-0.5 * z * z) / core::f64::consts::TAU.sqrt());
@@ -24,7 +24,7 @@ fn clipped(m: f64) -> (f64, f64) {
     (mean, square - mean * mean)
 }
 
-/// Light of the largest variance, photons.
+/// Light of maximum variance, photons.
 fn peak_photons() -> f64 {
     let steps = (0..4000).map(|i| 7000.0 + 0.5 * f64::from(i));
     steps.max_by(|a, b| clipped(*a).1.total_cmp(&clipped(*b).1)).expect("steps") / QUANTUM_EFFICIENCY
@@ -42,7 +42,7 @@ fn transfer(seed: u64) -> Run {
         };
         Level { exposure_s, photons, statistics }
     };
-    // The light of the steps is another one each time, so that the peak falls anywhere between two.
+    // The light of the steps differs between runs, so that the peak can be anywhere between two.
     let step = (1.0 + 0.1 * unit(seed)) * 900.0 / QUANTUM_EFFICIENCY;
     let times = (1..=14).map(|i| f64::from(i) * 1e-3);
     let levels: Vec<Level> = times.flat_map(|t| [level(t, 1e3 * t * step), level(t, 0.0)]).collect();
@@ -71,7 +71,7 @@ fn capacity_threshold_and_range() {
     covers("photon transfer, limits", transfer);
 }
 
-/// 12 e⁻/s at 30 °C, doubled every 8 K, each current known to 5 % and 6 e⁻/s: the coldest is often negative.
+/// 12 e⁻/s at 30 °C, doubling every 8 K, each current with an uncertainty of 5 % and 6 e⁻/s: the coldest is often negative.
 #[test]
 fn dark_current_over_temperature() {
     covers("dark current over temperature", |seed| {
