@@ -2,7 +2,7 @@
 //!
 //! | folder | images |
 //! | --- | --- |
-//! | `flat/` | uniform illumination of 550 nm on the bare sensor: levels in equal steps to just above saturation, two frames each, and a stack at half of it (EMVA 1288) |
+//! | `flat/` | 550 nm, uniform, on the bare sensor: levels in equal steps to just above saturation, two frames each, and a stack at half of it (EMVA 1288) |
 //! | `dark/` | the same without light, and three long exposures, the longest with a dark current of 200 e⁻ |
 //! | `field/` | a uniform white sheet through the lens |
 //! | `chart/` | hand-held views of a checkerboard, the first nearly perpendicular to it, the others tilted |
