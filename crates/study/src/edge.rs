@@ -106,7 +106,7 @@ fn grid(renderer: &FrameRenderer<'_>) -> design::GridSize {
 /// An edge whose response falls to one half.
 #[derive(Clone, Debug, PartialEq)]
 struct Edge {
-    /// Field position of the measured region, and the side of the square.
+    /// Position of the measurement in the image and direction of the edge, as the report states them.
     place: [String; 2],
     field_percent: f64,
     mtf50: Estimate,
