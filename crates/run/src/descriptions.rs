@@ -55,8 +55,7 @@ pub fn open_variations(file: &Path) -> Result<Variations, Error> {
 
 impl JobRequest {
     /// Checks that the description accepts changes `key=value` after those of the request. An error is reported at the place that states the change. Of the
-    /// files that the
-    /// description names only scenes, cameras and bases are read, and nothing is compiled.
+    /// files that the description names only scenes, cameras and bases are read, and nothing is compiled.
     ///
     /// # Errors
     /// All errors of the description with the changes.

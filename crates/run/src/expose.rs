@@ -55,8 +55,7 @@ impl ExposeRequest {
     }
 }
 
-/// Exposes a stored radiance image with another lens and sensor. Writes the files into a folder and returns their paths.
-/// Runs on the caller's thread pool.
+/// Exposes a stored radiance image with another lens and sensor. Writes the files into a folder and returns their paths. Runs on the caller's thread pool.
 ///
 /// # Errors
 /// The image or the camera cannot be used, the camera looks outside the image, or the folder cannot be written.

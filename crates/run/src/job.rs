@@ -151,10 +151,9 @@ impl Job {
         Ok(())
     }
 
-    /// Renders one camera after the other (one frame after the other where light depends on time) and writes the files of each before it renders
-    /// the next. Returns the paths of the written files. Files receive their final names when all are complete; those of a frame with its own light, when
-    /// that
-    /// frame is complete. An interrupted run keeps them, and a resumed run continues after them. Runs on the caller's thread pool.
+    /// Renders one camera after the other (one frame after the other where light depends on time) and writes the files of each before it renders the next.
+    /// Returns the paths of the written files. Files receive their final names when all are complete; those of a frame with its own light, when that frame is
+    /// complete. An interrupted run keeps them, and a resumed run continues after them. Runs on the caller's thread pool.
     ///
     /// # Errors
     /// The observer cancels, light is not finite, or the folder cannot be written.

@@ -268,8 +268,7 @@ impl Manifest {
 }
 
 /// Merges the folders of all shards of one run into the files of an unsharded run, byte for byte, and returns their paths. `job` is the current path of the
-/// job
-/// file, if the shards were rendered elsewhere. Runs on the caller's thread pool.
+/// job file, if the shards were rendered elsewhere. Runs on the caller's thread pool.
 ///
 /// # Errors
 /// Shards are missing, given twice or of different runs, the job has changed, or the folder cannot be written.

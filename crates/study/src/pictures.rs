@@ -25,8 +25,8 @@ pub struct Comparison {
     pub jpeg: Vec<u8>,
 }
 
-/// Images of a study's approximations, each with as many samples as time allows and with the random numbers of the exact
-/// form; empty if the camera makes no images. Runs on the caller's thread pool.
+/// Images of a study's approximations, each with as many samples as time allows and with the random numbers of the exact form; empty if the camera makes no
+/// images. Runs on the caller's thread pool.
 ///
 /// # Errors
 /// The observer cancels, or light is not finite.

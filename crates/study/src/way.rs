@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 /// The part of a camera's render settings that a study varies, without the number of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WayToRender {
-    /// Which light paths are simulated.
+    /// Light paths that are simulated.
     pub paths: PathSettings,
     /// Side of the blocks of pixels that share the tails of their paths, px; only for paths.
     pub path_reuse_px: u32,

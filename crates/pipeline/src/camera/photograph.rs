@@ -18,8 +18,7 @@ use etendue_optics::{DepthOfField, OpticsError};
 use etendue_sensor::{CaptureLight, Raw, SensorState, SignalBreakdown};
 
 impl Light {
-    /// Light of a camera's film; at the pupil with the distances of its pixels, which its depth of field needs. Runs on
-    /// the caller's pool.
+    /// Light of a camera's film; at the pupil with the distances of its pixels, which its depth of field needs. Runs on the caller's pool.
     ///
     /// # Errors
     /// Depth of field meets a radiance that is not finite (a compiled plan contains its own image), or a scratch file fails.
@@ -27,8 +26,8 @@ impl Light {
         Self::seen(camera, film, depth).map(|light| light.exposed(&camera.body.exposure, Vec::new()))
     }
 
-    /// Light of a camera whose captures see different light: films of the distinct captures
-    /// ([`RowExposure::distinct_captures`]) in order, or a single one for all of them.
+    /// Light of a camera whose captures see different light: films of the distinct captures ([`RowExposure::distinct_captures`]) in order, or a single one
+    /// for all of them.
     ///
     /// # Errors
     /// As [`Light::of_film`].
@@ -118,8 +117,7 @@ pub struct Frame {
     pub picture: Option<Developed>,
 }
 
-/// Develops the part of a raw that receives light, from linearised digital numbers, with the processing of
-/// a camera. Runs on the caller's pool.
+/// Develops the part of a raw that receives light, from linearised digital numbers, with the processing of a camera. Runs on the caller's pool.
 ///
 /// # Errors
 /// The raw is not of the camera's sensor.

@@ -52,8 +52,8 @@ impl Default for Request {
     }
 }
 
-/// Renders the light of one camera on the caller's thread pool: irradiance and electrons through the lens, or (on the
-/// pupil route) radiance, for which every weight is 1.
+/// Renders the light of one camera on the caller's thread pool: irradiance and electrons through the lens, or (on the pupil route) radiance, for which every
+/// weight is 1.
 ///
 /// # Errors
 /// The observer cancels, or bands cannot be stored on disk.

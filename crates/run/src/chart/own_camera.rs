@@ -34,8 +34,7 @@ pub struct ChartBeforeCamera {
 
 impl ChartBeforeCamera {
     /// Makes the chart of `request` before a camera of a job. The request's own camera is ignored. Without a stated distance the chart stands at the focus
-    /// distance of the
-    /// job's camera, at most 1 km away. The folder must hold nothing else.
+    /// distance of the job's camera, at most 1 km away. The folder must hold nothing else.
     ///
     /// # Errors
     /// The job is invalid or has no such camera, the chart does not fit the camera, or the folder cannot be written.
@@ -62,9 +61,8 @@ impl ChartBeforeCamera {
     }
 
     /// Captures the chart by the camera as `job` now describes it, with direct light only and `spp` samples per pixel. Returns the path of the developed
-    /// image, or of the raw
-    /// image of a camera without processing. Changes of the scene, of poses and of samples have no effect. A further capture replaces the one before.
-    /// Runs on the caller's thread pool.
+    /// image, or of the raw image of a camera without processing. Changes of the scene, of poses and of samples have no effect. A further capture replaces
+    /// the one before. Runs on the caller's thread pool.
     ///
     /// # Errors
     /// The job is invalid, the camera makes no such image, the observer cancels, or the folder cannot be written.

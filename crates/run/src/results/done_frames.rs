@@ -26,8 +26,7 @@ pub(crate) struct DoneFrames {
 
 impl DoneFrames {
     /// Finds the complete frames in a folder of results. A frame's own file is written last and states the digests of all others: the frame is complete if it
-    /// and they
-    /// are unchanged. Other frames are rendered again, and the observer is informed.
+    /// and they are unchanged. Other frames are rendered again, and the observer is informed.
     ///
     /// # Errors
     /// A frame or a side-car in the folder is of another plan, or cannot be read.

@@ -44,8 +44,8 @@ impl Results {
         self.cameras.iter().find(|camera| camera.name() == name)
     }
 
-    /// Writes all requested files into a folder, with a subfolder for each camera, and returns their paths. Files receive
-    /// their final names when all are complete. Runs on the caller's thread pool.
+    /// Writes all requested files into a folder, with a subfolder for each camera, and returns their paths. Files receive their final names when all are
+    /// complete. Runs on the caller's thread pool.
     ///
     /// # Errors
     /// The folder cannot be written, or files exist that must not be replaced.

@@ -1,8 +1,7 @@
 //! One run: its request, its state, and its next step.
 //!
-//! A [`Run`] is the whole state of a run: its plan, its films with their passes, the states of the sensors, its progress. [`Run::next`] derives from it
-//! the next [`Step`]. The step changes the state. This repeats until the results of a camera, or the film of a shard, are ready.
-//! All runs are this loop:
+//! A [`Run`] is the whole state of a run: its plan, its films with their passes, the states of the sensors, its progress. [`Run::next`] derives from it the
+//! next [`Step`]. The step changes the state. This repeats until the results of a camera, or the film of a shard, are ready. All runs are this loop:
 //!
 //! | run | differs by |
 //! | --- | --- |
@@ -149,8 +148,7 @@ impl<'a> Run<'a> {
     }
 
     /// Continues until the results of the next camera are ready: the cameras of a group of equal light one after the other, and, where light depends on time,
-    /// frame
-    /// after frame. Returns `None` at the end.
+    /// frame after frame. Returns `None` at the end.
     ///
     /// # Errors
     /// The observer cancels, light is not finite, or the store fails.

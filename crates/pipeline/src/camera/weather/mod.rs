@@ -28,7 +28,7 @@ use rayon::prelude::*;
 /// An image seen through weather.
 #[derive(Clone, Debug)]
 pub struct Weathered {
-    /// What is seen.
+    /// Radiance seen through the weather.
     pub radiance: SpectralCube<Radiance>,
     /// Fraction of the scene's light that is transmitted, by band.
     pub transmittance: SpectralCube<Transmittance>,

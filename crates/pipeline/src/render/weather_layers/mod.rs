@@ -6,10 +6,9 @@
 //! - **Cover**: fraction of a pixel, its pupil and its exposure with a drop or flake before the first surface.
 //! - **Airlight**: spectral radiance that media scattered into the pixel's rays before they hit a surface, a drop or a flake.
 //!
-//! They are means over as many samples as the light has, with its random addresses (wavelengths are sampled uniformly here; if the light's samples
-//! are adaptive, there are 64): light minus airlight is, except for noise, the light from surfaces. They have the raster of the film, without the effects
-//! behind the lens. Surfaces with opacity are present as in
-//! ground truth: where it is at least one half.
+//! They are means over as many samples as the light has, with its random addresses (wavelengths are sampled uniformly here; if the light's samples are
+//! adaptive, there are 64): light minus airlight is, except for noise, the light from surfaces. They have the raster of the film, without the effects behind
+//! the lens. Surfaces with opacity are present as in ground truth: where it is at least one half.
 
 use crate::plan::{CameraPlan, PassAt, Plan, Settings};
 use crate::render::camera_light::{SourceJob, lights, path_settings, region_and_change_over, render_job, with_source};
