@@ -97,7 +97,7 @@ pub struct CostReport {
     pub film_bytes: f64,
     /// Bytes of the bands in a scratch file on disk; 0 if they are in memory.
     pub film_disk_bytes: f64,
-    /// Product for which all bands are read into memory at once, which then counts as memory; `None` if they are not.
+    /// Purpose for which all bands are read into memory at once, which then counts as memory; `None` if they are not.
     pub film_all_bands_for: Option<&'static str>,
 }
 

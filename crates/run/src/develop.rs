@@ -157,7 +157,7 @@ struct StoredRaw {
     raw: Raw,
     /// Address of the frame (job, camera, frame number).
     address: FrameAddress,
-    /// Width of the blocks of pixels whose errors may be correlated, px.
+    /// Number of pixels of a block whose errors may be correlated.
     correlated_block_px: u32,
 }
 

@@ -296,7 +296,7 @@ impl StoredRadiance {
         self.provenance.further.get(metadata::EXPOSURE_S).and_then(|s| s.parse().ok())
     }
 
-    /// Width of the blocks of pixels whose errors may be correlated, px.
+    /// Number of pixels of a block whose errors may be correlated.
     pub(crate) fn correlated_block_px(&self) -> u32 {
         self.provenance.further.get("correlated_block_px").and_then(|n| n.parse().ok()).unwrap_or(1)
     }

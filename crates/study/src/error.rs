@@ -114,7 +114,7 @@ mod tests {
         let pairs: Vec<_> = values.chunks(2).map(|pair| (pair.iter().sum(), 2)).collect();
         let grouped = Estimate::of_groups(&pairs);
         assert!((single.value - 4.0).abs() < 1e-12 && (grouped.value - single.value).abs() < 1e-12);
-        // The true mean of four independent numbers has a deviation of 1.278 (2.556 for each).
+        // Effectively four independent numbers: their deviation is 2.556, that of the mean 1.278.
         assert!((grouped.uncertainty - 1.278).abs() < 1e-3, "{grouped:?}");
         assert!((single.uncertainty - 0.837).abs() < 1e-3, "{single:?}");
     }

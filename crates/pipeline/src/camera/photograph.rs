@@ -117,7 +117,7 @@ pub struct Frame {
     pub picture: Option<Developed>,
 }
 
-/// Develops the part of a raw that receives light, from linearised digital numbers, with the processing of a camera. Runs on the caller's pool.
+/// Develops the part of a raw that receives light, from linear digital numbers, with the processing of a camera. Runs on the caller's pool.
 ///
 /// # Errors
 /// The raw is not of the camera's sensor.

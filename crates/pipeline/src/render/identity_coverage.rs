@@ -33,9 +33,9 @@ pub struct Share {
 /// Coverage of the pixels of an image, row by row from the top left; for each pixel in order of decreasing coverage, equal ones by id.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IdentityCoverage {
-    /// Columns of the picture.
+    /// Columns of the image.
     pub width: usize,
-    /// Rows of the picture.
+    /// Rows of the image.
     pub height: usize,
     /// By instance.
     pub instances: Vec<Vec<Share>>,

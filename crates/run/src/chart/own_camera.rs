@@ -25,7 +25,7 @@ const JOB: &str = "job.toml";
 const CHANGED: &str = "changed.toml";
 const PHOTOGRAPHS: &str = "photographs";
 
-/// A chart in a folder, made for a camera of a job. Exposure and focus distance are those of the job's camera.
+/// A chart in a folder, made for a camera of a job. Exposure and distance are those that the job states for the camera.
 #[derive(Clone, Debug)]
 pub struct ChartBeforeCamera {
     folder: PathBuf,
@@ -54,7 +54,7 @@ impl ChartBeforeCamera {
         Ok(Self { folder: folder.to_owned(), camera: camera.to_owned() })
     }
 
-    /// The reference data of the chart (kind and position), for a measurement.
+    /// Path of the reference data of the chart (kind and position), for a measurement.
     #[must_use]
     pub fn truth(&self) -> PathBuf {
         self.folder.join("truth.json")

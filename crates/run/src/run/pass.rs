@@ -90,7 +90,7 @@ impl etendue_pipeline::Observer for WatchedPass<'_> {
     }
 }
 
-/// Reports the samples taken by noise-limited sampling, and the pixels that reached the limit.
+/// Reports the samples taken by noise-limited sampling, and whether the limit was reached.
 pub(super) fn report_noise(camera: &CameraPlan, shot: Shot, film: &Film, observer: &dyn Observer) {
     let Some((limit, tolerance)) = camera.settings.adaptive.zip(camera.tolerance()) else { return };
     let Some(reached) = NoiseReached::of(film, &tolerance, camera.settings.spp) else { return };
