@@ -1,15 +1,15 @@
-//! Compile a description into a plan, render the plan, and report what it takes.
+//! Compiles a description into a plan, renders the plan, and reports its cost.
 //!
-//! The modules stand in one order, and none uses a later one:
+//! The modules are in order of dependency; none uses a later one:
 //!
 //! - [`sizes`] counts tiles, blocks of pixels and bytes of films.
-//! - [`plan`] is the data that a rendering needs: an immutable [`plan::Plan`].
-//! - [`compile`](mod@compile) resolves what a description names, collects all contradictions and makes the plan.
-//! - [`render`] takes a plan, a request and an [`Observer`], and answers with planes of light and of ground truth.
-//! - [`camera`] takes light on to irradiance, electrons, digital numbers and pictures.
-//! - [`report`] states what a plan models and leaves out, its time and memory, in figures and in words.
+//! - [`plan`] is the data that a render needs: an immutable [`plan::Plan`].
+//! - [`compile`](mod@compile) resolves the names in a description, collects all contradictions and makes the plan.
+//! - [`render`] takes a plan, a request and an [`Observer`], and returns planes of light and of ground truth.
+//! - [`camera`] converts light to irradiance, electrons, digital numbers and images.
+//! - [`report`] states what a plan models and omits, its time and its memory, in figures and as text.
 //!
-//! Nothing here reads files, prints, looks at a clock or starts a thread pool.
+//! Nothing here reads files, prints, reads a clock or starts a thread pool.
 
 pub mod camera;
 pub mod compile;

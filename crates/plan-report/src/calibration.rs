@@ -1,4 +1,4 @@
-//! A calibration's numbers, in the words of `[lens] projection`: what the side-car says can be put into a camera file.
+//! Calibration data with the keys of `[lens] projection`: the side-car's values can be copied into a camera file.
 
 use etendue_pipeline::stated_projection;
 use etendue_projection::Calibration;
@@ -38,7 +38,7 @@ mod tests {
         lens.parameters().calibration.clone()
     }
 
-    /// JSON's objects of numbers, texts and lists as TOML's.
+    /// Converts JSON objects of numbers, texts and lists to TOML.
     fn toml(value: &Value) -> String {
         let keys = value.as_object().expect("an object").iter();
         format!("{{ {} }}", keys.map(|(key, value)| format!("{key} = {value}")).collect::<Vec<_>>().join(", "))

@@ -12,103 +12,103 @@ use etendue_pipeline::report::FrameCost;
 pub struct CameraReport {
     /// Its name.
     pub name: String,
-    /// Its place in the job, from 0.
+    /// Index of the camera in the job, from 0.
     pub index: u32,
-    /// The camera whose light it has: its own name, or that of the first camera of equal light.
+    /// Camera that provides the light: its own name, or that of the first camera of equal light.
     pub light_of: String,
     /// Columns and rows of the sensor.
     pub sensor_px: [usize; 2],
-    /// Number of pixels in a row over that of the sensor as described: 1, or 0.25 with `--scale 1/4`.
+    /// Pixels per row over those of the sensor as described: 1, or 0.25 with `--scale 1/4`.
     pub scale: f64,
-    /// Columns and rows that are rendered: with the margin of effects, or of the stored radiance.
+    /// Columns and rows that are rendered: including the margin of effects, or those of the stored radiance.
     pub film_px: [u32; 2],
-    /// How its light depends on time: "none", "lights", "motion".
+    /// Time dependence of the light: "none", "lights", "motion".
     pub time: &'static str,
-    /// Exposure time of a row, s; 0: one moment.
+    /// Exposure time of a row, s; 0: instantaneous.
     pub exposure_s: f64,
     /// "global", "rolling", "global_reset".
     pub shutter: &'static str,
-    /// From frame to frame, s; null without a sequence.
+    /// Frame period, s; null without a sequence.
     pub frame_period_s: Option<f64>,
-    /// What shines.
+    /// Light sources.
     pub lights: LightsReport,
-    /// How its light is found.
+    /// Render settings.
     pub settings: Settings,
     /// Its lens.
     pub lens: LensSummary,
-    /// Dynamic range of a frame, dB; null without electronics.
+    /// Dynamic range of a frame, dB; null for a camera without electronics.
     pub dynamic_range_db: Option<f64>,
-    /// What a frame is foretold to take.
+    /// Estimated cost of a frame.
     pub cost: CostReport,
-    /// Everything that can cost or change a frame.
+    /// All effects that can cost time or change a frame.
     pub effects: Vec<EffectReport>,
 }
 
-/// What shines: how many of each kind.
+/// Number of light sources of each kind.
 #[derive(Clone, Copy, Debug, serde::Serialize)]
 pub struct LightsReport {
-    /// Discs of suns.
+    /// Suns, as discs.
     pub suns: usize,
-    /// Lamps without an opening.
+    /// Lamps without a luminous opening.
     pub lamps: usize,
     /// Luminous openings of lamps.
     pub lamp_openings: usize,
-    /// Glowing triangles.
+    /// Emissive triangles.
     pub glowing_triangles: usize,
-    /// Glowing spheres.
+    /// Emissive spheres.
     pub glowing_spheres: usize,
-    /// "sky", "image", "uniform"; null where nothing shines from infinitely far.
+    /// Light from infinity: "sky", "image", "uniform"; null without such light.
     pub surroundings: Option<&'static str>,
 }
 
 /// A lens.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct LensSummary {
-    /// What it is, in words.
+    /// Kind of lens, as text.
     pub kind: &'static str,
     /// Focal length, mm; null for a telecentric camera.
     pub focal_length_mm: Option<f64>,
-    /// The wavelength of focal length, f-number and focus, nm; null where the lens has no dispersion of its own.
+    /// Wavelength of focal length, f-number and focus, nm; null for a lens without dispersion.
     pub first_order_wavelength_nm: Option<f64>,
-    /// Focal length over the pupil's diameter.
+    /// f-number: focal length over the diameter of the entrance pupil.
     pub f_number: f64,
-    /// The f-number of a lens that loses no light and is as bright.
+    /// t-number: f-number of a lossless lens of equal brightness.
     pub t_number: f64,
-    /// Whether everything is sharp.
+    /// True if objects at every distance are sharp.
     pub everything_sharp: bool,
-    /// Distance of the plane in focus, m; null for infinity, and where everything is sharp.
+    /// Focus distance, m; null for infinity, and if objects at every distance are sharp.
     pub focus_distance_m: Option<f64>,
 }
 
-/// What a frame is foretold to take.
+/// Estimated cost of a frame.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct CostReport {
-    /// Paths; where noise decides, the fewest. 0 where another camera's light serves.
+    /// Number of paths; a lower bound for noise-limited sampling. 0 if another camera provides the light.
     pub paths: f64,
-    /// Processor time of the paths at the street's rate, s.
+    /// CPU time of the paths at the rate of the reference street scene, s.
     pub paths_cpu_s: f64,
-    /// What is done on the finished film.
+    /// Work on the finished film.
     pub film_parts: Vec<FilmPart>,
-    /// Processor time of the whole frame, s.
+    /// CPU time of the whole frame, s.
     pub cpu_s: f64,
-    /// Whether noise decides the samples, so that it may be more.
+    /// True for noise-limited sampling: the cost may be higher.
     pub is_lower_bound: bool,
     /// Memory of the film, bytes.
     pub film_bytes: f64,
-    /// Its bands in a scratch file on the disk, bytes; 0 where they are in memory.
+    /// Bytes of the bands in a scratch file on disk; 0 if they are in memory.
     pub film_disk_bytes: f64,
-    /// For what these are read into memory all at once, which then counts as memory; `None` where they are not.
+    /// Purpose for which all bands are read into memory at once, which then counts as memory; `None` if they are not.
     pub film_all_bands_for: Option<&'static str>,
 }
 
-/// A part of what is done on the film.
+/// A part of the work on the film.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct FilmPart {
-    /// What it is, in words.
+    /// Name, as text.
     pub name: &'static str,
-    /// Processor time, s.
+    /// CPU time, s.
     pub cpu_s: f64,
-    /// What the figure holds for, in words; null where the plan decides it.
+    /// Condition under which the figure holds, as text; null if the plan determines it.
     pub holds_for: Option<&'static str>,
 }
 

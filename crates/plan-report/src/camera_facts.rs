@@ -1,4 +1,4 @@
-//! A camera as the side-car of its results states it: lens and camera matrix, irradiance effects, sensor.
+//! Facts of a camera in the side-car of its results: lens and camera matrix, irradiance effects, sensor.
 
 use crate::calibration;
 use etendue_core::Shutter;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// The convention of raster coordinates.
 pub const RASTER: &str = "raster: the top-left corner of the image is (0, 0), pixel centres at +0.5";
 
-/// How things out of focus were blurred in the picture.
+/// Depth-of-field method of the image.
 pub fn depth_of_field(method: &DepthOfField) -> Value {
     match method {
         DepthOfField::None => json!("none"),
@@ -67,7 +67,7 @@ pub fn optics(body: &CameraBody) -> Value {
     facts
 }
 
-/// The irradiance effects and their margin; null where there are none.
+/// Irradiance effects and their margin; null without effects.
 pub fn effects(body: &CameraBody) -> Option<Value> {
     let effects = Some(&body.effects).filter(|effects| !effects.is_idle())?;
     let glare = effects.glare().map(|glare| {
@@ -110,7 +110,7 @@ fn point_spread(spread: &PointSpread) -> Value {
     }
 }
 
-/// A lens's distortion, and the one of the other direction that comes nearest over the picture.
+/// Distortion of a lens, and the closest fit of the opposite direction over the image.
 fn distortion(body: &CameraBody) -> Option<Value> {
     let d = body.lens.distortion()?;
     let [k1, k2] = d.coefficients();
@@ -132,7 +132,7 @@ fn distortion(body: &CameraBody) -> Option<Value> {
     }))
 }
 
-/// The direction of a distortion, in the words of camera files.
+/// Direction of a distortion, as camera files spell it.
 fn direction(sense: Sense) -> &'static str {
     match sense {
         Sense::IdealToObserved => "ideal_to_observed",
@@ -140,7 +140,7 @@ fn direction(sense: Sense) -> &'static str {
     }
 }
 
-/// What the layer of a camera's mirror holds; nothing without one.
+/// Content of the layer of a camera's mirror; `None` without a mirror.
 pub fn mirror(body: &CameraBody) -> Option<&'static str> {
     match body.front.as_ref().and_then(Front::optic)? {
         Optic::Windscreen(_) => None,
@@ -151,7 +151,7 @@ pub fn mirror(body: &CameraBody) -> Option<&'static str> {
     }
 }
 
-/// The sensor's geometry and, where it has electronics, their figures.
+/// Geometry of the sensor and, with electronics, its parameters.
 pub fn sensor(body: &CameraBody) -> Value {
     let raster = &body.raster;
     let electronics = body.sensor.as_ref().map(|sensor| {
@@ -184,7 +184,7 @@ pub fn sensor(body: &CameraBody) -> Value {
     })
 }
 
-/// When rows are exposed.
+/// Exposure times of the rows.
 fn shutter(rows: &RowExposure) -> Value {
     let (word, timing) = match &rows.shutter {
         Shutter::Global => return json!({ "type": "global" }),
@@ -206,8 +206,7 @@ fn shutter(rows: &RowExposure) -> Value {
     said
 }
 
-/// What range of light a frame holds, in photo-electrons of the first capture, and the signal-to-noise ratios at switches of
-/// capture.
+/// Dynamic range of a frame in photo-electrons of the first capture, and the signal-to-noise ratios at the transitions between captures.
 fn dynamic_range(range: &DynamicRange) -> Value {
     let switch = |s: &Switch| json!({ "at_e": s.at_e, "snr_before": s.before, "snr_after": s.after });
     json!({
@@ -218,7 +217,7 @@ fn dynamic_range(range: &DynamicRange) -> Value {
     })
 }
 
-/// What is modelled, in the words of the plan.
+/// The modelled effects, as the plan words them.
 fn sensor_effects(sensor: &Sensor) -> BTreeMap<&'static str, String> {
     let modelled = sensor.effects().into_iter().filter(|effect| effect.status.is_modelled());
     modelled.map(|effect| (effect.name, effect.status.reason().to_owned())).collect()

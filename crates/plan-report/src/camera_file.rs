@@ -1,4 +1,4 @@
-//! A camera file by itself.
+//! Opens a single camera file.
 
 use etendue_io::failure::Error;
 use etendue_io::load_assets;
@@ -11,7 +11,7 @@ use std::path::Path;
 /// Reads, checks and compiles a camera file, with changes `key=value` of its keys.
 ///
 /// # Errors
-/// All faults of the file and of the files that it names.
+/// All errors of the file and of the files that it names.
 pub fn open_camera(file: &Path, set: &[String]) -> Result<CameraBody, Error> {
     let overrides = Overrides::new(set);
     let camera = load_camera(file, &read_text, &overrides).map_err(|f| Error::inputs(f.list()))?;

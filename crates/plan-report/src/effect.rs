@@ -4,13 +4,13 @@ use etendue_core::EffectStatus;
 use etendue_core::KnownError;
 use etendue_pipeline::report::effects::{EffectGroup, PlannedEffect};
 
-/// Whether an effect is modelled.
+/// Status of an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Need {
     /// Modelled, always run.
     Required,
-    /// Modelled, run where a cheap test asks for it.
+    /// Modelled, run only if a cheap test requires it.
     Guarded,
     /// Absent, at no cost.
     Skipped,
@@ -26,44 +26,44 @@ impl From<&EffectStatus> for Need {
     }
 }
 
-/// An effect, whether it is modelled, and what it takes of one frame.
+/// An effect, its status, and its cost in one frame.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct EffectReport {
-    /// Its name in letters, digits and underscores, alone of all.
+    /// Unique identifier of letters, digits and underscores.
     pub id: String,
-    /// Its name for people.
+    /// Human-readable name.
     pub name: &'static str,
-    /// Which part of the frame's making it belongs to.
+    /// Stage of the frame to which it belongs.
     pub group: EffectGroup,
-    /// Whether it is modelled.
+    /// Status.
     pub status: Need,
-    /// Why.
+    /// Reason for the status.
     pub reason: String,
-    /// The key that describes it; that of a camera after `cameras.NAME.`.
+    /// Key that describes it; for cameras relative to `cameras.NAME.`.
     pub key: Option<&'static str>,
-    /// Processor time of one frame that it is foretold to take, s.
+    /// Estimated CPU time per frame, s.
     pub cpu_s: Option<f64>,
-    /// The same over that of the whole frame. Parts of others are in the list: shares do not add up to 1.
+    /// CPU time as a fraction of that of the whole frame. Some effects are parts of others: the fractions do not add up to 1.
     pub cpu_share: Option<f64>,
-    /// Memory that it takes while the frame is rendered, bytes.
+    /// Memory during rendering of the frame, bytes.
     pub memory_bytes: Option<f64>,
-    /// What leaving it out would bring; null where it is not modelled.
+    /// Result of leaving it out; null if it is not modelled.
     pub if_dropped: Option<IfDroppedReport>,
 }
 
-/// What leaving an effect out would bring.
+/// Result of leaving an effect out.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct IfDroppedReport {
-    /// Changes of keys that leave it out, as `--set` takes them; null where no key does.
+    /// Changes of keys, in the syntax of `--set`, that leave it out; null if no key does.
     pub set: Option<Vec<String>>,
-    /// Processor time of one frame that this is foretold to save, s; below 0 where it costs.
+    /// Estimated CPU time saved per frame, s; below 0 if it increases.
     pub cpu_saved_s: Option<f64>,
-    /// The errors that have a closed form; empty: only rendering without it tells.
+    /// Errors with a closed form; empty: only a render without the effect shows the error.
     pub errors: Vec<KnownError>,
 }
 
 impl EffectReport {
-    /// Of an effect of a frame that is foretold to take `frame_s` seconds.
+    /// Report of an effect of a frame with an estimated time of `frame_s` seconds.
     pub(super) fn new(effect: PlannedEffect, frame_s: f64) -> Self {
         let id = effect.id();
         let PlannedEffect { group, name, key, status, cpu_s, memory_bytes, if_dropped } = effect;

@@ -1,5 +1,5 @@
-//! The report of a plan (`etendue plan --json`, field by field in docs/plan.md), and what results and camera files state of a camera: the facts of a
-//! side-car, the keys of a calibration, tone curves. A camera file is opened here.
+//! The report of a plan (`etendue plan --json`, field by field in docs/plan.md), and facts of a camera in results and camera files: the facts of a side-car,
+//! the keys of a calibration, tone curves. Also opens camera files.
 
 pub mod calibration;
 mod camera;
@@ -21,7 +21,7 @@ pub use memory::{CameraMemoryReport, MemoryReport, StageReport};
 pub use remark::{RemarkReport, RemarkWeight};
 pub use scene::{SceneReport, SkyReport};
 
-/// What a job's plan says. What is not known is `None`, null in JSON.
+/// Report of a job's plan. Unknown values are `None`, null in JSON.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct PlanReport {
     /// The program's version.
@@ -30,22 +30,22 @@ pub struct PlanReport {
     pub job: PathBuf,
     /// The plan's hash, hexadecimal: equal plans give equal bytes.
     pub hash: String,
-    /// What there is to see.
+    /// Content of the scene.
     pub scene: SceneReport,
-    /// The cameras of the job, or the one that was asked for.
+    /// The cameras of the job, or the requested one.
     pub cameras: Vec<CameraReport>,
-    /// The memory of the whole run.
+    /// Memory of the whole run.
     pub memory: MemoryReport,
-    /// What compiling found that is no fault, equal ones once.
+    /// Notes and warnings of compilation, without duplicates.
     pub remarks: Vec<RemarkReport>,
-    /// What a rendering repeats of them, and of the lights, in sentences.
+    /// Warnings that a render repeats from them, and warnings of the lights, as sentences.
     pub warnings: Vec<String>,
-    /// What the command line supersedes of the job file, in sentences.
+    /// Settings of the job file overridden by the command line, as sentences.
     pub notices: Vec<String>,
 }
 
 impl PlanReport {
-    /// Of the plan of a job file.
+    /// Report of the plan of a job file.
     pub fn of(job: &Path, plan: &Plan) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION"),

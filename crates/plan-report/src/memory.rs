@@ -1,12 +1,12 @@
-//! The memory of a run in a plan.
+//! Memory of a run in a plan.
 
 use etendue_pipeline::Plan;
 use etendue_pipeline::report::RunMemory;
 
-/// The memory of the whole run on four threads, bytes.
+/// Memory of the whole run on four threads, bytes.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct MemoryReport {
-    /// Peak: the program, the scene and the camera with the largest peak.
+    /// Peak: the sum of the program, the scene and the camera with the largest peak.
     pub bytes: f64,
     /// Memory of the program before a job is read.
     pub program_bytes: f64,
@@ -23,14 +23,14 @@ pub struct CameraMemoryReport {
     pub name: String,
     /// Peak.
     pub bytes: f64,
-    /// Memory of each stage, with all that is stored during it; stages that take none are omitted.
+    /// Memory of each stage, with everything stored during it; stages without memory are omitted.
     pub stages: Vec<StageReport>,
 }
 
 /// The memory of a stage of a camera's work.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct StageReport {
-    /// The work of the stage, worded to follow "while".
+    /// Description of the stage, worded to follow "while".
     pub stage: &'static str,
     /// Bytes.
     pub bytes: f64,
@@ -60,7 +60,7 @@ impl MemoryReport {
 mod tests {
     use etendue_pipeline::report::ROWS_WAITING_BYTES;
 
-    /// The pipeline cannot use the constant of `etendue_io`.
+    /// The constant is repeated in the pipeline, which cannot use that of `etendue_io`.
     #[test]
     fn plans_count_the_rows_that_wait_to_be_written() {
         assert_eq!(etendue_io::exr::WAITING_BYTES, ROWS_WAITING_BYTES);

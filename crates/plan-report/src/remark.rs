@@ -1,28 +1,28 @@
-//! What compiling found that is no fault but worth saying.
+//! Notes and warnings of compilation.
 
 use etendue_pipeline::Plan;
 use etendue_pipeline::remark::{Weight, grouped};
 
-/// A remark, equal ones once.
+/// A note or warning, without duplicates.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct RemarkReport {
-    /// The remark, without a full stop.
+    /// Text, without a full stop.
     pub text: String,
-    /// The files, places or things that it concerns; empty where the text names them or it concerns the whole.
+    /// Files, places or objects that it concerns; empty if the text names them or it concerns the whole job.
     pub about: Vec<String>,
-    /// How often it was made.
+    /// Number of occurrences.
     pub count: usize,
-    /// How much it matters.
+    /// Severity.
     pub weight: RemarkWeight,
 }
 
-/// How much a remark matters.
+/// Severity of a note or warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RemarkWeight {
-    /// How something was read or continued.
+    /// States how an input was read or extrapolated.
     Note,
-    /// The picture is not what the description might be taken to ask for.
+    /// The image may differ from what the user expects of the description.
     Warning,
 }
 

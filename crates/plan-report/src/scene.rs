@@ -1,42 +1,42 @@
-//! What there is to see.
+//! Content of the scene.
 
 use etendue_pipeline::Plan;
 use etendue_pipeline::report::{MeshSize, mesh_sizes};
 use etendue_tracer::geometry::Shape;
 
-/// What there is to see.
+/// Content of the scene.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct SceneReport {
-    /// Things that stand in the scene.
+    /// Instances of objects.
     pub instances: usize,
     /// Triangles of all instances.
     pub triangles: usize,
-    /// Triangles that are stored: those of each mesh once.
+    /// Stored triangles: those of each mesh once.
     pub stored_triangles: usize,
-    /// Meshes that are the shape of named objects; boxes and flat shapes are left out.
+    /// Meshes of named objects; boxes and flat shapes are omitted.
     pub meshes: Vec<MeshReport>,
     /// Spheres.
     pub spheres: usize,
     /// Materials.
     pub materials: usize,
-    /// Pictures on surfaces.
+    /// Image textures.
     pub textures: usize,
-    /// Fog and the like; that of rain or snow is among them.
+    /// Participating media: fog, including that of rain or snow.
     pub media: usize,
-    /// Whether anything falls.
+    /// True if there is precipitation.
     pub precipitation: bool,
-    /// Whether the strength of any light changes over time.
+    /// True if the strength of any light varies over time.
     pub lights_change: bool,
-    /// A clear sky; `None` where the surroundings are none.
+    /// A clear sky; `None` for other surroundings.
     pub sky: Option<SkyReport>,
 }
 
-/// A mesh as it stands in the scene.
+/// A mesh in the scene.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct MeshReport {
-    /// The first object that it is the shape of.
+    /// The first object with this mesh.
     pub object: String,
-    /// Objects that it is the shape of.
+    /// Number of objects with this mesh.
     pub objects: usize,
     /// Its triangles.
     pub triangles: usize,
@@ -47,15 +47,15 @@ pub struct MeshReport {
 /// A clear sky.
 #[derive(Clone, Copy, Debug, serde::Serialize)]
 pub struct SkyReport {
-    /// How hazy the air is.
+    /// Turbidity of the air.
     pub turbidity: f64,
-    /// Height of the sun's centre, degrees.
+    /// Elevation of the sun's centre, degrees.
     pub sun_elevation_deg: f64,
     /// Azimuth of the sun's centre from +x towards +y, degrees.
     pub sun_azimuth_deg: f64,
-    /// Illuminance of level ground by the sky, lx.
+    /// Illuminance of horizontal ground by the sky, lx.
     pub sky_lx: f64,
-    /// Illuminance of level ground by its own sun, lx; 0 where it is left out or down.
+    /// Illuminance of horizontal ground by the sky's sun, lx; 0 if the sun is disabled or below the horizon.
     pub sun_lx: f64,
 }
 

@@ -1,9 +1,9 @@
-//! Tone curves between those who apply them and those who state them in files.
+//! Conversion between tone curves and their form in files.
 
 use etendue_io::photograph::Encoding;
 use etendue_isp::{Oecf, SCurve, Table, ToneCurve, ToneError};
 
-/// A tone curve as files state it.
+/// A tone curve in the form of files.
 pub fn encoding(curve: &ToneCurve) -> Encoding {
     match curve {
         ToneCurve::Srgb => Encoding::Srgb,
@@ -15,10 +15,10 @@ pub fn encoding(curve: &ToneCurve) -> Encoding {
     }
 }
 
-/// The tone curve that a file states of numbers up to `full_scale`.
+/// The tone curve of a file for numbers up to `full_scale`.
 ///
 /// # Errors
-/// Where its numbers are no curve.
+/// Its numbers are not a valid curve.
 pub fn tone_curve(encoding: &Encoding, full_scale: f64) -> Result<ToneCurve, ToneError> {
     match encoding {
         Encoding::Linear => Ok(ToneCurve::Gamma(1.0)),

@@ -1,4 +1,4 @@
-//! Descriptions that are read by themselves, without a plan: what a job says of rendering, variations of a job, and the data sheet of a camera.
+//! Descriptions that are read without compiling a plan: render settings of a job, variations of a job, and the data sheet of a camera.
 
 use crate::job_request::JobRequest;
 use crate::memory::MemoryFiles;
@@ -13,7 +13,7 @@ use etendue_scene::record::variations::Variations;
 use etendue_scene::{Description, Place, load_datasheet, load_variations, stated_render_keys};
 use std::path::{Path, PathBuf};
 
-/// How a job's file says that a camera renders.
+/// Render settings of a camera as the job's file states them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StatedRender {
     /// Its keys, as dotted keys of the job: `render.spp`, `cameras.front.render.spp`.
@@ -25,10 +25,10 @@ pub struct StatedRender {
 }
 
 impl JobRequest {
-    /// What the job's file says of how a camera renders.
+    /// Returns the render settings of a camera as the job's file states them.
     ///
     /// # Errors
-    /// All faults of the job, and where it has no such camera.
+    /// The job is invalid (all errors), or has no such camera.
     pub fn stated_render(&self, camera: &str) -> Result<StatedRender, Error> {
         let files = MemoryFiles::new();
         let sandbox = self.folders()?;
@@ -45,20 +45,20 @@ impl JobRequest {
     }
 }
 
-/// Reads and checks a variations file; the keys that it names are checked by [`JobRequest::check_changes`].
+/// Reads and checks a variations file; its keys are checked by [`JobRequest::check_changes`].
 ///
 /// # Errors
-/// All faults of the file.
+/// All errors of the file.
 pub fn open_variations(file: &Path) -> Result<Variations, Error> {
     load_variations(file, &read_text).map_err(|faults| Error::inputs(faults.list()))
 }
 
 impl JobRequest {
-    /// Whether the description takes changes `key=value` after those of the request: a fault of one is told where a file states it. The files that
-    /// the description names are not read but for scenes, cameras and bases, and nothing is compiled.
+    /// Checks that the description accepts changes `key=value` after those of the request. An error is reported at the place that states the change. Of the
+    /// files that the description names only scenes, cameras and bases are read, and nothing is compiled.
     ///
     /// # Errors
-    /// All faults of the description with the changes.
+    /// All errors of the description with the changes.
     pub fn check_changes(&self, changes: &[(String, Place)]) -> Result<(), Error> {
         let (files, sandbox) = (MemoryFiles::new(), self.folders()?);
         let mut overrides = self.overrides();
@@ -68,10 +68,10 @@ impl JobRequest {
     }
 }
 
-/// Makes a camera file, with its tables beside it, of a data sheet (TOML); answers with their paths.
+/// Makes a camera file and its tables from a data sheet (TOML); returns their paths.
 ///
 /// # Errors
-/// Where figures are missing, illegal or contradict each other, or the folder cannot be written.
+/// Figures are missing, illegal or contradict each other, or the folder cannot be written.
 pub fn datasheet(
     sheet: &Path,
     folder: &Path,

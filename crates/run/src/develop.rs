@@ -1,4 +1,4 @@
-//! Pictures of raws that were taken before, by a camera file's processing.
+//! Develops raws captured earlier, with a camera file's processing.
 
 use crate::result_files::Files;
 use crate::results::frames::encoded;
@@ -21,37 +21,37 @@ use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// Stored raws and the camera whose processing makes pictures of them.
+/// Stored raws and the camera whose processing develops them.
 #[derive(Args, Clone, Debug)]
 pub struct DevelopRequest {
-    /// Raws (PNG, TIFF, DNG), each with its side-car camera.json beside it
+    /// Raws (PNG, TIFF, DNG), each with its side-car camera.json in the same folder
     #[arg(required = true, value_name = "RAW")]
     pub raws: Vec<PathBuf>,
-    /// The camera file (TOML) whose sensor took them and whose processing makes the pictures
+    /// The camera file (TOML) with the sensor of the raws and the processing
     #[arg(long, value_name = "CAMERA.toml")]
     pub camera: PathBuf,
     /// Change a key of the camera file, e.g. --set isp.demosaic=malvar
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// For raws without a side-car: digital numbers of no light and of a saturated pixel, e.g. 64..4095
+    /// For raws without a side-car: black level and saturation level, DN, e.g. 64..4095
     #[arg(long, value_name = "BLACK..WHITE")]
     pub levels: Option<Levels>,
-    /// The seed of the paper's noises [default: that of the side-car, or 0]
+    /// Seed of the noise of the image filters [default: that of the side-car, or 0]
     #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
 }
 
 impl DevelopRequest {
-    /// Raws with their side-cars, by a camera file as it is.
+    /// Raws with their side-cars, and an unchanged camera file.
     pub fn new(raws: Vec<PathBuf>, camera: impl Into<PathBuf>) -> Self {
         Self { raws, camera: camera.into(), set: Vec::new(), levels: None, seed: None }
     }
 }
 
-/// Makes pictures of raws; writes them into a folder and answers with their paths. Runs on the caller's thread pool.
+/// Develops raws and writes the images into a folder; returns their paths. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where camera or raws cannot be used or contradict each other, or the folder cannot be written.
+/// The camera or the raws cannot be used or contradict each other, or the folder cannot be written.
 pub fn develop(request: &DevelopRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
     let body = open_camera(&request.camera, &request.set)?;
     let camera = Camera::of(&body).ok_or_else(|| {
@@ -69,7 +69,7 @@ pub fn develop(request: &DevelopRequest, folder: &Path, existing: Existing) -> R
     folder.commit().map_err(Error::run)
 }
 
-/// A camera that makes pictures.
+/// A camera with processing.
 struct Camera<'a> {
     body: &'a CameraBody,
     sensor: &'a Sensor,
@@ -114,7 +114,7 @@ fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<
     writer.json(Files::DEVELOPMENT, &facts)
 }
 
-/// Returns the facts of the picture of a raw.
+/// Returns the metadata of a developed raw.
 fn frame(file: &Path, stored: &StoredRaw, picture: &Developed) -> Value {
     json!({
         "frame": stored.address.frame,
@@ -130,9 +130,9 @@ fn frame(file: &Path, stored: &StoredRaw, picture: &Developed) -> Value {
 /// Black and white level of a raw without a side-car, DN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Levels {
-    /// Digital number of no light.
+    /// Black level, DN.
     pub black_dn: f64,
-    /// Digital number of a saturated pixel.
+    /// Saturation level, DN.
     pub white_dn: f64,
 }
 
@@ -150,18 +150,18 @@ impl FromStr for Levels {
     }
 }
 
-/// A raw that is read back, with what its side-car says of it.
+/// A raw read from a file, with the facts of its side-car.
 #[derive(Clone, Debug)]
 struct StoredRaw {
-    /// Its numbers and what is known of them.
+    /// Digital numbers with their metadata.
     raw: Raw,
-    /// Where it stands.
+    /// Address of the frame (job, camera, frame number).
     address: FrameAddress,
-    /// Pixels whose errors may be equal.
+    /// Number of pixels of a block whose errors may be correlated.
     correlated_block_px: u32,
 }
 
-/// Reads a raw of a camera. Without a side-car `levels` are needed, and the raw is frame `number`.
+/// Reads a raw of a camera. Without a side-car `levels` are required, and the raw is frame `number`.
 fn read_raw(
     file: &Path,
     levels: Option<Levels>,
@@ -241,13 +241,13 @@ fn raw(
     }
 }
 
-/// The stored numbers of a grey picture.
+/// Digital numbers of a single-channel image.
 fn numbers(photograph: &Photograph) -> Result<Plane<DigitalNumber>, String> {
     let ([channel], Some(_)) = (&photograph.channels[..], photograph.full_scale) else {
         let names = photograph.names().join(", ");
         return Err(format!("a raw is a grey picture of whole numbers (PNG, TIFF, DNG); this one has {names}"));
     };
-    // Floats hold whole numbers exactly up to here.
+    // Floats represent whole numbers exactly up to here.
     const LARGEST: f32 = 16_777_215.0;
     if let Some(beyond) = channel.samples.iter().find(|v| **v > LARGEST) {
         return Err(format!("it holds the number {beyond}, beyond the 24 bits of raws"));
@@ -279,7 +279,7 @@ fn same_companding(frame: &RawFrame, sensor: &Sensor) -> Result<(), String> {
         .to_owned())
 }
 
-/// Refuses a raw that is no picture of the camera's size.
+/// Refuses a raw whose size differs from the camera's.
 fn fitting(stored: StoredRaw, body: &CameraBody, sensor: &Sensor) -> Result<StoredRaw, String> {
     let (Region { x, y, width, height }, plane) = (stored.raw.picture, &stored.raw.plane);
     let inside = |from: usize, length: usize, all: usize| from.checked_add(length).is_some_and(|end| end <= all);

@@ -1,4 +1,4 @@
-//! Another lens and sensor on stored radiance.
+//! Exposes stored radiance with another lens and sensor.
 
 use crate::result_files::Files;
 use crate::results::frames::{Wanted, frames, write_frames};
@@ -24,43 +24,41 @@ use serde_json::json;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// A stored radiance image and the camera that photographs it.
+/// A stored radiance image and the camera that exposes it.
 #[derive(Args, Clone, Debug)]
 pub struct ExposeRequest {
     /// A spectral radiance image rendered with route = "pupil"
     #[arg(value_name = "RADIANCE.exr")]
     pub radiance: PathBuf,
-    /// The camera file (TOML) to photograph it with
+    /// The camera file (TOML)
     #[arg(long, value_name = "CAMERA.toml")]
     pub camera: PathBuf,
     /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// The seed of the sensor's noise [default: that of the radiance image]
+    /// Seed of the sensor's noise [default: that of the radiance image]
     #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
     /// Frames to take, first to last (the last excluded); each has its own sensor noise
     #[arg(long, value_name = "A..B", value_parser = etendue_arguments::frames, default_value = "0..1")]
     pub frames: Range<u32>,
-    /// How things out of focus are blurred: physical, none, or a look, e.g.
-    /// fast:blur_px=8,near_m=0.5..2,far_m=10..40 [default: physical]
+    /// Blur of objects out of focus: physical, none, or an artistic setting, e.g. fast:blur_px=8,near_m=0.5..2,far_m=10..40 [default: physical]
     #[arg(long, value_name = "METHOD", value_parser = blur_method)]
     pub depth_of_field: Option<DepthOfField>,
 }
 
 impl ExposeRequest {
-    /// One frame with the seed of the image, physically blurred.
+    /// One frame with the seed of the image and physical blur.
     pub fn new(radiance: impl Into<PathBuf>, camera: impl Into<PathBuf>) -> Self {
         let (radiance, camera) = (radiance.into(), camera.into());
         Self { radiance, camera, set: Vec::new(), seed: None, frames: 0..1, depth_of_field: None }
     }
 }
 
-/// Photographs a stored radiance image by another lens and sensor; writes the files into a folder and answers with their paths.
-/// Runs on the caller's thread pool.
+/// Exposes a stored radiance image with another lens and sensor. Writes the files into a folder and returns their paths. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where image or camera cannot be used, the camera looks past the image, or the folder cannot be written.
+/// The image or the camera cannot be used, the camera looks outside the image, or the folder cannot be written.
 pub fn expose(
     request: &ExposeRequest,
     folder: &Path,
@@ -80,8 +78,8 @@ pub fn expose(
     folder.commit().map_err(Error::run)
 }
 
-/// Refuses rows that are read in turn where light depends on time, as the image holds one exposure of it for all of them; says where
-/// another exposure is asked for than the image was gathered over.
+/// Refuses a rolling shutter where light depends on time, because the image holds a single exposure for all rows. Warns if the camera's exposure differs from
+/// the image's.
 fn check_shutter(
     body: &CameraBody,
     stored: &StoredRadiance,
@@ -109,7 +107,7 @@ fn check_shutter(
     Ok(())
 }
 
-/// Everything that the camera can make of the light.
+/// All products that the camera can make from the light.
 fn products(body: &CameraBody) -> Products {
     Products {
         irradiance: true,
@@ -161,7 +159,7 @@ fn write(
     writer.json(Files::SIDECAR, &facts)
 }
 
-/// What the camera's effects need beyond its picture, where they need anything.
+/// Describes the margin that the camera's effects need outside its image; empty if they need none.
 fn margin(body: &CameraBody) -> String {
     match body.effects.margin_px() {
         [0, 0] => String::new(),
@@ -172,7 +170,7 @@ fn margin(body: &CameraBody) -> String {
     }
 }
 
-/// The depth of field that is asked for; where nothing is said, the physical one as far as lens and image allow.
+/// The requested depth of field; by default the physical one as far as lens and image allow.
 fn depth_of_field(
     body: &CameraBody,
     stored: &StoredRadiance,
@@ -210,7 +208,7 @@ fn depth_of_field(
     }
 }
 
-/// Says where blurs from outside of the picture are cut off.
+/// Warns where blur from outside the image is cut off.
 fn warn_of_margin(
     body: &CameraBody,
     stored: &StoredRadiance,
@@ -262,17 +260,17 @@ pub(crate) struct StoredRadiance {
     pub(crate) radiance: SpectralCube<Radiance>,
     /// Variance of its band means, where it is stored.
     pub(crate) variance: Option<SpectralCube<Variance>>,
-    /// Distance of what each pixel sees; `None` in files of former versions.
+    /// Distance of the surface that each pixel sees; `None` in files of earlier versions.
     pub(crate) distance: Option<Plane<Length>>,
     pub(crate) projection: PupilProjection,
     pub(crate) provenance: Provenance,
 }
 
 impl StoredRadiance {
-    /// Reads it.
+    /// Reads the image and its geometry.
     ///
     /// # Errors
-    /// Where the file is no radiance that etendue rendered at the pupil.
+    /// The file is not radiance at the pupil rendered by etendue.
     pub(crate) fn open(path: &Path) -> Result<Self, Error> {
         let refuse = |why: &str| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", path.display()));
         let file = read_spectral(path).map_err(Error::input)?;
@@ -288,17 +286,17 @@ impl StoredRadiance {
         Ok(Self { radiance, variance: image.variance, distance: file.distance, projection, provenance })
     }
 
-    /// The place of the camera that rendered it in its job; 0 in files of former versions.
+    /// Index, within its job, of the camera that rendered the image; 0 in files of earlier versions.
     pub(crate) fn camera_index(&self) -> u32 {
         self.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0)
     }
 
-    /// The exposure time over which light that depends on time was gathered; `None` where it does not.
+    /// Exposure time over which time-dependent light was accumulated; `None` for constant light.
     pub(crate) fn exposure_s(&self) -> Option<f64> {
         self.provenance.further.get(metadata::EXPOSURE_S).and_then(|s| s.parse().ok())
     }
 
-    /// Pixels whose errors may be equal.
+    /// Number of pixels of a block whose errors may be correlated.
     pub(crate) fn correlated_block_px(&self) -> u32 {
         self.provenance.further.get("correlated_block_px").and_then(|n| n.parse().ok()).unwrap_or(1)
     }

@@ -1,11 +1,11 @@
-//! Films on disk: what a shard hands to `merge`, and the state of a progressive run.
+//! Films on disk: the output of a shard for `merge`, and the state of a progressive run.
 //!
-//! Every number of a film is stored as it is in memory (32 bits), so that one that is read back is the same to the bit. Its header states what it is of: plan,
-//! seed, camera, frame, capture and shard. A film is used only where all of them are those that are expected, every pixel of the shard's tiles has samples and
-//! no other has, and its numbers are finite.
+//! Every number of a film is stored as in memory (32 bits), so that a film read back is equal to the bit. Its header states its origin: plan, seed, camera,
+//! frame, capture and shard. A film is used only if all of these are as expected, exactly the pixels of the shard's tiles have samples, and its numbers are
+//! finite.
 //!
-//! The state of a progressive run is its films so far, in a folder beside the results: a file a film, replaced as a whole after each pass, whose header says as
-//! well which passes it holds. A run that is killed at any moment finds the last whole pass; at the end of a run there is no state.
+//! The state of a progressive run is its films so far, in a folder next to the results. Each film has one file, which is replaced as a whole after each pass
+//! and whose header states its passes. A run that is killed at any moment finds the last whole pass. A complete run leaves no state.
 
 use crate::results::metadata;
 use crate::results::writer::write_exr;
@@ -23,10 +23,10 @@ use etendue_pipeline::tile::{Shard, tiles};
 use std::fs::DirEntry;
 use std::path::Path;
 
-/// Ending of the name of a film.
+/// Suffix of a film's file name.
 const FILM: &str = ".film.exr";
 
-/// The name of a camera's film; with frame and capture where each has its own.
+/// File name of a camera's film; includes frame and capture where each has its own film.
 pub(crate) fn film_name(camera: &CameraPlan, shot: Shot) -> String {
     let Shot { frame, capture } = shot;
     match camera.time {
@@ -35,17 +35,17 @@ pub(crate) fn film_name(camera: &CameraPlan, shot: Shot) -> String {
     }
 }
 
-/// The folder of the state of a progressive run, no name of a camera.
+/// Folder of the state of a progressive run; not a legal camera name.
 const STATE_FOLDER: &str = ".progress";
 
-/// Returns true if an output folder holds a state. A link in the place of its folder holds none.
+/// Returns true if an output folder holds a state. A link in place of that folder is not followed.
 pub(crate) fn holds_state(folder: &Path) -> bool {
     let state = folder.join(STATE_FOLDER);
     let is_film = |file: DirEntry| file.file_name().to_string_lossy().ends_with(FILM);
     !state.is_symlink() && state.read_dir().into_iter().flatten().flatten().any(is_film)
 }
 
-/// A film, to be written.
+/// The image of a film, ready to write.
 pub(crate) fn image<'a>(film: &'a Film, facts: &Provenance) -> ExrImage<'a> {
     let mut layers = vec![
         ("weight".to_owned(), Layer::Float(film.weight.samples())),
@@ -69,25 +69,25 @@ pub(crate) fn image<'a>(film: &'a Film, facts: &Provenance) -> ExrImage<'a> {
     layers_image(film.weight.width(), film.weight.height(), &layers, facts)
 }
 
-/// Facts of a film's header beside those of every result.
+/// Facts of a film's header in addition to those of every result.
 const CAPTURE: &str = "capture";
 const SHARD: &str = "shard";
 
-/// What a stored film is of.
+/// Origin of a stored film.
 #[derive(Clone, Copy)]
 pub(crate) struct FilmOrigin<'a> {
     /// The plan.
     pub(crate) plan: &'a Plan,
-    /// The first camera of those that share the light.
+    /// The first of the cameras that share the light.
     pub(crate) camera: &'a CameraPlan,
     /// Frame and capture.
     pub(crate) shot: Shot,
-    /// The tiles that it holds.
+    /// The tiles that the film holds.
     pub(crate) shard: Shard,
 }
 
 impl FilmOrigin<'_> {
-    /// What the header states.
+    /// The facts of the header.
     pub(crate) fn facts(&self) -> Provenance {
         let mut facts = metadata::provenance(self.plan, self.camera, self.shot.frame);
         facts.further.insert(CAPTURE.to_owned(), self.shot.capture.to_string());
@@ -95,7 +95,7 @@ impl FilmOrigin<'_> {
         facts
     }
 
-    /// The first fact of a header that is another, in words.
+    /// Describes the first fact of a header that differs.
     fn difference(&self, found: &Provenance) -> Option<String> {
         let expected = self.facts();
         let further = |facts: &Provenance, name: &str| facts.further.get(name).cloned().unwrap_or_default();
@@ -115,12 +115,12 @@ impl FilmOrigin<'_> {
         Some(format!("its header states {stated}, where {expected} is expected"))
     }
 
-    /// What is wrong with the numbers of a film, in words.
+    /// Describes an error in the numbers of a film.
     fn fault(&self, film: &Film) -> Option<String> {
         let (width, height) = self.camera.film_size();
         let own = tiles(width, height, self.camera.settings.tile_px, self.shard);
         let sampled = |x: u32, y: u32| film.samples.at(x as usize, y as usize) > 0;
-        // Passes of parts of the pixels alone leave some without samples.
+        // Passes over a subset of the pixels leave some pixels without samples.
         let is_whole = self.camera.passes.as_ref().is_none_or(|passes| passes.list().is_empty() || passes.spp() > 0);
         if is_whole && !own.iter().flat_map(|tile| tile.pixels()).all(|pixel| sampled(pixel.x, pixel.y)) {
             return Some("pixels of its tiles have no samples: it is not complete".to_owned());
@@ -130,7 +130,7 @@ impl FilmOrigin<'_> {
             return Some("pixels outside its tiles have samples: it is of another shard".to_owned());
         }
         let is_finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
-        // A single replicate knows no variance; a large one may be beyond 32 bits.
+        // A single replicate gives no variance; a large variance may exceed the range of 32 bits.
         let is_variance = |values: &[f32]| values.iter().all(|value| value.is_nan() || *value >= 0.0);
         let bands = film.cube().is_none_or(|cube| {
             cube.mean.planes().iter().all(|plane| is_finite(plane.samples()))
@@ -150,15 +150,15 @@ impl FilmOrigin<'_> {
     }
 }
 
-/// A film that is of what is expected, and its facts. `remedy` says what to do about another one.
+/// Reads a film of the expected origin and its facts. `remedy` is the advice of the error message for a film of another origin.
 ///
 /// # Errors
-/// Where it cannot be read, is of another origin, is not complete, or has numbers that are not finite.
+/// The file cannot be read, is of another origin, is incomplete, or has numbers that are not finite.
 pub(crate) fn read(path: &Path, origin: &FilmOrigin<'_>, remedy: &str) -> Result<(Film, Provenance), Error> {
     let refused = |why: &str| Error::coded(ErrorCode::OtherRun, format!("{}: {why}; {remedy}", path.display()));
     let camera = origin.camera;
     let (width, height) = camera.film_size();
-    // Most of a shard's film is black, and packs well.
+    // Most of a shard's film is black and compresses well.
     let most_bytes = camera.film_layout().bytes(width as usize, height as usize) as u64;
     let file = read_exr_within(path, most_bytes).map_err(Error::input)?;
     let facts = file.provenance();
@@ -219,37 +219,37 @@ fn fill_counts(plane: &mut Plane<Identity>, file: &ExrFile, name: &str) -> Optio
     }
 }
 
-/// Facts of a film of a state.
+/// Facts of a film in a stored state.
 const PASSES: &str = "passes_done";
 const REPLICATES: &str = "passes_replicates";
 const SECONDS: &str = "passes_s";
 
-/// The passes that a stored film holds.
+/// The passes in a stored film.
 #[derive(Clone, Debug)]
 pub(crate) struct StoredPasses {
-    /// At least one.
+    /// Passes, at least one.
     pub(crate) passes: Passes,
-    /// Replicates of each of them.
+    /// Replicates of each pass.
     pub(crate) replicates: u32,
-    /// Time that the run had taken, s, where a time decides the passes.
+    /// Time that the run has taken, s, in a run of a given time.
     pub(crate) elapsed_s: f64,
 }
 
-/// The name, within an output folder, of the state of a film.
+/// Path, within an output folder, of the stored state of a film.
 pub(crate) fn state_name(camera: &CameraPlan, shot: Shot) -> String {
     format!("{STATE_FOLDER}/{}", film_name(camera, shot))
 }
 
-/// Removes the state in an output folder: the films, and their folder where nothing else is in it.
+/// Removes the state in an output folder: the films, and their folder if it is then empty.
 ///
 /// # Errors
-/// Where a link is in the place of the folder, or a film cannot be removed.
+/// A link is in place of the folder, or a film cannot be removed.
 pub(crate) fn remove_state(folder: &OutputFolder) -> Result<(), etendue_io::Error> {
     let films = folder.files_in(STATE_FOLDER)?;
     folder.remove(films.iter().map(String::as_str).filter(|name| name.ends_with(FILM)))
 }
 
-/// Refuses a folder that holds the state of another run, where the run may neither go on with it nor replace it, and a link in the place of the state.
+/// Refuses a folder with the state of another run that the run may neither resume nor replace, and a link in place of the state.
 pub(crate) fn check_state(folder: &OutputFolder, existing: Existing) -> Result<(), Error> {
     folder.files_in(STATE_FOLDER).map_err(Error::input)?;
     if existing != Existing::Refuse || !holds_state(folder.path()) {
@@ -264,10 +264,10 @@ pub(crate) fn check_state(folder: &OutputFolder, existing: Existing) -> Result<(
     ))
 }
 
-/// The film that an interrupted run left in an output folder, and its passes; `None` where there is none.
+/// Returns the film of an interrupted run in an output folder, and its passes; `None` if there is none.
 ///
 /// # Errors
-/// Where it is of another origin, or cannot be read.
+/// It is of another origin, or cannot be read.
 pub(crate) fn read_state(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Option<(Film, StoredPasses)>, Error> {
     let path = folder.join(state_name(origin.camera, origin.shot));
     if !path.exists() {
@@ -290,7 +290,7 @@ pub(crate) fn read_state(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Optio
     }
 }
 
-/// Writes a film to the state in an output folder, where it has its final name when that publishes.
+/// Writes a film to the state in an output folder; it receives its final name when the folder publishes.
 pub(crate) fn write_state(
     folder: &mut OutputFolder,
     origin: &FilmOrigin<'_>,

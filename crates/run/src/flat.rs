@@ -1,4 +1,4 @@
-//! Even light on a camera's bare sensor.
+//! Uniform illumination on a camera's bare sensor.
 
 use crate::result_files::Files;
 use crate::results::frames::{Wanted, encoded_raw, frames, write_frames};
@@ -22,16 +22,16 @@ use std::fmt::Write as _;
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
-/// The series as the standard's reference program reads it.
+/// Name of the descriptor file that the reference program of EMVA 1288 reads.
 const DESCRIPTOR: &str = "emva1288.txt";
 
-/// The camera's place among those of a job: it stands alone.
+/// Index of the camera: the only one.
 const CAMERA: u32 = 0;
 
-/// Electrons are whole numbers up to here, 2⁵³.
+/// Largest float up to which electrons are whole numbers, 2⁵³.
 const MAX_E: f32 = 9_007_199_254_740_992.0;
 
-/// The even light, or the series of lights.
+/// Uniform illumination, or a series of it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FlatSource {
     /// Irradiance of the sensor, W/m², 0 or more; 0 is dark.
@@ -39,15 +39,15 @@ pub enum FlatSource {
         /// W/m².
         w_m2: f64,
     },
-    /// Photons on the whole square of a pixel over the exposure, 0 or more; 0 is dark.
+    /// Photons on the full area of a pixel over the exposure, 0 or more; 0 is dark.
     Photons {
-        /// Photons a pixel.
+        /// Photons per pixel.
         per_pixel: f64,
     },
-    /// The series of EMVA 1288: `levels` exposures up to the camera's, where the light just saturates, two bright and two dark frames
-    /// each; then a stack of `stack` frames at half of saturation and one in the dark.
+    /// The series of EMVA 1288: `levels` exposures up to the camera's, at which the light just saturates, with two bright and two dark frames each; then a
+    /// stack of `stack` frames at half of saturation and one in the dark.
     PhotonTransfer {
-        /// How many exposures, 3 or more.
+        /// Number of exposures, 3 or more.
         levels: u32,
         /// Frames of each stack, 3 or more.
         stack: u32,
@@ -56,10 +56,10 @@ pub enum FlatSource {
 
 /// Wavelengths of the light, nm.
 const WAVELENGTHS_NM: RangeInclusive<f64> = 300.0..=1100.0;
-/// Exposures of a series, and frames of each of its stacks.
+/// Range of the number of exposures of a series, and of the frames of each stack.
 const LEVELS: RangeInclusive<u32> = 3..=10_000;
 
-/// The light as arguments: one of three, and the stacks of the third.
+/// Arguments of the light: one of three, and the stacks of the third.
 #[derive(Args)]
 struct FlatArguments {
     #[command(flatten)]
@@ -70,18 +70,18 @@ struct FlatArguments {
     stack: u32,
 }
 
-/// How bright even light is.
+/// Level of the uniform illumination.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 struct Brightness {
     /// Irradiance of the sensor, W/m²; 0 is dark
     #[arg(long, value_name = "E", value_parser = irradiance_w_m2, allow_negative_numbers = true)]
     irradiance_w_m2: Option<f64>,
-    /// Photons of that wavelength on the whole square of a pixel over the exposure, in place of the irradiance; 0 is dark
+    /// Photons of that wavelength on the full area of a pixel over the exposure, instead of the irradiance; 0 is dark
     #[arg(long, value_name = "N", value_parser = photons, allow_negative_numbers = true)]
     photons: Option<f64>,
-    /// The series of EMVA 1288 instead: so many exposures up to the camera's exposure_s, where the light just saturates, two
-    /// bright and two dark frames each; then a stack at half of saturation and one in the dark
+    /// The series of EMVA 1288 instead: number of exposures up to the camera's exposure_s, at which the light just saturates, with two bright and two dark
+    /// frames each; then a stack at half of saturation and one in the dark
     #[arg(long, value_name = "LEVELS", value_parser = whole(LEVELS), allow_negative_numbers = true)]
     photon_transfer: Option<u32>,
 }
@@ -132,34 +132,34 @@ fn photons(text: &str) -> Result<f64, String> {
     n.ok_or_else(|| format!("expected 0 photons a pixel or more, not '{text}'"))
 }
 
-/// Even light of one wavelength on a camera's bare sensor.
+/// Uniform monochromatic illumination on a camera's bare sensor.
 #[derive(Args, Clone, Debug)]
 pub struct FlatRequest {
-    /// The camera file (TOML); its lens is taken off
+    /// The camera file (TOML); its lens is ignored
     #[arg(value_name = "CAMERA.toml")]
     pub camera: PathBuf,
     /// Wavelength of the light, nm
     #[arg(long, value_name = "NM", value_parser = wavelength_nm, allow_negative_numbers = true)]
     pub wavelength_nm: f64,
-    /// How bright the light is.
+    /// Level of the light.
     #[command(flatten)]
     pub source: FlatSource,
     /// Frames to take, first to last (the last excluded); each has its own sensor noise
     #[arg(long, value_name = "A..B", value_parser = etendue_arguments::frames, default_value = "0..1", conflicts_with = "photon_transfer")]
     pub frames: Range<u32>,
-    /// Write what each pixel's digital number is made of
+    /// Write the components of each pixel's digital number
     #[arg(long, conflicts_with = "photon_transfer")]
     pub signal_breakdown: bool,
     /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// The seed of the sensor's noise [default: 0]
+    /// Seed of the sensor's noise [default: 0]
     #[arg(long, value_name = "N", value_parser = seed, default_value_t = 0, hide_default_value = true)]
     pub seed: u64,
 }
 
 impl FlatRequest {
-    /// One frame with the seed 0.
+    /// One frame with seed 0.
     pub fn new(camera: impl Into<PathBuf>, wavelength_nm: f64, source: FlatSource) -> Self {
         let camera = camera.into();
         Self { camera, set: Vec::new(), wavelength_nm, source, frames: 0..1, signal_breakdown: false, seed: 0 }
@@ -180,11 +180,11 @@ impl FlatRequest {
     }
 }
 
-/// Photographs even light by a camera's bare sensor, or takes the series by which EMVA 1288 measures; nothing is traced. Writes into a
-/// folder and answers with the files' paths. Runs on the caller's thread pool.
+/// Captures uniform illumination with a camera's bare sensor, or the measurement series of EMVA 1288. Nothing is traced. Writes into a
+/// folder and returns the paths of the files. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the camera has no electronics, the light is more than can be counted, or the folder cannot be written.
+/// The camera has no electronics, the light exceeds the countable range, or the folder cannot be written.
 pub fn flat(
     request: &FlatRequest,
     folder: &Path,
@@ -232,7 +232,7 @@ fn body(request: &FlatRequest) -> Result<CameraBody, Error> {
     flat::bare(&body).ok_or_else(lack)
 }
 
-/// What was asked for.
+/// The request with the compiled camera and its output.
 struct Task<'a> {
     request: &'a FlatRequest,
     body: &'a CameraBody,
@@ -263,7 +263,7 @@ impl Task<'_> {
         FrameAddress { seed: self.seed(), camera: CAMERA, frame, capture: 0 }
     }
 
-    /// Single frames of one light, which was `given` so.
+    /// Single frames of one light; `given` is its description in the facts.
     fn single(&self, light: FlatLight, given: &str, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let files = Files::of(&self.products(), self.body, &self.request.frames);
         files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
@@ -293,7 +293,7 @@ impl Task<'_> {
         writer.json(Files::SIDECAR, &facts)
     }
 
-    /// The standard's series.
+    /// The series of EMVA 1288.
     fn series(&self, series: &PhotonTransfer, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let channels = self.sensor.parameters().channels.len();
         if channels > 1 {
@@ -311,7 +311,7 @@ impl Task<'_> {
         writer.json(Files::SIDECAR, &facts)
     }
 
-    /// The frames of a stack, and their size.
+    /// Writes the frames of a stack; returns their size.
     fn stack(&self, stack: &Stack, light: FlatLight, writer: &mut ResultWriter<'_>) -> Result<(usize, usize), Error> {
         let lit = f64::from(u8::from(stack.photons > 0.0));
         let light = FlatLight { irradiance_w_m2: lit * light.irradiance_w_m2, ..light };
@@ -329,8 +329,8 @@ impl Task<'_> {
         Ok(size)
     }
 
-    /// The series in the words of the reference program: `n` bits, columns, rows; `b` exposure in ns, photons a pixel; `d`
-    /// exposure in the dark; `i` a file.
+    /// The series in the format of the reference program: `n` bits, columns, rows; `b` exposure in ns, photons per pixel; `d` exposure in the dark; `i` a
+    /// file.
     fn descriptor(&self, series: &PhotonTransfer, columns: usize, rows: usize) -> String {
         let mut text = format!("v 4.0\nn {} {columns} {rows}\n", self.sensor.delivered_bits());
         for stack in &series.stacks {
@@ -339,7 +339,7 @@ impl Task<'_> {
                 0.0 => format!("d {exposure_ns:.3}"),
                 photons => format!("b {exposure_ns:.3} {photons:.6}"),
             };
-            // Writing to a string does not fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(text, "{head}");
             stack.frames.clone().for_each(|n| text += &format!("i {}\n", self.file(n)));
         }

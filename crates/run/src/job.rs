@@ -1,4 +1,4 @@
-//! From a job file and what changes it to a plan, and from a plan to results.
+//! Compiles a job file and its changes to a plan, and renders a plan to results.
 
 use crate::job_request::{JobRequest, RenderOptions};
 use crate::memory::MemoryFiles;
@@ -26,15 +26,15 @@ impl JobRequest {
     /// Reads, checks and compiles the job. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// All faults of the job and of the files that it names.
+    /// All errors of the job and of the files that it names.
     pub fn open(self) -> Result<Job, Error> {
         self.open_in(&MemoryFiles::new())
     }
 
-    /// The same with files that a program made in memory. Runs on the caller's thread pool.
+    /// Does the same as [`open`](Self::open), with files in memory. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// All faults of the job and of the files that it names.
+    /// All errors of the job and of the files that it names.
     pub fn open_in(self, files: &MemoryFiles) -> Result<Job, Error> {
         self.check()?;
         let sandbox = self.folders()?.noting();
@@ -44,7 +44,7 @@ impl JobRequest {
         let assets = assets.map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
         let mut plan = self.narrowed(plan)?;
-        // Scratch files leave nothing behind.
+        // Scratch files are removed at the end.
         let stays = self.textures.cache_use == CacheUse::KeepInOutput;
         plan.film_limit = Some(self.films.limit(self.textures.cache.as_ref().filter(|_| !stays)));
         let (plan, mut files) = (Arc::new(plan), sandbox.looked_for());
@@ -53,7 +53,7 @@ impl JobRequest {
     }
 }
 
-/// A job that was read, checked and compiled: nothing after it fails because of what its user wrote.
+/// A job that was read, checked and compiled. After this no error in the user's input remains.
 #[derive(Clone, Debug)]
 pub struct Job {
     request: JobRequest,
@@ -62,59 +62,58 @@ pub struct Job {
 }
 
 impl Job {
-    /// Opens a job file as it is; [`JobRequest::open`] opens it with changes. Runs on the caller's thread pool.
+    /// Opens a job file without changes; [`JobRequest::open`] opens it with changes. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// All faults of the job and of the files that it names.
+    /// All errors of the job and of the files that it names.
     pub fn open(job: impl Into<PathBuf>) -> Result<Self, Error> {
         JobRequest::new(job).open()
     }
 
-    /// What was asked for.
+    /// The request that the job was opened with.
     #[must_use]
     pub fn request(&self) -> &JobRequest {
         &self.request
     }
 
-    /// What will be modelled.
+    /// The plan: what is modelled.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// The plan in words: what is modelled, what is left out and why, and what it will cost.
+    /// The plan as text: what is modelled, what is left out and why, and the estimated cost.
     #[must_use]
     pub fn summary(&self) -> String {
         Summary(&self.plan).to_string()
     }
 
-    /// The same for programs.
+    /// The plan as machine-readable data.
     #[must_use]
     pub fn report(&self) -> PlanReport {
         PlanReport::of(&self.request.job, &self.plan)
     }
 
-    /// Everything that can cost or change a frame, by cameras: whether it is modelled, what it takes, and by which changes of keys
-    /// ([`JobRequest::set`]) it is left out.
+    /// All effects that can cost time or change a frame, by camera: whether each is modelled, its cost, and the changes of keys ([`JobRequest::set`]) that
+    /// leave it out.
     #[must_use]
     pub fn effects(&self) -> Vec<(&CameraPlan, Vec<PlannedEffect>)> {
         self.plan.cameras.iter().map(|camera| (camera, self.plan.effects(camera))).collect()
     }
 
-    /// What the request supersedes of the job file, a sentence each.
+    /// Settings of the job file that the request overrides, one sentence each.
     #[must_use]
     pub fn notices(&self) -> &[String] {
         &self.plan.notices
     }
 
-    /// The files that were read: the job and all that it names, by the paths that they were read by. What a program made in memory is not among
-    /// them.
+    /// The files that were read: the job and all files that it names, by the paths used. Files in memory are not included.
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
 
-    /// The names of all files of a whole run, relative to its output folder.
+    /// Names of all files of a complete run, relative to its output folder.
     #[must_use]
     pub fn file_names(&self, frames: &Range<u32>) -> Vec<String> {
         Sequence::new(&self.plan, frames.clone()).file_names(&self.plan)
@@ -124,7 +123,7 @@ impl Job {
     /// Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// Where the observer cancels, or light is not finite.
+    /// The observer cancels, or light is not finite.
     pub fn render(&self, options: &RenderOptions, observer: &dyn Observer) -> Result<Results, Error> {
         let mut cameras = Vec::new();
         self.render_each(options, observer, |camera| {
@@ -134,11 +133,11 @@ impl Job {
         Ok(Results::new(cameras))
     }
 
-    /// Renders camera after camera and hands each one's results over; cameras of equal light are rendered once and follow one another. Runs
+    /// Renders one camera after the other and passes the results of each to `take`. Cameras of equal light are rendered once and follow one another. Runs
     /// on the caller's thread pool.
     ///
     /// # Errors
-    /// Where the observer cancels, light is not finite, or `take` fails.
+    /// The observer cancels, light is not finite, or `take` fails.
     pub fn render_each(
         &self,
         options: &RenderOptions,
@@ -152,12 +151,12 @@ impl Job {
         Ok(())
     }
 
-    /// Renders camera after camera, where light depends on time frame after frame, and writes each one's files before the next is
-    /// rendered; answers with the paths of what it wrote. Files get their names when all are complete, those of a frame that has a light of its
-    /// own when that frame is: a run that is interrupted keeps them, and one that resumes goes on after them. Runs on the caller's thread pool.
+    /// Renders one camera after the other (one frame after the other where light depends on time) and writes the files of each before it renders the next.
+    /// Returns the paths of the written files. Files receive their final names when all are complete; those of a frame with its own light, when that frame is
+    /// complete. An interrupted run keeps them, and a resumed run continues after them. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// Where the observer cancels, light is not finite, or the folder cannot be written.
+    /// The observer cancels, light is not finite, or the folder cannot be written.
     pub fn save(
         &self,
         options: &RenderOptions,
@@ -180,11 +179,11 @@ impl Job {
         Run::new(&self.plan, options, self.request.time_s, observer)
     }
 
-    /// Writes where all cameras stand and how they project, over frames, in the files of ROS, Kalibr and COLMAP; answers with their paths. Nothing is
+    /// Writes poses and projections of all cameras over frames, in the formats of ROS, Kalibr and COLMAP; returns the paths. Nothing is
     /// rendered.
     ///
     /// # Errors
-    /// Where frames have no times, or the folder cannot be written.
+    /// Frames have no times, or the folder cannot be written.
     pub fn save_calibration_files(
         &self,
         frames: &Range<u32>,
@@ -200,10 +199,10 @@ impl Job {
         folder.commit().map_err(Error::run)
     }
 
-    /// Refuses films that cannot be stored, and a run of these frames that needs more memory than is free, before the first sample.
+    /// Refuses, before the first sample, films that cannot be stored and a run of these frames that needs more memory than is free.
     fn check_memory(&self, frames: &Range<u32>) -> Result<(), Error> {
         let memory = RunMemory::new(&self.plan, rayon::current_num_threads());
-        // A run of a stated time holds the films of all cameras and frames.
+        // A run of a given time holds the films of all cameras and frames.
         let memory = match self.request.time_s {
             Some(_) => memory.holding_films(&self.plan, frames.len()),
             None => memory,
@@ -211,7 +210,7 @@ impl Job {
         memory_limits::check(&self.plan, &memory, &self.request.memory)
     }
 
-    /// The same for a shard, which gathers films and writes nothing else.
+    /// The same check for a shard, which renders films and writes nothing else.
     pub(crate) fn check_shard_memory(&self) -> Result<(), Error> {
         let memory = RunMemory::new(&self.plan, rayon::current_num_threads()).films_only();
         memory_limits::check(&self.plan, &memory, &self.request.memory)

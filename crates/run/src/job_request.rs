@@ -1,4 +1,4 @@
-//! A job file and what is changed in it, and which of its frames are taken.
+//! A job file with changes, and the selection of frames.
 
 use crate::memory_limits::{FilmMemory, MemoryLimits};
 use clap::Args;
@@ -12,13 +12,13 @@ use etendue_tracer::accel::Simd;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// The least time that can be kept, s.
+/// Minimum time of a run of a given time, s.
 const MIN_TIME_S: f64 = 10.0;
 
-/// The folder of tiles in an output folder, no name of a camera.
+/// Folder of texture tiles in an output folder; not a legal camera name.
 const TILES: &str = ".texture-cache";
 
-/// A job file and what is changed in it: enough to make the same plan again.
+/// A job file with its changes: sufficient to make the same plan again.
 #[derive(Args, Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JobRequest {
@@ -28,79 +28,76 @@ pub struct JobRequest {
     /// Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's]
+    /// Samples per pixel, over all replicates, of every camera [default: that of the job or of the quality]
     #[arg(long, value_name = "N")]
     pub spp: Option<u64>,
-    /// As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a
-    /// sensor), at most render.max_spp
+    /// Sample each pixel until its standard error is F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp
+    /// samples
     #[arg(long, value_name = "F", conflicts_with = "spp")]
     pub noise: Option<f64>,
-    /// As many samples as this much time of light allows, s, 10 or more: all cameras and frames together, from the first sample on, by the
-    /// observer's clock; `None`: as the job says.
+    /// Rendering time, s, 10 or more, of all cameras and frames together, from the first sample on, by the observer's clock; `None`: as the job states.
     #[arg(skip)]
     pub time_s: Option<f64>,
-    /// Whether light comes in passes, by a schedule that doubles where neither the job nor a time says others, and what is saved
-    /// is refined and can be resumed after each.
+    /// If true, rendering is progressive: passes double where neither the job nor a time states others; the saved results are refined after each pass and can
+    /// be resumed.
     #[arg(skip)]
     pub progressive: bool,
-    /// Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and the same mean level, with one
-    /// pixel in the place of K × K; it sets sensor.scale of all cameras
+    /// Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel in place of
+    /// K × K; sets sensor.scale of all cameras
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[arg(long, value_name = "1/K")]
     pub scale: Option<String>,
-    /// How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]
+    /// Light paths that every camera simulates, as in render.integrator [default: the job's, or path]
     #[arg(long, value_parser = word::<Integrator>())]
     pub integrator: Option<Integrator>,
-    /// A preset of samples and bounces, for what the job file leaves open
+    /// Preset of samples and bounces, for keys that the job file leaves open
     #[arg(long, value_parser = word::<Quality>())]
     pub quality: Option<Quality>,
     /// Render only this camera of the job
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
-    /// The seed of all random numbers [default: the job's, or 0]
+    /// Seed of all random numbers [default: the job's, or 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Folders beside the job's own that its files may lie in, however they are named: in the job, a base, a scene, a camera, a material library, a lamp or
-    /// a change. `None`: files may lie anywhere. A shard keeps it for `merge`.
+    /// Folders, in addition to the job's own, that its files may lie in, whatever names them: the job, a base, a scene, a camera, a material library, a lamp
+    /// or a change. `None`: files may lie anywhere. A shard stores it for `merge`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[arg(skip)]
     pub sandbox: Option<Vec<PathBuf>>,
-    /// How much memory textures may take, and where those are kept that take more. It belongs to the machine and not to the plan: files that state a
-    /// request leave it out.
+    /// Memory limit of textures, and the place of those that exceed it. A property of the machine, not of the plan: files that state a request omit it.
     #[serde(skip)]
     #[arg(skip)]
     pub textures: TextureMemory,
-    /// How much memory films may take, and where those are kept that take more. It belongs to the machine as well.
+    /// Memory limit of films, and the place of those that exceed it. A property of the machine as well.
     #[serde(skip)]
     #[arg(skip)]
     pub films: FilmMemory,
-    /// The memory that is free for the run; a run that needs more is refused. It is a property of the machine as well; by default no limit is known.
+    /// Free memory for the run; a run that needs more is refused. A property of the machine as well; by default no limit is known.
     #[serde(skip)]
     #[arg(skip)]
     pub memory: MemoryLimits,
 }
 
-/// Which frames are taken, and how: what does not change the light.
+/// Selection of frames, and how they are rendered: options that do not change the light.
 #[derive(Args, Clone, Debug, Eq, PartialEq)]
 pub struct RenderOptions {
-    /// Frames to take, first to last (the last excluded); each has its own sensor noise. Light that does not depend on time is
-    /// rendered once
+    /// Frames to take, first to last (the last excluded); each has its own sensor noise. Time-independent light is rendered once
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
     pub frames: Range<u32>,
-    /// The instruction set of the accelerator. The result does not depend on it.
+    /// Instruction set of the accelerator. The result does not depend on it.
     #[arg(skip)]
     pub simd: Simd,
 }
 
 impl Default for RenderOptions {
-    /// Frame 0, by the best instruction set of the processor.
+    /// Frame 0, with the best instruction set of the processor.
     fn default() -> Self {
         Self { frames: 0..1, simd: Simd::Auto }
     }
 }
 
 impl JobRequest {
-    /// A job file as it is.
+    /// A job file without changes.
     pub fn new(job: impl Into<PathBuf>) -> Self {
         Self {
             job: job.into(),
@@ -121,7 +118,7 @@ impl JobRequest {
         }
     }
 
-    /// The same for a run into an output folder: the tiles of textures of a sandboxed job that names no folder for them are there, in `.texture-cache`.
+    /// Sets the output folder. The texture tiles of a sandboxed job that names no folder for them are there, in `.texture-cache`.
     #[must_use]
     pub fn into_output(mut self, folder: &Path) -> Self {
         if self.sandbox.is_some() && self.textures.cache.is_none() {
@@ -132,7 +129,7 @@ impl JobRequest {
     }
 
     /// Returns the memory limit of textures. A sandboxed job without a folder for tiles and without an output folder keeps all textures in memory: it writes
-    /// nothing outside the folders that it may use.
+    /// nothing outside its permitted folders.
     pub(crate) fn texture_memory(&self) -> TextureMemory {
         let has_no_folder =
             self.sandbox.is_some() && self.textures.cache.is_none() && self.textures.cache_use == CacheUse::Keep;
@@ -140,20 +137,20 @@ impl JobRequest {
         TextureMemory { limit_bytes, ..self.textures.clone() }
     }
 
-    /// The same for what is told of a job without rendering it: no tiles of textures are written.
+    /// Disables texture tiles on disk: for reports on a job that is not rendered.
     #[must_use]
     pub fn without_tiles(mut self) -> Self {
         self.textures.cache_use = CacheUse::Read;
         self
     }
 
-    /// Where the files of the job may lie.
+    /// Folders in which the files of the job may lie.
     pub(crate) fn folders(&self) -> Result<Sandbox, Error> {
         let Some(further) = &self.sandbox else { return Ok(Sandbox::NONE) };
         Sandbox::about(&self.job, further)
     }
 
-    /// Refuses what excludes one another, and a time that cannot be kept.
+    /// Refuses options that exclude one another, and a time that is too short.
     pub(crate) fn check(&self) -> Result<(), Error> {
         if self.textures.limit_bytes == 0 {
             return Err(Error::argument(
@@ -181,7 +178,7 @@ impl JobRequest {
         }
     }
 
-    /// The changes to the description: what is asked for goes through the same check as its key.
+    /// The changes to the description; options are checked in the same way as their keys.
     pub(crate) fn overrides(&self) -> Overrides {
         let mut overrides = Overrides::new(&self.set);
         let mut flag = |name: &str, key, value: String, shown: &str| {
@@ -215,7 +212,7 @@ impl JobRequest {
         Choices { quality: self.quality, refinement }
     }
 
-    /// Only the camera that was asked for. Its random addresses are those it has among all.
+    /// Restricts the plan to the requested camera. Its random addresses remain those among all cameras.
     pub(crate) fn narrowed(&self, mut plan: Plan) -> Result<Plan, Error> {
         let Some(name) = &self.camera else { return Ok(plan) };
         if plan.camera(name).is_none() {

@@ -1,15 +1,15 @@
-//! A laboratory folder, rendered: what the verb `characterise` reads, taken by a camera whose file is known.
+//! A rendered laboratory folder: the input of the verb `characterise`, captured by a camera with a known file.
 //!
-//! | folder | pictures |
+//! | folder | images |
 //! | --- | --- |
-//! | `flat/` | even light of 550 nm on the bare sensor: levels of equal steps to a little above saturation, two frames each, and a stack at half of it (EMVA 1288) |
-//! | `dark/` | the same without light, and three long exposures, in the longest of which the dark current is 200 e⁻ |
-//! | `field/` | an even white sheet through the lens |
-//! | `chart/` | views of a checkerboard by hand, the first about square to it, the others tilted |
+//! | `flat/` | 550 nm, uniform, on the bare sensor: levels in equal steps to just above saturation, two frames each, and a stack at half of it (EMVA 1288) |
+//! | `dark/` | the same without light, and three long exposures, the longest with a dark current of 200 e⁻ |
+//! | `field/` | a uniform white sheet through the lens |
+//! | `chart/` | hand-held views of a checkerboard, the first nearly perpendicular to it, the others tilted |
 //! | `edges/` | slanted edges |
-//! | `checker/` | a ColorChecker, of cameras in colour |
+//! | `checker/` | a ColorChecker, of colour cameras |
 //!
-//! The camera that takes them is written beside as `declared.toml`, without what changes the exposure from frame to frame; `laboratory.toml` states the flat light.
+//! The camera is written next to them as `declared.toml`, without keys that change the exposure from frame to frame; `laboratory.toml` states the flat light.
 //! Exposures of the flat series are so short that dark current adds less than half an electron to the offsets.
 
 use crate::chart::design::{Checkerboard, ColorChecker, FlatField, GridSize, SlantedEdges};
@@ -38,24 +38,24 @@ use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 const WAVELENGTH_NM: f64 = 550.0;
-/// Electrons of dark current in the longest exposure of the flat series, and in the longest without light.
+/// Dark-current electrons in the longest exposure of the flat series, and in the longest dark exposure.
 const LITTLE_E: f64 = 0.25;
 const MUCH_E: f64 = 200.0;
-/// Long exposures without light, of the longest, and frames of each.
+/// Long dark exposures as fractions of the longest, and frames of each.
 const LONG: [f64; 3] = [0.25, 0.5, 1.0];
 const LONG_FRAMES: u32 = 4;
-/// Frames of every exposure have noise of their own.
+/// Seed offset between exposures: their frames have independent noise.
 const SEEDS_APART: u64 = 1 << 20;
-/// Width of a square of the checkerboard seen from the front, px, at least.
+/// Minimum width of a checkerboard square seen from the front, px.
 const SQUARE_PX: u32 = 24;
-/// Width of the picture for each column of squares with slanted edges, px, at least; of a mosaic twice that.
+/// Minimum image width per column of slanted-edge squares, px; twice that for a mosaic.
 const EDGES_PX: u32 = 64;
-/// Height that a row of squares with slanted edges takes, of the width of a column.
+/// Height of a row of slanted-edge squares, in widths of a column.
 const SQUARE_AND_MARGIN: f64 = 1.25;
 const DECLARED: &str = "declared.toml";
 const JOB: &str = "job.toml";
 
-/// Levels, frames of a stack and views that a laboratory may have.
+/// Ranges of levels, frames of a stack and views of a laboratory.
 const LEVELS: RangeInclusive<u32> = 5..=1000;
 const STACK: RangeInclusive<u32> = 3..=10_000;
 const VIEWS: RangeInclusive<u32> = 3..=200;
@@ -69,10 +69,10 @@ pub struct LaboratoryRequest {
     /// Change a key of the camera file, e.g. --set sensor.width_px=320
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// The seed of all noise
+    /// Seed of all noise
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed)]
     pub seed: u64,
-    /// Levels of even light on the bare sensor, up to a little above saturation
+    /// Levels of uniform illumination on the bare sensor, up to slightly above saturation
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = whole(LEVELS))]
     pub levels: u32,
     /// Frames of the stacks without light and at half of saturation
@@ -81,22 +81,22 @@ pub struct LaboratoryRequest {
     /// Views of the checkerboard
     #[arg(long, value_name = "N", default_value_t = 13, value_parser = whole(VIEWS))]
     pub views: u32,
-    /// Samples a pixel of the pictures through the lens
+    /// Samples per pixel of the images through the lens
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole(1..=65_536))]
     pub spp: u32,
 }
 
 impl LaboratoryRequest {
-    /// The same as the program without options.
+    /// A request with the default options of the program.
     pub fn new(camera: impl Into<PathBuf>) -> Self {
         Self { camera: camera.into(), set: Vec::new(), seed: 0, levels: 15, stack: 32, views: 13, spp: 64 }
     }
 }
 
-/// Photographs a laboratory folder by a camera file; answers with the files' paths. Runs on the caller's thread pool.
+/// Captures a laboratory folder with a camera file; returns the paths of the files. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the camera has no electronics or is not linear, or the folder cannot be written.
+/// The camera has no electronics or is not linear, or the folder cannot be written.
 pub fn laboratory(
     request: &LaboratoryRequest,
     folder: &Path,
@@ -117,7 +117,7 @@ pub fn laboratory(
     let bench = Bench { request, folder, existing, declared, has_frame_period, has_isp, observer };
     let mut files = vec![bench.declared.clone()];
     let series = bench.even_light(&sensor);
-    // Where there is no series, there is no laboratory.
+    // Without a series there is no laboratory.
     files.extend(series.inspect_err(|_| drop(std::fs::remove_file(&bench.declared)))?);
     files.extend(bench.long_exposures(sensor.parameters().charge.dark.mean_e_s())?);
     files.extend(bench.lens(sensor.parameters().channels.len() > 1, body.raster.width(), body.raster.height())?);
@@ -131,7 +131,7 @@ fn lacks(request: &LaboratoryRequest) -> Error {
     )
 }
 
-/// The camera with the changes, one specimen of it, and a constant exposure. Its files are named from the root of the file system.
+/// The camera with the changes, a fixed unit number and a constant exposure. Paths of its files are absolute.
 fn declared(request: &LaboratoryRequest) -> Result<Camera, Error> {
     let file = request.camera.canonicalize();
     let file = file
@@ -149,7 +149,7 @@ fn compiled(camera: &Camera) -> Result<CameraBody, Error> {
     compile_camera(camera, &assets).map_err(Error::inputs)
 }
 
-/// Where pictures are taken.
+/// The laboratory's folder, camera and options.
 struct Bench<'a> {
     request: &'a LaboratoryRequest,
     folder: &'a Path,
@@ -161,7 +161,7 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    /// Frames of even light or of none.
+    /// Frames of uniform illumination, or dark frames.
     fn flat(
         &self,
         part: &str,
@@ -182,7 +182,7 @@ impl Bench<'_> {
         flat(&request, &self.folder.join(part), self.existing, self.observer)
     }
 
-    /// `flat/` and the frames of `dark/` of the same exposures.
+    /// `flat/`, and the frames of `dark/` with the same exposures.
     fn even_light(&self, sensor: &Sensor) -> Result<Vec<PathBuf>, Error> {
         let PhotonTransfer { light, stacks } = self.series(sensor)?;
         let mut files = Vec::new();
@@ -207,7 +207,7 @@ impl Bench<'_> {
         Ok(files)
     }
 
-    /// The standard's series, no longer than dark current allows.
+    /// The series of EMVA 1288, with exposures as short as the dark current requires.
     fn series(&self, sensor: &Sensor) -> Result<PhotonTransfer, Error> {
         let parameters = sensor.parameters();
         let longest_s = parameters.exposure.exposure_s.min(LITTLE_E / parameters.charge.dark.mean_e_s().max(1e-9));
@@ -236,14 +236,14 @@ impl Bench<'_> {
         Ok(files)
     }
 
-    /// Pictures through the lens.
+    /// Images through the lens.
     fn lens(&self, in_colour: bool, width_px: usize, height_px: usize) -> Result<Vec<PathBuf>, Error> {
         let open = GridSize { columns: None, rows: None, pitch_mm: None };
-        // Regions about the edges of squares want 16 readings of a colour each way.
+        // Regions around the edges of squares need 16 samples of a colour in each direction.
         let wide = (width_px as u32 / if in_colour { 2 * EDGES_PX } else { EDGES_PX }).clamp(1, 3);
         let squares = wide.max((SQUARE_AND_MARGIN * width_px as f64 / height_px as f64).ceil() as u32);
         let edges = SlantedEdges { size: GridSize { columns: Some(squares), ..open }, angle_deg: 5.0, contrast: 4.0 };
-        // Tilted views stand farther away: their squares are two thirds as large, and corners want 10 px between them.
+        // Tilted views are farther away: their squares are two thirds as large, and corners need 10 px between them.
         let columns = (width_px as u32 / SQUARE_PX).clamp(6, 12);
         let board = GridSize { columns: Some(columns), ..open };
         let mut charts: Vec<(&str, Chart, u32)> = vec![

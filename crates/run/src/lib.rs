@@ -1,4 +1,4 @@
-//! From a job to its results: plans, renders, exposures, delivery, shards, and the verbs that render or expose: charts, laboratories, flat fields.
+//! Runs jobs: plans, renders, exposures, delivery, shards, and the verbs that render or expose (charts, laboratories, flat fields).
 //!
 //! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process.
 

@@ -1,4 +1,4 @@
-//! Files that a program makes in memory: scenes from arrays, cameras in code.
+//! Files in memory: scenes from arrays, cameras from code.
 
 use etendue_io::Sandbox;
 use etendue_io::failure::{Error, ErrorCode, Problem};
@@ -8,12 +8,12 @@ use etendue_scene::asset::{Assets, MeshAsset, MeshFrameAsset, MeshFramePart, Slo
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Triangles and what belongs to their vertices, in the unit that the job's mesh states (metres where it states none).
+/// Triangles and the attributes of their vertices, in the unit that the job's mesh states (metres by default).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Triangles<'a> {
     /// Vertices.
     pub positions: &'a [[f32; 3]],
-    /// Three indices of vertices a triangle, counter-clockwise as seen from the front.
+    /// Three vertex indices per triangle, counter-clockwise as seen from the front.
     pub triangles: &'a [[u32; 3]],
     /// Normals of the vertices, of any length above 0; empty: flat triangles.
     pub normals: &'a [[f32; 3]],
@@ -21,7 +21,7 @@ pub struct Triangles<'a> {
     pub uvs: &'a [[f32; 2]],
 }
 
-/// Files that are read in place of those on the disk, by the path as the job resolves it: relative to the file that names them.
+/// Files in memory that replace those on disk, by the path as the job resolves it: relative to the file that names them.
 #[derive(Clone, Debug, Default)]
 pub struct MemoryFiles {
     texts: BTreeMap<PathBuf, String>,
@@ -35,16 +35,16 @@ impl MemoryFiles {
         Self::default()
     }
 
-    /// A job, scene or camera (TOML).
+    /// Adds a job, scene or camera (TOML).
     pub fn add_text(&mut self, path: impl Into<PathBuf>, text: impl Into<String>) {
         self.texts.insert(path.into(), text.into());
     }
 
-    /// A mesh, or one of the numbered files of a mesh whose vertices move; the object that shows it names its material.
+    /// Adds a mesh, or one of the numbered files of an animated mesh; the object that shows it names its material.
     ///
     /// # Errors
-    /// Where there is no triangle, an index has no vertex, a number is not finite, or normals or texture coordinates are not one a
-    /// vertex.
+    /// There is no triangle, an index has no vertex, a number is not finite, or the number of normals or texture coordinates is not that of the
+    /// vertices.
     pub fn add_mesh(&mut self, path: impl Into<PathBuf>, mesh: &Triangles<'_>) -> Result<(), Error> {
         let path = path.into();
         check(mesh).map_err(|why| Error::coded(ErrorCode::UnreadableFile, format!("{}: {why}", path.display())))?;
@@ -67,7 +67,7 @@ impl MemoryFiles {
         Ok(())
     }
 
-    /// The text of a file, from memory or from the disk.
+    /// Reads the text of a file, from memory or from disk.
     pub(crate) fn read(&self, path: &Path, sandbox: &Sandbox) -> Result<String, Problem> {
         match self.texts.get(path) {
             Some(text) => Ok(text.clone()),
@@ -80,7 +80,7 @@ impl MemoryFiles {
     }
 }
 
-/// The same as a file of a mesh whose vertices move.
+/// The mesh as a frame of an animated mesh.
 fn frame(mesh: &Triangles<'_>, hash: [u8; 32]) -> MeshFrameAsset {
     let vertices = mesh.triangles.as_flattened().to_vec();
     let named = |is_given: bool| if is_given { vertices.clone() } else { Vec::new() };
@@ -117,7 +117,7 @@ fn check(mesh: &Triangles<'_>) -> Result<(), String> {
     }
 }
 
-/// What the hash of a plan knows of the arrays.
+/// The bytes of the arrays that the hash of a plan covers.
 fn bytes(mesh: &Triangles<'_>) -> Vec<u8> {
     let lengths = [mesh.positions.len(), mesh.triangles.len(), mesh.normals.len(), mesh.uvs.len()];
     let floats = [mesh.positions.as_flattened(), mesh.normals.as_flattened(), mesh.uvs.as_flattened()];

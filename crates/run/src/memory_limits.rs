@@ -1,4 +1,4 @@
-//! The memory that a run may take: what is free, as the caller states it, what films may take of it, and the comparison with what a run needs.
+//! Memory limits of a run: free memory as the caller states it, the share of films, and the comparison with the memory that a run needs.
 
 use etendue_io::ScratchFolder;
 use etendue_io::failure::{Error, ErrorCode};
@@ -17,12 +17,11 @@ pub enum MemoryLimit {
     ControlGroup,
     /// The memory of the machine.
     Machine,
-    /// A number that the user states.
+    /// A number stated by the user.
     Stated,
 }
 
-/// The memory that a run may take: the free bytes of each known limit. No result depends on it. The library does not query the machine: the caller
-/// states what is free.
+/// Free memory for a run, as bytes of each known limit. No result depends on it. The library does not query the machine: the caller states the free memory.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MemoryLimits {
     /// Limits that are not listed are unknown and not applied.
@@ -48,12 +47,12 @@ impl MemoryLimit {
     }
 }
 
-/// How much memory the bands of a film may take, and where those are kept that take more. No result depends on it.
+/// Memory limit of the bands of a film, and the place of films that exceed it. No result depends on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilmMemory {
-    /// Most bytes of the means and variances of one film's bands in memory.
+    /// Maximum bytes, in memory, of the means and variances of one film's bands.
     pub limit_bytes: u64,
-    /// The folder for the scratch files of larger ones; `None`: that of tiles of textures ([`TextureMemory::cache`](etendue_io::TextureMemory)).
+    /// Folder for the scratch files of larger films; `None`: that of texture tiles ([`TextureMemory::cache`](etendue_io::TextureMemory)).
     pub scratch: Option<PathBuf>,
 }
 
@@ -65,14 +64,14 @@ impl Default for FilmMemory {
 }
 
 impl FilmMemory {
-    /// What a plan is told, where tiles of textures are in `cache`.
+    /// The limit as the plan receives it, with texture tiles in `cache`.
     pub(crate) fn limit(&self, cache: Option<&PathBuf>) -> FilmLimit {
         let folder = self.scratch.as_ref().or(cache).map(PathBuf::as_path);
         FilmLimit { bytes: self.limit_bytes, store: Arc::new(ScratchFolder::new(folder)) }
     }
 }
 
-/// Refuses a run that needs more memory than is free, before the first sample, and films that cannot be stored.
+/// Refuses, before the first sample, a run that needs more memory than is free, and films that cannot be stored.
 pub(crate) fn check(plan: &Plan, memory: &RunMemory, limits: &MemoryLimits) -> Result<(), Error> {
     check_folder(plan)?;
     let Some((limit, free)) = limits.tightest() else { return check_films(plan) };

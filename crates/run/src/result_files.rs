@@ -1,5 +1,4 @@
-//! The names of the files that a camera can deliver.
-//! Also files that the user names one by one: plots, previews, camera files.
+//! Names of the files that a camera can deliver, and files that the user names one by one: plots, previews, camera files.
 
 use etendue_core::RawFormat;
 use etendue_core::quantity::Quantity;
@@ -10,12 +9,12 @@ use etendue_plan_report::tone_curve::encoding;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// What a file holds: its quantity and unit.
+/// Content of a file: its quantity and unit.
 pub(crate) fn entry(quantity: &str, unit: &str) -> Value {
     json!({ "quantity": quantity, "unit": unit })
 }
 
-/// [`entry`] of a quantity of the core.
+/// [`entry`] of a core quantity.
 pub(crate) fn entry_of<Q: Quantity>() -> Value {
     entry(Q::NAME, Q::UNIT)
 }
@@ -29,21 +28,21 @@ impl Files {
     pub const RADIANCE: &str = "radiance.exr";
     /// Spectral irradiance on the sensor plane.
     pub const IRRADIANCE: &str = "irradiance.exr";
-    /// The part of the irradiance that is ghosts.
+    /// Ghosts, as part of the irradiance.
     pub const GHOSTS: &str = "ghosts.exr";
-    /// Samples of each pixel and the variance that they leave.
+    /// Samples of each pixel and the resulting variance.
     pub const SAMPLING: &str = "sampling.exr";
     /// Mean electrons of each pixel.
     pub const ELECTRONS: &str = "electrons.exr";
-    /// The share of light that comes through the air.
+    /// Fraction of light that the air transmits.
     pub const TRANSMITTANCE: &str = "transmittance.exr";
-    /// The part of the radiance that the air scattered in.
+    /// Radiance scattered into the ray by the air.
     pub const AIRLIGHT: &str = "airlight.exr";
-    /// The share of each pixel that near drops or flakes cover.
+    /// Fraction of each pixel that near drops or flakes cover.
     pub const COVER: &str = "cover.exr";
     /// Depth, normals, positions and identities.
     pub const GROUND_TRUTH: &str = "ground_truth.exr";
-    /// Planar depth as a picture.
+    /// Planar depth as an image.
     pub const DEPTH: &str = "depth.png";
     /// Optical flow, visibility, image velocity and motion in space.
     pub const MOTION: &str = "motion.exr";
@@ -53,7 +52,7 @@ impl Files {
     pub const FLOW_PNG: &str = "flow_forward.png";
     /// Disparity and visibility.
     pub const DISPARITY: &str = "disparity.exr";
-    /// Disparity as a float map.
+    /// Disparity as a float map (PFM).
     pub const DISPARITY_PFM: &str = "disparity.pfm";
     /// Disparity, KITTI.
     pub const DISPARITY_PNG: &str = "disparity.png";
@@ -63,16 +62,16 @@ impl Files {
     pub const TRACKS: &str = "tracks.json";
     /// Coverage of objects and materials.
     pub const CRYPTOMATTE: &str = "cryptomatte.exr";
-    /// The pictures of all frames.
+    /// The images of all frames.
     pub const VIDEO: &str = "picture.y4m";
     /// The ray of each pixel.
     pub const RAYS: &str = "rays.exr";
     /// The side-car.
     pub const SIDECAR: &str = "camera.json";
-    /// What `develop` made of which raw.
+    /// Raws and processing of the images of `develop`.
     pub const DEVELOPMENT: &str = "develop.json";
 
-    /// What a frame is, where each has a light of its own: its times, its poses, and what the sensor remembers.
+    /// Facts of a frame with its own light: its times, its poses, and the state of the sensor.
     #[must_use]
     pub fn frame(frame: u32) -> String {
         format!("frame.{frame:04}.json")
@@ -85,25 +84,25 @@ impl Files {
         format!("{stem}.{frame:04}.{extension}")
     }
 
-    /// The raw picture of a frame.
+    /// The raw image of a frame.
     #[must_use]
     pub fn raw(frame: u32, format: RawFormat) -> String {
         format!("raw.{frame:04}.{}", raw_extension(format))
     }
 
-    /// What the raw picture of a frame is made of.
+    /// Components of the raw image of a frame.
     #[must_use]
     pub fn signal_breakdown(frame: u32) -> String {
         format!("signal_breakdown.{frame:04}.exr")
     }
 
-    /// The picture of a frame.
+    /// The developed image of a frame.
     #[must_use]
     pub fn picture(frame: u32, format: PictureFormat) -> String {
         format!("picture.{frame:04}.{}", format.extension())
     }
 
-    /// What the picture of a frame holds, and how its numbers are encoded.
+    /// Content of a frame's image, and the encoding of its numbers.
     #[must_use]
     pub fn picture_entry(development: &Development) -> Value {
         let encoding = encoding(&development.processing.tone);
@@ -112,17 +111,17 @@ impl Files {
         entry
     }
 
-    /// A file of the undistorted twin.
+    /// A file of the rectified camera.
     #[must_use]
     pub fn undistorted(name: &str) -> String {
         format!("undistorted/{name}")
     }
 }
 
-/// Writes a file and the folders that lead to it; never half of it.
+/// Writes a file and its parent folders; a failed write leaves no partial file.
 ///
 /// # Errors
-/// Where it cannot be written, or is there and must not be replaced.
+/// The file cannot be written, or exists and must not be replaced.
 pub fn write_file(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), Error> {
     let name = path.file_name().and_then(|name| name.to_str());
     let name = name.ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! Where the cameras of a job stand and how they project, in the files of other programs: ROS, Kalibr, COLMAP.
+//! Poses and projections of a job's cameras, in the formats of other programs: ROS, Kalibr, COLMAP.
 //!
 //! | file, in the folder `calibration` | holds |
 //! | --- | --- |
@@ -21,15 +21,15 @@ use etendue_projection::{Calibration, CameraMatrix, Model, Sense};
 use glam::DVec2;
 use std::ops::Range;
 
-/// What carries a camera that no frame does.
+/// Parent frame of a camera that no frame carries.
 const WORLD: &str = "world";
 
-/// Files of a rig, and what they leave out.
+/// Files of a rig, and the cameras that they omit.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RigFiles {
-    /// Names within the output folder, with their text.
+    /// Names within the output folder, with the text of each file.
     pub(crate) files: Vec<(String, String)>,
-    /// A sentence for each camera that a format cannot say.
+    /// One sentence for each camera that a format cannot describe.
     pub(crate) left_out: Vec<String>,
 }
 
@@ -45,7 +45,7 @@ impl Calibrated<'_> {
     }
 }
 
-/// The files of the cameras of a plan that ask for them, over frames; none where no camera does.
+/// Files of the cameras of a plan that request them, over frames; empty if no camera does.
 pub(crate) fn asked_files(plan: &Plan, frames: &Range<u32>) -> RigFiles {
     let cameras: Vec<&CameraPlan> = plan.cameras.iter().filter(|c| c.products.calibration_files).collect();
     if cameras.is_empty() { RigFiles::default() } else { rig_files(plan, &cameras, frames) }
@@ -56,7 +56,7 @@ pub(crate) fn all_files(plan: &Plan, frames: &Range<u32>) -> RigFiles {
     rig_files(plan, &plan.cameras.iter().collect::<Vec<_>>(), frames)
 }
 
-/// Writes files, and tells what they leave out.
+/// Writes the files, and reports the omitted cameras.
 pub(crate) fn write(rig: &RigFiles, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
     rig.left_out.iter().for_each(|told| observer.message(Message::Warning(told)));
     rig.files.iter().try_for_each(|(name, text)| folder.write(name, text.as_bytes()).map_err(Error::run))
@@ -83,7 +83,7 @@ fn add(rig: &mut RigFiles, name: &str, text: String) {
     rig.files.push((format!("calibration/{name}"), text));
 }
 
-/// Notes why a format leaves a camera out; answers with the sentence.
+/// Records the reason for which a format omits a camera; returns the sentence.
 fn leave_out(rig: &mut RigFiles, camera: &str, why: &str) -> String {
     let told = format!("camera {camera}: {why}");
     rig.left_out.push(format!("calibration files: {told}"));
@@ -109,16 +109,16 @@ fn add_ros(plan: &Plan, cameras: &[&CameraPlan], found: &[Calibrated<'_>], rig: 
     add(rig, "ros/static_transforms.yaml", ros::static_transforms(&transforms, &left_out));
 }
 
-/// Why a camera has no fixed place.
+/// Reason for which a camera has no fixed pose.
 fn moves(parent: &str) -> String {
     format!("it moves in \"{parent}\", so that no fixed transform holds it; let a frame carry it")
 }
 
-/// How far to the right of a rectified pair's left camera it stands, m; 0 where it is no right camera, or one that does not keep its distance.
+/// Baseline: distance of the right camera of a rectified pair to the right of the left one, m; 0 if the camera is no right camera or its distance varies.
 fn base_m(plan: &Plan, camera: &CameraPlan) -> f64 {
     let is_left = |left: &&CameraPlan| left.products.annotations.disparity.is_some_and(|d| d.right == camera.index);
     plan.cameras.iter().find(is_left).map_or(0.0, |left| {
-        // In their own frame, if they share one: without the rounding of a far origin.
+        // Computed in their common frame, if any, to avoid the rounding of a far origin.
         if let Some([from, to]) = left.fixed_pair(camera) {
             return from.point_to_camera(to.position_m).x;
         }
@@ -173,13 +173,13 @@ fn add_colmap(found: &[Calibrated<'_>], none: &[String], frames: &Range<u32>, ri
     add(rig, "colmap/points3D.txt", colmap::NO_POINTS.to_owned());
 }
 
-/// Half-way through the frame's first exposure, as the side-car states it.
+/// Pose at the middle of the frame's first exposure, as in the side-car.
 pub(crate) fn pose(camera: &CameraPlan, frame: u32) -> CameraPose {
     let frame = if camera.time == TimeDependence::None { 0 } else { frame };
     camera.path.at(camera.timing.capture(frame, 0).middle_s())
 }
 
-/// The file of a frame's picture: developed, or raw where none is.
+/// File of a frame's image: developed, or raw if there is no developed one.
 fn picture(camera: &CameraPlan, frame: u32) -> String {
     let products = &camera.products;
     let file = match products.raw && !products.picture {
@@ -189,41 +189,41 @@ fn picture(camera: &CameraPlan, frame: u32) -> String {
     format!("{}/{file}", camera.name)
 }
 
-/// A camera whose pictures are rectilinear.
+/// A camera with rectilinear images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PinholeView {
     /// fx, skew, cx, fy, cy, px; raster coordinates: pixel centres are at + 0.5.
     pub matrix_px: [f64; 5],
-    /// From the camera's frame (x right, y down, z forward) to the frame of the scene that carries it, m; `None` where none does, or where
-    /// the camera moves in it.
+    /// Transform from the camera's frame (x right, y down, z forward) to the frame of the scene that carries it, m; `None` if none does, or if the camera
+    /// moves in it.
     pub mount: Option<CameraPose>,
 }
 
-/// The camera matrix of a camera of a plan.
+/// Returns the camera matrix of a camera of a plan.
 ///
 /// # Errors
-/// The rest of a sentence that begins with the camera: why none describes it.
+/// No matrix describes the camera: the rest of a sentence that begins with the camera.
 pub fn pinhole_view(camera: &CameraPlan) -> Result<PinholeView, String> {
     let matrix = pinhole(&camera.body)?;
     let matrix_px = [matrix.fx, matrix.skew, matrix.cx, matrix.fy, matrix.cy];
     Ok(PinholeView { matrix_px, mount: camera_mount(camera) })
 }
 
-/// From a camera's frame to the frame of the scene that carries it, m; `None` where none does, or where the camera moves in it.
+/// Transform from a camera's frame to the frame of the scene that carries it, m; `None` if none does, or if the camera moves in it.
 #[must_use]
 pub fn camera_mount(camera: &CameraPlan) -> Option<CameraPose> {
     camera.mount.pose.filter(|_| camera.mount.frame.is_some())
 }
 
-/// Farthest (px) that the calibration may see a point from where the camera does.
+/// Maximum distance, px, between a point's image by the calibration and by the camera.
 const TOLERANCE_PX: f64 = 1e-6;
-/// Places along each side of the picture at which this is checked.
+/// Number of test positions along each side of the image.
 const PLACES: u32 = 9;
 
-/// The calibration that sees every direction where the camera does.
+/// The calibration that agrees with the camera in every direction.
 ///
 /// # Errors
-/// The rest of a sentence that begins with the camera: why there is none.
+/// There is none: the rest of a sentence that begins with the camera.
 fn calibration(body: &CameraBody) -> Result<Calibration, String> {
     if let Some(optic) = body.front.as_ref().and_then(Front::optic) {
         return Err(format!("it looks by a {}, which no calibration file describes", optic.name()));
@@ -254,10 +254,10 @@ fn calibration(body: &CameraBody) -> Result<Calibration, String> {
     }
 }
 
-/// The camera matrix of a camera whose pictures are rectilinear, in raster coordinates.
+/// Camera matrix of a camera with rectilinear images, in raster coordinates.
 ///
 /// # Errors
-/// The rest of a sentence that begins with the camera: why there is none.
+/// There is none: the rest of a sentence that begins with the camera.
 fn pinhole(body: &CameraBody) -> Result<CameraMatrix, String> {
     let found = calibration(body)?;
     let straight = Perspective::new(DistortionTerms::default(), [0.0; 2]).map_err(|error| error.to_string())?;
@@ -290,7 +290,7 @@ fn paraxial(body: &CameraBody) -> Result<Calibration, String> {
         .map_err(|error| error.to_string())
 }
 
-/// How far (px) the calibration sees directions from where the camera does, over a grid of the picture.
+/// Maximum distance, px, between the calibration and the camera over a grid of directions.
 fn farthest_px(body: &CameraBody, calibration: &Calibration) -> f64 {
     let raster = &body.raster;
     let size = DVec2::new(raster.width() as f64, raster.height() as f64);

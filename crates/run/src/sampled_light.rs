@@ -1,4 +1,4 @@
-//! The light of some of a camera's pixels, sampled otherwise than the job says: what a study of time and error is made of.
+//! Light of a subset of a camera's pixels, with sampling that differs from the job's: the basis of a study of time and error.
 
 use crate::job::Job;
 use crate::run::films::{check_finite, check_textures};
@@ -13,22 +13,22 @@ use etendue_pipeline::tile::{Tile, tiles};
 use etendue_sensor::{Sensor, TemporalNoise};
 use etendue_tracer::accel::Simd;
 
-/// How densely which part of a frame is sampled.
+/// Sample density and the sampled part of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LightSampling {
-    /// Samples a pixel, a multiple of the replicates.
+    /// Samples per pixel, a multiple of the replicates.
     pub spp: u32,
     /// Independently scrambled replicates, 1 or more.
     pub replicates: u32,
-    /// The seed of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Side of a tile, px; the least from here on that cuts no pixels that share paths.
+    /// Side of a tile, px; increased to the next size that does not split blocks of pixels with shared paths.
     pub tile_px: u32,
-    /// Which tiles.
+    /// The tiles.
     pub shard: ShardSpec,
 }
 
-/// What a pixel's signal is.
+/// Quantity of a pixel's signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightSignal {
     /// Mean electrons of the described exposure, before effects behind the lens.
@@ -46,45 +46,47 @@ pub struct SampledPixel {
     pub x: u32,
     /// Row.
     pub y: u32,
-    /// Its tile, counted from 0 among those that were rendered.
+    /// Index of its tile, from 0, among the rendered tiles.
     pub tile: u32,
-    /// Its place in the tile of the colour filter, row by row; 0 where there is no filter.
+    /// Position in the tile of the colour filter, row by row; 0 without a filter.
     pub colour: u32,
 }
 
 /// The light of the pixels of some tiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampledLight {
-    /// Which pixels, tile by tile.
+    /// The pixels, tile by tile.
     pub pixels: Vec<SampledPixel>,
-    /// Of each its signal.
+    /// Signal of each pixel.
     pub signal: Vec<f32>,
-    /// Of each the variance of that mean, by the scatter of the replicates, in the square of the signal's unit; NaN for one replicate, and for electrons that are made of bands.
+    /// Variance of each pixel's mean, from the scatter of the replicates, in the square of the signal's unit; NaN for one replicate, and for electrons
+    /// computed from bands.
     pub variance: Vec<f32>,
 }
 
 impl Job {
-    /// What the signal of a camera's pixels is.
+    /// Returns the quantity of the signal of a camera's pixels.
     ///
     /// # Errors
-    /// Where the job has no such camera.
+    /// The job has no such camera.
     pub fn light_signal(&self, camera: &str) -> Result<LightSignal, Error> {
         Ok(signal_of(self.camera_plan(camera)?))
     }
 
-    /// The noise that a camera's sensor adds to its electrons in one frame; `None` where its signal is not electrons.
+    /// Returns the noise that a camera's sensor adds to its electrons in one frame; `None` if its signal is not electrons.
     ///
     /// # Errors
-    /// Where the job has no such camera.
+    /// The job has no such camera.
     pub fn temporal_noise(&self, camera: &str) -> Result<Option<TemporalNoise>, Error> {
         let camera = self.camera_plan(camera)?;
         Ok(sensor_of(camera).map(Sensor::temporal_noise))
     }
 
-    /// The light of a shard's pixels in frame 0, every one with as many samples as asked for, whatever the job says. Runs on the caller's thread pool.
+    /// Renders the light of a shard's pixels in frame 0, each with the requested number of samples, whatever the job states. Runs on the caller's thread
+    /// pool.
     ///
     /// # Errors
-    /// Where the job has no such camera, the observer cancels, or light is not finite.
+    /// The job has no such camera, the observer cancels, or light is not finite.
     pub fn sampled_light(
         &self,
         camera: &str,
@@ -97,7 +99,7 @@ impl Job {
         settings.adaptive = None;
         (settings.spp, settings.replicates, settings.seed) = (sampling.spp, sampling.replicates, sampling.seed);
         settings.tile_px = settings.blocks.tile_px(sampling.tile_px);
-        // Of a few tiles; the others take no memory.
+        // Only of a few tiles; the others take no memory.
         let keeping = FilmKeeping::Memory;
         let request = Request { shot: Shot::default(), simd, shard: sampling.shard.shard()?, keeping };
         let film = light(self.plan(), &camera, request, &Silent(observer));
@@ -109,26 +111,26 @@ impl Job {
         Ok(SampledLight::of(&camera, &film, &tiles))
     }
 
-    /// The tiles of a camera's film, were they of this side: how many shards leave something to look at.
+    /// Returns the number of tiles of a camera's film for this side, columns and rows: an upper limit of useful shards.
     ///
     /// # Errors
-    /// Where the job has no such camera.
+    /// The job has no such camera.
     pub fn tile_grid(&self, camera: &str, tile_px: u32) -> Result<[u32; 2], Error> {
         let camera = self.camera_plan(camera)?;
         let ((width, height), side) = (camera.film_size(), camera.settings.blocks.tile_px(tile_px));
         Ok([width.div_ceil(side), height.div_ceil(side)])
     }
 
-    /// Columns and rows of a camera's film: its picture, with the margin that effects behind the lens need; at the pupil the stored view.
+    /// Returns columns and rows of a camera's film: its image with the margin that effects behind the lens need; at the pupil the stored view.
     ///
     /// # Errors
-    /// Where the job has no such camera.
+    /// The job has no such camera.
     pub fn film_px(&self, camera: &str) -> Result<[u32; 2], Error> {
         let (width, height) = self.camera_plan(camera)?.film_size();
         Ok([width, height])
     }
 
-    /// The plan of a camera.
+    /// Returns the plan of a camera.
     ///
     /// # Errors
     /// The job has no such camera.
@@ -139,7 +141,7 @@ impl Job {
     }
 }
 
-/// Passes on the wish to stop alone.
+/// Forwards cancellation only.
 struct Silent<'a>(&'a dyn Observer);
 
 impl etendue_pipeline::Observer for Silent<'_> {
@@ -179,13 +181,13 @@ impl SampledLight {
     }
 }
 
-/// How a pixel's signal is read off a film.
+/// Computes a pixel's signal from a film.
 struct Reading {
     exposure_s: f64,
-    /// Columns and rows of the colour filter's tile, and of the film before the picture.
+    /// Columns and rows of the colour filter's tile, and of the film's margin before the image.
     filter: [u32; 2],
     margin_px: [u32; 2],
-    /// Of each place of the filter: electrons of a second by the bands' irradiances. Empty where there are none.
+    /// For each position of the filter: electrons per second by the bands' irradiances. Empty without such positions.
     of_bands: Vec<Vec<f64>>,
 }
 
@@ -217,7 +219,7 @@ impl Reading {
         (place(at.y, self.margin_px[1], rows) * columns + place(at.x, self.margin_px[0], columns)) as usize
     }
 
-    /// A pixel's signal, and the variance of it.
+    /// Signal of a pixel, and its variance.
     fn read(&self, film: &Film, at: Pixel, colour: usize) -> (f64, f64) {
         let (x, y) = (at.x as usize, at.y as usize);
         if let Some(rate) = &film.electron_rate {

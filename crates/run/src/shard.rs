@@ -1,7 +1,6 @@
-//! Shards on disk, a manifest beside one film a camera, and what is merged from them.
+//! Shards on disk, with a manifest and one film per camera, and the merged result.
 //!
-//! A film's planes hold the shard's tiles; the other pixels are zero. `merge` makes the plan again from the manifest
-//! and refuses shards of another plan.
+//! A film's planes hold the shard's tiles; the other pixels are zero. `merge` makes the plan again from the manifest and refuses shards of another plan.
 
 use crate::film_file::{self, FilmOrigin, film_name};
 use crate::job::Job;
@@ -28,9 +27,9 @@ use std::str::FromStr;
 /// A shard of a run: every tile whose number is `index` modulo `count`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShardSpec {
-    /// Which shard, from 0.
+    /// Index of the shard, from 0.
     pub index: u32,
-    /// Of how many.
+    /// Number of shards.
     pub count: u32,
 }
 
@@ -59,14 +58,14 @@ impl ShardSpec {
     }
 }
 
-/// What one call renders of a shard.
+/// Part of a shard that one call renders.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShardRequest {
-    /// Which tiles.
+    /// The tiles.
     pub spec: ShardSpec,
-    /// The frames of the whole run.
+    /// Frames of the whole run.
     pub frames: Range<u32>,
-    /// The only films of the shard to render, by the [names of their files](crate::Job::film_names); empty: all of them.
+    /// Films of the shard to render, by the [names of their files](crate::Job::film_names); empty: all of them.
     pub films: Vec<String>,
 }
 
@@ -79,8 +78,8 @@ impl ShardRequest {
 }
 
 impl Job {
-    /// The names of the films of a shard, relative to its folder: one for each group of cameras of equal light, called after the first of these; where
-    /// light depends on time, of each of the frames and of each capture that has a light of its own.
+    /// Names of the films of a shard, relative to its folder: one for each group of cameras of equal light, named after the first of these; where light
+    /// depends on time, one for each frame and for each capture with its own light.
     #[must_use]
     pub fn film_names(&self, frames: &Range<u32>) -> Vec<String> {
         let mut names = Vec::new();
@@ -90,11 +89,11 @@ impl Job {
         names
     }
 
-    /// Renders one shard of a run into a folder, or some of its films, for [`merge`], and answers with the paths of its files. Films
-    /// that were rendered each by itself go to one folder. Runs on the caller's thread pool.
+    /// Renders one shard of a run, or some of its films, into a folder for [`merge`], and returns the paths of its files. Films
+    /// that are rendered separately share one folder. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// Where a film is none of the job's, the observer cancels, light is not finite, or the folder cannot be written.
+    /// A film is not one of the job's, the observer cancels, light is not finite, or the folder cannot be written.
     pub fn save_shard(
         &self,
         asked: &ShardRequest,
@@ -111,7 +110,7 @@ impl Job {
         }
         let names = self.asked_films(asked)?;
         let manifest = self.manifest(asked);
-        // That of a film of the same shard before says the same.
+        // The manifest of an earlier film of the same shard is equal.
         let is_there = !asked.films.is_empty() && manifest.is_beside(folder)?;
         let manifest = if is_there { None } else { Some(manifest.encoded()?) };
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
@@ -137,7 +136,10 @@ impl Job {
         Ok(written)
     }
 
-    /// The names of the films that a request asks for; refused where one is none of the job's.
+    /// Names of the films that a request selects.
+    ///
+    /// # Errors
+    /// A name is not one of the job's films.
     fn asked_films(&self, asked: &ShardRequest) -> Result<Vec<String>, Error> {
         let mut names = self.film_names(&asked.frames);
         if let Some(unknown) = asked.films.iter().find(|name| !names.contains(name)) {
@@ -167,31 +169,31 @@ impl Job {
     }
 }
 
-/// Films that a message names at most.
+/// Maximum number of films named in a message.
 const MAX_TOLD: usize = 6;
 
-/// The name of a shard's manifest in its folder.
+/// File name of a shard's manifest in its folder.
 const MANIFEST: &str = "shard.json";
 
-/// What a shard is part of.
+/// Description of a shard and its run.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Manifest {
-    /// The job, so that the plan can be made again.
+    /// The job, from which the plan is made again.
     request: JobRequest,
-    /// Frames to take of the whole.
+    /// Frames of the whole run.
     frames: Range<u32>,
-    /// Which shard.
+    /// Index of the shard.
     index: u32,
-    /// Of how many.
+    /// Number of shards.
     count: u32,
     /// The plan's hash.
     plan_hash: String,
-    /// Side of each camera's tiles, px: the plan's hash leaves it out, but it says which pixels are whose.
+    /// Side of each camera's tiles, px: not part of the plan's hash, but it determines the pixels of each shard.
     tile_px: Vec<u32>,
 }
 
-/// The sides of the tiles of a plan's cameras.
+/// Tile sides of a plan's cameras.
 fn tile_sides(plan: &Plan) -> Vec<u32> {
     plan.cameras.iter().map(|camera| camera.settings.tile_px).collect()
 }
@@ -212,7 +214,7 @@ impl Manifest {
         }
     }
 
-    /// What no shard that was rendered states, in words.
+    /// Describes an error that no valid manifest has.
     fn fault(&self) -> Option<String> {
         let Self { index, count, frames, tile_px, .. } = self;
         if index >= count {
@@ -226,7 +228,7 @@ impl Manifest {
         (!is_tiled).then(|| "it states no sides of tiles above 0".to_owned())
     }
 
-    /// Whether films of this shard are there; refuses a folder of another: films that were rendered each by itself belong together.
+    /// Returns true if films of this shard are in the folder; refuses a folder of another shard, because films that are rendered separately belong together.
     fn is_beside(&self, folder: &Path) -> Result<bool, Error> {
         let path = folder.join(MANIFEST);
         if !path.exists() {
@@ -245,13 +247,16 @@ impl Manifest {
         }
     }
 
-    /// Whether two shards were cut from one run: the same plan, cameras, frames and tiles.
+    /// Returns true if two shards are of one run: the same plan, cameras, frames and tiles.
     fn is_of_run(&self, other: &Self) -> bool {
         let cut = |m: &Self| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
         cut(self) == cut(other) && self.request.camera == other.request.camera
     }
 
-    /// The bytes of the file; refused where a path is no text.
+    /// Bytes of the file.
+    ///
+    /// # Errors
+    /// A path is not valid text.
     fn encoded(&self) -> Result<Vec<u8>, Error> {
         sidecar::encode(self).map_err(|error| {
             let job = self.request.job.display();
@@ -262,11 +267,11 @@ impl Manifest {
     }
 }
 
-/// Joins the folders of all shards of one run to the files of an unsharded one, byte for byte, and answers with their paths. `job` is where the job
-/// file is now, where the shards were rendered from another place. Runs on the caller's thread pool.
+/// Merges the folders of all shards of one run into the files of an unsharded run, byte for byte, and returns their paths. `job` is the current path of the
+/// job file, if the shards were rendered elsewhere. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where shards are missing, given twice or of different runs, the job has changed since, or the folder cannot be written.
+/// Shards are missing, given twice or of different runs, the job has changed, or the folder cannot be written.
 pub fn merge(
     shards: &[PathBuf],
     job: Option<&Path>,
@@ -312,19 +317,19 @@ impl ShardFolder<'_> {
     }
 }
 
-/// All shards of one run, each once, in their order: the light of a run that merges them.
+/// All shards of one run, each once, in order: the light of a run that merges them.
 struct MergedShards<'a> {
     shards: Vec<ShardFolder<'a>>,
 }
 
-/// Shards that are read side by side: each takes the memory of the whole film.
+/// Number of shards read in parallel: each takes the memory of the whole film.
 const AT_ONCE: usize = 4;
 
 impl<'a> MergedShards<'a> {
     /// Reads the manifests of shards.
     ///
     /// # Errors
-    /// Where one cannot be read, is missing, given twice or of another run.
+    /// A manifest cannot be read, or a shard is missing, given twice or of another run.
     fn read(folders: &'a [PathBuf]) -> Result<Self, Error> {
         let read = |path: &'a PathBuf| Ok(ShardFolder { manifest: Manifest::read(path)?, path });
         let mut shards: Vec<ShardFolder<'_>> = folders.iter().map(read).collect::<Result<_, Error>>()?;
@@ -351,7 +356,7 @@ impl<'a> MergedShards<'a> {
 }
 
 impl RunStore for MergedShards<'_> {
-    /// Returns the film of all shards' tiles.
+    /// Returns the film with the tiles of all shards.
     fn light(&self, whole: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
         let camera = whole.camera;
         let (width, height) = camera.film_size();

@@ -1,4 +1,4 @@
-//! Weather laid over stored radiance.
+//! Weather applied to stored radiance.
 
 use crate::expose::StoredRadiance;
 use crate::results::metadata;
@@ -16,7 +16,7 @@ use etendue_pipeline::weather::Weathered;
 use etendue_scene::{load_weather, named_files};
 use std::path::{Path, PathBuf};
 
-/// A stored radiance image and what is laid over it.
+/// A stored radiance image and the weather to apply.
 #[derive(Args, Clone, Debug)]
 pub struct WeatherRequest {
     /// A spectral radiance image rendered with route = "pupil"
@@ -29,19 +29,19 @@ pub struct WeatherRequest {
 
 /// Radiance as seen through the weather, which can be exposed.
 const RADIANCE: &str = "radiance.exr";
-/// The share of the scene's light that comes through.
+/// Fraction of the scene's light that is transmitted.
 const TRANSMITTANCE: &str = "transmittance.exr";
 /// The radiance that the weather adds.
 const AIRLIGHT: &str = "airlight.exr";
 
-/// The share of each pixel and of the exposure that near drops or flakes cover.
+/// Fraction of each pixel and of the exposure that near drops or flakes cover.
 const COVER: &str = "cover.exr";
 
-/// Lays fog and streaks of rain or snow over a stored radiance image by its distances; writes radiance, transmittance and airlight, and where
-/// something falls cover, into a folder and answers with their paths. Runs on the caller's thread pool.
+/// Applies fog and streaks of rain or snow to a stored radiance image by its distances. Writes radiance, transmittance and airlight, and cover if there is
+/// precipitation, into a folder and returns their paths. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where image or weather cannot be used, or the folder cannot be written.
+/// The image or the weather cannot be used, or the folder cannot be written.
 pub fn weather(request: &WeatherRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
     let weather = open(&request.weather)?;
     let mut stored = StoredRadiance::open(&request.radiance)?;
@@ -59,7 +59,7 @@ pub fn weather(request: &WeatherRequest, folder: &Path, existing: Existing) -> R
     folder.commit().map_err(Error::run)
 }
 
-/// Notes the exposure of streaks beside the image, as light that depends on time has one. An image that has one must have the same.
+/// Records the exposure of streaks in the image, as for time-dependent light. If the image states an exposure, it must be equal.
 fn expose(weather: &Weather, stored: &mut StoredRadiance, request: &WeatherRequest) -> Result<(), Error> {
     let Some(falling) = &weather.falling else { return Ok(()) };
     let exposure_s = falling.exposure_s;
@@ -109,7 +109,7 @@ fn files(seen: &Weathered, stored: &StoredRadiance) -> Vec<(&'static str, Result
     files
 }
 
-/// Variance goes with the square of what comes through; that of an airlight from the sky is not added.
+/// Variance scales with the square of the transmittance; the variance of an airlight from the sky is not added.
 fn dimmed(variance: &SpectralCube<Variance>, seen: &Weathered) -> SpectralCube<Variance> {
     let mut dimmed = variance.clone();
     for (plane, shares) in dimmed.planes_mut().iter_mut().zip(seen.transmittance.planes()) {

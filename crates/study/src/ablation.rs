@@ -1,4 +1,4 @@
-//! Effect by effect: the frame with it and without it.
+//! Ablation: the frame with and without each effect.
 
 use crate::Clock;
 use crate::change::{Change, header};
@@ -9,26 +9,26 @@ use crate::way::{SAMPLE_KEYS, is_of};
 use etendue::{EffectGroup, Error, Observer, Progress, Unit};
 use serde::Serialize;
 
-/// What is found where an effect is left out.
+/// Result of leaving an effect out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Dropped {
-    /// The effect, as `etendue plan` names it.
+    /// The effect, as named by `etendue plan`.
     pub effect: &'static str,
-    /// Its name in files.
+    /// Its identifier in files.
     pub id: String,
-    /// The changes of keys that leave it out.
+    /// Changes of keys that leave it out.
     pub set: Vec<String>,
-    /// What that changes.
+    /// Change of the frame.
     #[serde(flatten)]
     pub change: Change,
 }
 
-/// An effect that no key leaves out, or whose keys the job does not take.
+/// An effect that no key leaves out, or whose change of keys the job rejects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Kept {
     /// The effect.
     pub effect: &'static str,
-    /// Why.
+    /// Reason.
     pub reason: String,
 }
 
@@ -37,27 +37,27 @@ pub struct Kept {
 pub struct Ablation {
     /// The camera.
     pub camera: String,
-    /// Samples a pixel that the errors are found with.
+    /// Samples per pixel for the errors.
     pub spp: u32,
-    /// Processor time of loading and of making one frame as the job says, s.
+    /// CPU time of loading the job and rendering one unchanged frame, s.
     pub cpu_s: f64,
-    /// What was left out, in the order of the light.
+    /// Effects that were left out, in the order of the light.
     pub dropped: Vec<Dropped>,
-    /// What was not.
+    /// Effects that were not left out.
     pub kept: Vec<Kept>,
 }
 
-/// Renders a frame of a job without each effect that its plan says a key leaves out. Runs on the caller's thread pool.
+/// Renders a frame of a job without each effect that a key leaves out according to its plan. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the job has faults or no such camera, the observer cancels, or light is not finite.
+/// The job is invalid or has no such camera, the observer cancels, or light is not finite.
 pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -> Result<Ablation, Error> {
     let renderer = FrameRenderer::open(request, clock, observer)?;
     let mut trials = Vec::new();
     let mut kept = Vec::new();
     for effect in renderer.effects() {
         match effect.if_dropped.as_ref().map(|dropped| dropped.set.clone()) {
-            // What is written changes no frame.
+            // Output files do not change the frame.
             _ if effect.group == EffectGroup::Output => {}
             Some(Some(set)) if set.iter().any(|change| is_of(change, &renderer.camera, &SAMPLE_KEYS)) => {
                 kept.push(Kept {

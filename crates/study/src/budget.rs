@@ -1,4 +1,4 @@
-//! How many tiles a study may look at in its time.
+//! Number of tiles that a study can sample in its time.
 
 use crate::Clock;
 use crate::pilot::{Pilots, seed};
@@ -6,12 +6,12 @@ use crate::plan::{PilotPlan, TILE_PX};
 use crate::stint::Stint;
 use etendue::{Error, Job, Observer, Simd};
 
-/// Tiles of the first look, and the fewest of any.
+/// Tiles of the first measurement, and the minimum of any.
 const FEWEST_TILES: u32 = 48;
-/// Pixels that a study holds at most: of each it keeps some planes.
+/// Maximum number of pixels of a study: it stores several planes of each.
 const MOST_PIXELS: u32 = 1 << 19;
 
-/// As many tiles as may be sampled `samples` times a pixel in `budget_s`, by the time that a first look takes.
+/// Number of tiles that can be sampled with `samples` per pixel in `budget_s`, extrapolated from the time of a first measurement.
 pub(crate) fn within(
     job: &Job,
     camera: &str,
@@ -26,11 +26,11 @@ pub(crate) fn within(
     let plan = PilotPlan::of_tiles(grid, FEWEST_TILES);
     let look = Pilots { camera, plan, simd, clock, observer };
     let own = job.camera_plan(camera)?.settings.seed;
-    // Twice: the first one finds cold caches.
+    // Runs twice: the first run meets cold caches.
     look.timed(job, 2, 1, seed(own, 1000))?;
     let stint = Stint::begin(clock);
     let light = look.timed(job, 2, 1, seed(own, 1001))?.0;
-    // By the clock: that is what the study may take.
+    // Uses wall-clock time, because the budget is wall-clock time.
     let took_s = stint.clock_s();
     let of_tile_s = took_s / f64::from(all / plan.shard.count).max(1.0) / 2.0;
     let tile_px2 = (light.pixels.len() as u32 / (all / plan.shard.count).max(1)).max(1);

@@ -1,4 +1,4 @@
-//! What a change of a job changes of its frame: time, light, numbers, picture and geometry.
+//! Effect of a change on its frame: time, light, digital numbers, image and geometry.
 
 use crate::edge::{EdgeChart, Mtf50};
 use crate::error::Estimate;
@@ -12,41 +12,45 @@ use etendue_core::quantity::Quantity;
 use glam::DVec3;
 use serde::Serialize;
 
-/// Side of the tiles that err alike, px, and of the cells by whose light errors are measured.
+/// Side of the tiles with correlated errors, px, and of the cells whose light normalises errors.
 const TILE_PX: usize = 16;
 
-/// What a frame with a change differs by from the frame as the job says.
+/// Difference between the frame with a change and the frame of the unchanged job.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// Processor time of all threads (time, where the machine does not tell that) that is saved of loading the job and making one frame with its samples, s; below 0 where the change takes longer.
+    /// CPU time of all threads (wall-clock time on machines that do not report it) saved in loading the job and rendering one frame with its samples, s;
+    /// below 0 if the change takes longer.
     pub cpu_saved_s: f64,
-    /// Root mean square change of a pixel's mean light, over the mean light of the 16 × 16 px about it; of electrons where there are any, else of irradiance over all wavelengths, at the pupil of radiance. `None` where the light has another size or is another quantity.
+    /// Root mean square change of a pixel's mean light, over the mean light of the surrounding 16 × 16 px: of electrons if there are any, otherwise of
+    /// irradiance over all wavelengths, at the pupil of radiance. `None` if the light has another size or is another quantity.
     pub light: Option<Estimate>,
-    /// Root mean square change of the digital numbers of one frame, DN, the random numbers of both alike; `None` where there are none, or of another size.
+    /// Root mean square change of the digital numbers of one frame, DN, with equal random numbers; `None` if there are none, or of another size.
     pub raw_dn: Option<f64>,
-    /// Root mean square change of the encoded picture, 0 to 1; `None` where there is none, or of another size.
+    /// Root mean square change of the encoded image, 0 to 1; `None` if there is none, or of another size.
     pub picture: Option<f64>,
-    /// Part of the pixels that see another instance.
+    /// Fraction of the pixels that see another instance.
     pub instances: Option<f64>,
-    /// Root mean square change of the distance of what a pixel sees, relative, of pixels that see the same instance.
+    /// Root mean square relative change of the distance seen by a pixel, over pixels that see the same instance.
     pub distance: Option<f64>,
-    /// Root mean square change of the direction of a pixel's ray, in pixels of the middle of the picture.
+    /// Root mean square change of the direction of a pixel's ray, in pixels at the centre of the image.
     pub direction_px: Option<f64>,
-    /// By what factor the light of the corners (an eighth of width and height each) over that of the middle (a quarter of both) changes, of the quantity of `light`: 1 where
-    /// vignetting stays. `None` where it is dark, or the light has another size or is another quantity.
+    /// Factor by which the ratio of the light of the corners (an eighth of width and height each) to that of the centre (a quarter of both) changes, in the
+    /// quantity of `light`: 1 if vignetting is unchanged. `None` if it is dark, or the light has another size or is another quantity.
     pub corners: Option<Estimate>,
-    /// By how much (bright − dark)/(bright + dark) changes, of the means of 16 × 16 px that 5 % are darker, and 5 % brighter, than. `None` likewise.
+    /// Change of (bright − dark)/(bright + dark), where dark and bright are the 5 % and 95 % percentiles of the means of 16 × 16 px. `None` in the same
+    /// cases.
     pub contrast: Option<Estimate>,
-    /// Contrast transfer without and with the change, of a chart of edges before this camera; `None` where it was not asked for, or the camera with the change makes
-    /// no picture of a chart.
+    /// Contrast transfer without and with the change, of a chart of edges before this camera; `None` if not requested, or if the camera with the change makes
+    /// no image of a chart.
     pub mtf50: Option<[Mtf50; 2]>,
-    /// The frame as the job says, with the change, and four times their difference on grey, side by side, JPEG; `None` where there is no picture of the same size.
+    /// The unchanged frame, the frame with the change, and four times their difference on grey, side by side, JPEG; `None` if there is no image of the same
+    /// size.
     #[serde(skip)]
     pub jpeg: Option<Vec<u8>>,
 }
 
 impl Change {
-    /// What the frame of `changed` differs by, with `spp` samples a pixel.
+    /// Compares the frames of both jobs, with `spp` samples per pixel.
     pub(crate) fn of(own: &RenderPair, changed: &RenderPair, spp: f64) -> Result<Self, Error> {
         let truths = [own, changed].map(|pair| pair.many.results.ground_truth());
         let same =
@@ -73,13 +77,13 @@ impl Change {
         })
     }
 
-    /// With what edges tell of it.
+    /// Adds the change of contrast transfer at edges.
     pub(crate) fn with_edges(self, edges: Option<&EdgeChart<'_>>, set: &[String]) -> Result<Self, Error> {
         let mtf50 = edges.map(|edges| edges.change(set)).transpose()?.flatten();
         Ok(Self { mtf50, ..self })
     }
 
-    /// Its figures as a row under [`header`].
+    /// The figures as a row under [`header`].
     pub(crate) fn row(&self) -> String {
         let percent = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| format!("{:.2} %", 100.0 * v));
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| format!("{v:.2}"));
@@ -100,7 +104,7 @@ impl Change {
     }
 }
 
-/// What stands over the rows.
+/// Header of the rows.
 pub(crate) fn header() -> String {
     format!(
         "{:>10} {:>14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>15} {:>15} {:>13} {:>13}",
@@ -122,7 +126,7 @@ fn none() -> String {
     "–".to_owned()
 }
 
-/// Frequencies without and with a change, cycles a pixel.
+/// Frequencies without and with a change, cycles per pixel.
 fn transfer(pair: [Option<Estimate>; 2]) -> String {
     let word = |e: Option<Estimate>| e.map_or_else(none, |e| format!("{:.3}", e.value));
     let [without, with] = pair.map(word);
@@ -137,7 +141,7 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { (sum / count).sqrt() } else { 0.0 }
 }
 
-/// The root of the mean product of two independent differences, each over the light about it: free of the noise of either.
+/// Root of the mean product of two independent differences, each normalised by the surrounding light: free of the noise of either.
 fn change_of_light(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
     let planes = [&own.few, &changed.few, &own.many, &changed.many].map(|render| render.light.as_ref());
     let [Some((kind, a)), Some((other, b)), Some((_, c)), Some((_, d))] = planes else { return None };
@@ -174,7 +178,7 @@ fn at<Q: Quantity>(plane: &Plane<Q>, x: usize, y: usize) -> Q::Sample {
     plane.at(x, y)
 }
 
-/// The part of samples that differ.
+/// Fraction of differing values.
 fn part_that_differs<Q: Quantity>(a: &Plane<Q>, b: &Plane<Q>) -> f64
 where
     Q::Sample: PartialEq,
@@ -190,12 +194,12 @@ fn change_of_distance([a, b]: &[GroundTruth; 2]) -> f64 {
     root_mean_square(alike.map(|((a, b), _)| f64::from(*b) / f64::from(*a) - 1.0))
 }
 
-/// Angles between the rays of pixels' centres, over that between neighbours in the middle.
+/// Root mean square angle between the rays of pixel centres, over the angle between neighbours at the centre.
 fn change_of_direction(own: &RenderPair, changed: &RenderPair) -> f64 {
     let [a, b] = [own, changed].map(|pair| pair.many.results.rays().direction);
     let vector = |v: [f32; 3]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
     let angle = |a: DVec3, b: DVec3| {
-        // Of small angles the chord is exact where the cosine has no digits left.
+        // For small angles the chord is exact where the cosine loses all digits.
         let chord = (a - b).length();
         if chord < 0.1 { chord } else { acos(a.dot(b).clamp(-1.0, 1.0)) }
     };

@@ -1,4 +1,4 @@
-//! What a measurement of the contrast transfer sees of a change: slanted edges before the job's camera as it is and with the change (ISO 12233).
+//! Effect of a change on the measured contrast transfer: slanted edges before the job's camera, without and with the change (ISO 12233).
 
 use crate::error::Estimate;
 use crate::frame_render::FrameRenderer;
@@ -9,55 +9,56 @@ use etendue::{Error, RenderOptions};
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Samples a pixel: flat sheets in even light have little noise of their own.
+/// Samples per pixel: flat sheets in uniform illumination have little noise.
 const SPP: u32 = 32;
-/// Luminance of the ground over that of the squares.
+/// Luminance ratio of the background to the squares.
 const CONTRAST: f64 = 4.0;
-/// By how much they are turned, degrees.
+/// Rotation of the squares, degrees.
 const ANGLE_DEG: f64 = 5.0;
-/// What white reaches of the sensor's saturation: a change that makes the picture brighter shall not clip.
+/// Level of white as a fraction of the sensor's saturation: leaves headroom for changes that make the image brighter.
 const WHITE: f64 = 0.3;
-/// The field position, % of half the diagonal, up to which edges are of the middle, and from which on they are far out.
+/// Field position, % of half the diagonal, up to which edges count as central, and from which on they count as far.
 const MIDDLE_PERCENT: f64 = 30.0;
 const FAR_PERCENT: f64 = 60.0;
-/// Least distance of squares, px: 0.3 of it is the width of the part about an edge that is measured, 16 px at least.
+/// Minimum spacing of squares, px: the measured region around an edge is 0.3 of it wide, at least 16 px.
 const COLUMN_PX: usize = 72;
-/// No edge is known better than this, (cycles a pixel)².
+/// Minimum variance of an edge's frequency, (cycles per pixel)².
 const LEAST_VARIANCE: f64 = 1e-8;
 
-/// Spatial frequencies at which the response of edges falls to one half, cycles a pixel; means over the edges of a part of the field that are measured without and with a change.
+/// Spatial frequencies at which the response of edges falls to one half, cycles per pixel: means over the edges of a part of the field that are measured both
+/// without and with a change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Mtf50 {
-    /// Up to 30 % of half the picture's diagonal from its middle; `None`: no edge there has one.
+    /// Up to 30 % of half the image diagonal from the centre; `None`: no edge there has a result.
     pub middle: Option<Estimate>,
-    /// From 60 % on; `None`: no edge there has one.
+    /// From 60 % on; `None`: no edge there has a result.
     pub far: Option<Estimate>,
 }
 
-/// A chart of edges before a job's camera, and what is measured of it as the job says. Its folder goes when this does.
+/// A chart of edges before a job's camera, and its measurement with the unchanged job. Its folder is removed on drop.
 pub(crate) struct EdgeChart<'a> {
     renderer: &'a FrameRenderer<'a>,
     chart: ChartBeforeCamera,
-    /// Held for its end alone.
+    /// Held only to be dropped.
     _folder: Folder,
     stated: Vec<Edge>,
 }
 
-/// A folder that was made here.
+/// A folder created here; removed on drop.
 struct Folder(PathBuf);
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // What is left of it does no harm.
+        // Remaining files are harmless.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
 impl<'a> EdgeChart<'a> {
-    /// Where the contrast transfer was asked for: the chart, photographed once.
+    /// Captures the chart once, if contrast transfer is requested.
     ///
     /// # Errors
-    /// Where the folder is there already or cannot be written, the camera makes no picture of the chart, or no edge in it can be measured.
+    /// The folder exists already or cannot be written, the camera makes no image of the chart, or no edge in it can be measured.
     pub(crate) fn open(renderer: &'a FrameRenderer<'a>) -> Result<Option<Self>, Error> {
         let Some(path) = &renderer.request.edges else { return Ok(None) };
         let parent = path.parent().map_or(Ok(()), std::fs::create_dir_all);
@@ -65,7 +66,7 @@ impl<'a> EdgeChart<'a> {
         made.map_err(|error| Error::Run(format!("{}: {error}", path.display())))?;
         let folder = Folder(path.clone());
         let design = design::SlantedEdges { size: grid(renderer), angle_deg: ANGLE_DEG, contrast: CONTRAST };
-        // The camera is the job's.
+        // The camera is that of the job.
         let request = ChartRequest { white: WHITE, ..ChartRequest::new(design.into(), "") };
         let chart = ChartBeforeCamera::make(&request, &renderer.own, &renderer.camera, path)?;
         let mut own = Self { renderer, chart, _folder: folder, stated: Vec::new() };
@@ -73,8 +74,8 @@ impl<'a> EdgeChart<'a> {
         Ok(Some(own))
     }
 
-    /// Without and with these changes of keys, over the edges that are measured in both; `None` where the camera with them makes no picture of the chart in which edges can be
-    /// measured.
+    /// Frequencies without and with these changes of keys, over the edges that are measured in both; `None` if the changed camera makes no image of the chart
+    /// with measurable edges.
     pub(crate) fn change(&self, set: &[String]) -> Result<Option<[Mtf50; 2]>, Error> {
         match self.measure(set) {
             Ok(changed) => Ok(Some(in_both(&self.stated, &changed))),
@@ -94,7 +95,7 @@ impl<'a> EdgeChart<'a> {
     }
 }
 
-/// Squares whose edges have the pixels that a measurement needs: five columns, fewer in a small picture.
+/// Grid of squares whose edges have enough pixels for a measurement: five columns, fewer in a small image.
 fn grid(renderer: &FrameRenderer<'_>) -> design::GridSize {
     let plan = renderer.job.plan();
     let own = plan.cameras.iter().find(|camera| camera.name == renderer.camera);
@@ -105,7 +106,7 @@ fn grid(renderer: &FrameRenderer<'_>) -> design::GridSize {
 /// An edge whose response falls to one half.
 #[derive(Clone, Debug, PartialEq)]
 struct Edge {
-    /// Where the measurement sought it, and across which of its sides.
+    /// Position of the measurement in the image and direction of the edge, as the report states them.
     place: [String; 2],
     field_percent: f64,
     mtf50: Estimate,
@@ -131,7 +132,7 @@ fn of_table(table: &Table) -> Vec<Edge> {
     table.rows.iter().filter_map(of_row).collect()
 }
 
-/// Means of two photographs over the edges that both know, with weights of both, so that an edge that one of them has not moves neither.
+/// Means of two captures over the edges that both contain, with weights of both, so that an edge missing in one affects neither.
 fn in_both(without: &[Edge], with: &[Edge]) -> [Mtf50; 2] {
     let pair =
         |edge: &Edge| with.iter().find(|other| other.place == edge.place).map(|other| [edge.clone(), other.clone()]);
@@ -144,7 +145,7 @@ fn in_both(without: &[Edge], with: &[Edge]) -> [Mtf50; 2] {
     [0, 1].map(|i| Mtf50 { middle: middle.map(|pair| pair[i]), far: far.map(|pair| pair[i]) })
 }
 
-/// Means of pairs, each weighed by what is known of both together; `None` where nothing is.
+/// Means of pairs, each weighted by the combined uncertainty of both; `None` without pairs.
 fn weighted_means(pairs: impl Iterator<Item = [Estimate; 2]>) -> Option<[Estimate; 2]> {
     let (mut sums, mut variances, mut whole) = ([0.0; 2], [0.0; 2], 0.0);
     for pair in pairs {

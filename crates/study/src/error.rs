@@ -1,4 +1,4 @@
-//! Errors in the currencies of a study, with what is known of them.
+//! Error metrics of a study, with uncertainties.
 
 use etendue_core::maths::f64::hypot;
 use serde::Serialize;
@@ -13,8 +13,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The mean of numbers that fall into groups which err alike (the pixels of a tile), by the scatter of the groups (Cochran 1977, equation 9.18: a ratio of
-    /// sums over clusters). Each group is a sum and a count. Not a number where there is none; its uncertainty is, where there is one.
+    /// Mean of numbers in groups with correlated errors (the pixels of a tile), with the uncertainty from the scatter of the groups (Cochran 1977, equation
+    /// 9.18: a ratio of sums over clusters). Each group is a sum and a count. NaN without numbers; the uncertainty is NaN for a single group.
     #[must_use]
     pub fn of_groups(groups: &[(f64, usize)]) -> Self {
         let count: usize = groups.iter().map(|(_, n)| n).sum();
@@ -24,71 +24,71 @@ impl Estimate {
         Self { value, uncertainty: (squares * n / (n - 1.0)).sqrt() / count as f64 }
     }
 
-    /// Times a number that is known.
+    /// Multiplies by an exact number.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
         Self { value: self.value * factor, uncertainty: self.uncertainty * factor.abs() }
     }
 
-    /// The sum with one that errs independently.
+    /// Adds an estimate with an independent error.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         Self { value: self.value + other.value, uncertainty: hypot(self.uncertainty, other.uncertainty) }
     }
 
-    /// The product with one that errs independently.
+    /// Multiplies by an estimate with an independent error.
     #[must_use]
     pub fn product(self, other: Self) -> Self {
         let uncertainty = hypot(self.uncertainty * other.value, other.uncertainty * self.value);
         Self { value: self.value * other.value, uncertainty }
     }
 
-    /// This over one that errs independently.
+    /// Divides by an estimate with an independent error.
     #[must_use]
     pub fn over(self, other: Self) -> Self {
         let inverse = 1.0 / other.value;
         self.product(Self { value: inverse, uncertainty: other.uncertainty * inverse * inverse })
     }
 
-    /// The root of a mean square; 0 of one below 0, which differs from 0 by its uncertainty at most.
+    /// Root of a mean square; 0 for a value below 0, which differs from 0 only within its uncertainty.
     #[must_use]
     pub fn root(self) -> Self {
         if self.value.is_nan() {
             return self;
         }
         let value = self.value.max(0.0).sqrt();
-        // d√x = dx/(2√x), and not more than √dx, which it is at 0.
+        // d√x = dx/(2√x), limited to √dx, its value at 0.
         let most = self.uncertainty.sqrt();
         let least = if value > 0.0 { self.uncertainty / (2.0 * value) } else { most };
         let uncertainty = if least < most { least } else { most };
         Self { value, uncertainty }
     }
 
-    /// Whether it lies this many uncertainties above 0.
+    /// Returns true if the value exceeds 0 by this many uncertainties.
     #[must_use]
     pub fn exceeds(&self, uncertainties: f64) -> bool {
         self.value > uncertainties * self.uncertainty
     }
 }
 
-/// One number in each currency, all of them mean squares over the pixels.
+/// One value per error metric; all are mean squares over the pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Currencies<T> {
-    /// Of a pixel's light, over the square of the mean light of the pixels of its colour about it (8 × 8 px).
+    /// Error of a pixel's light, over the square of the mean light of the pixels of its colour in its cell (8 × 8 px).
     pub relative: T,
-    /// Of a pixel's electrons, over the variance that the sensor's noise has there; of pixels below white. `None` where no electrons are made.
+    /// Error of a pixel's electrons, over the variance of the sensor's noise there; over pixels below white. `None` without electrons.
     pub sensor: Option<T>,
-    /// Of the mean of the pixels of one colour in 8 × 8 px, over its square: what a reading of a patch sees.
+    /// Error of the mean of the pixels of one colour in 8 × 8 px, over its square: that of a patch measurement.
     pub patch: T,
 }
 
 impl<T> Currencies<T> {
-    /// Each in turn.
+    /// Applies a function to each metric.
     pub fn map<U>(&self, each: impl Fn(&T) -> U) -> Currencies<U> {
         Currencies { relative: each(&self.relative), sensor: self.sensor.as_ref().map(&each), patch: each(&self.patch) }
     }
 
-    /// Each with that of another.
+    /// Combines each metric with that of another value.
     pub fn with<U, V>(&self, other: &Currencies<U>, each: impl Fn(&T, &U) -> V) -> Currencies<V> {
         Currencies {
             relative: each(&self.relative, &other.relative),
@@ -97,7 +97,7 @@ impl<T> Currencies<T> {
         }
     }
 
-    /// What decides: the sensor's currency where there is one.
+    /// The deciding metric: that of the sensor if there is one.
     pub fn deciding(&self) -> &T {
         self.sensor.as_ref().unwrap_or(&self.relative)
     }
@@ -114,7 +114,7 @@ mod tests {
         let pairs: Vec<_> = values.chunks(2).map(|pair| (pair.iter().sum(), 2)).collect();
         let grouped = Estimate::of_groups(&pairs);
         assert!((single.value - 4.0).abs() < 1e-12 && (grouped.value - single.value).abs() < 1e-12);
-        // Four independent numbers in truth, with the deviation 2.556 and so 1.278 of the mean.
+        // Effectively four independent numbers: their deviation is 2.556, that of the mean 1.278.
         assert!((grouped.uncertainty - 1.278).abs() < 1e-3, "{grouped:?}");
         assert!((single.uncertainty - 0.837).abs() < 1e-3, "{single:?}");
     }

@@ -1,4 +1,4 @@
-//! A frame rendered twice, by different random numbers and with different numbers of samples.
+//! A frame rendered twice, with different random numbers and different numbers of samples.
 
 use crate::Clock;
 use crate::pilot::seed;
@@ -8,12 +8,12 @@ use etendue::{CameraResults, Error, Job, JobRequest, Observer, PlannedEffect, Re
 use etendue_core::quantity::{Display, Quantity, WatchedSignal};
 use etendue_core::{KeptCube, Plane};
 
-/// Samples of the second rendering over those of the first.
+/// Ratio of samples of the second render to those of the first.
 pub(crate) const MORE: u32 = 3;
-/// Samples of the first rendering, at most.
+/// Maximum samples of the first render.
 const MAX_SPP: f64 = 64.0;
 
-/// A job whose samples and way to render are said by changes of keys, so that a trial's changes come after them.
+/// A job whose samples and render settings are stated by changes of keys, so that a trial's changes can override them.
 fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
     let mut own = without_keys(job, camera, &SAMPLE_KEYS);
     if let Some(integrator) = own.integrator.take() {
@@ -22,23 +22,23 @@ fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
     own
 }
 
-/// Renders the first frame of one of a job's cameras, as the job says or with changes.
+/// Renders the first frame of one of a job's cameras, unchanged or with changes.
 pub(crate) struct FrameRenderer<'a> {
     pub(crate) request: &'a Request,
     clock: &'a dyn Clock,
     observer: &'a dyn Observer,
-    /// The job as it stands.
+    /// The unchanged job.
     pub(crate) job: Job,
     /// The camera.
     pub(crate) camera: String,
-    /// The job's samples a pixel.
+    /// The job's samples per pixel.
     pub(crate) job_spp: f64,
     seed: u64,
-    /// The job that changes are added to.
+    /// The job to which changes are added.
     pub(crate) own: JobRequest,
 }
 
-/// Passes on the wish to stop, and no message: frames without this or that have much to warn of.
+/// Forwards cancellation but no messages: frames without some effects would warn of much.
 pub(crate) struct Quiet<'a>(&'a dyn Observer);
 
 impl Observer for Quiet<'_> {
@@ -47,17 +47,17 @@ impl Observer for Quiet<'_> {
     }
 }
 
-/// A frame with so many samples, and how long it took.
+/// A frame with a given number of samples, and its render times.
 pub(crate) struct FrameRender {
     seconds: f64,
-    /// Mean electrons; of a camera without electronics its irradiance over all wavelengths, at the pupil the radiance.
+    /// Mean electrons; for a camera without electronics its irradiance over all wavelengths, at the pupil the radiance.
     pub(crate) light: Option<(&'static str, Plane<WatchedSignal>)>,
     pub(crate) raw: Option<Vec<u32>>,
     pub(crate) picture: Option<Plane<Display>>,
     pub(crate) results: CameraResults,
 }
 
-/// A frame rendered twice, by different random numbers.
+/// A frame rendered twice, with different random numbers.
 pub(crate) struct RenderPair {
     pub(crate) few: FrameRender,
     pub(crate) many: FrameRender,
@@ -65,7 +65,7 @@ pub(crate) struct RenderPair {
 }
 
 impl RenderPair {
-    /// The whole frame with so many samples, s.
+    /// Estimated time of the whole frame with `spp` samples, s.
     pub(crate) fn seconds(&self, spp: f64) -> f64 {
         let slope = (self.many.seconds - self.few.seconds) / f64::from((MORE - 1) * self.spp);
         (self.few.seconds + slope.max(0.0) * (spp - f64::from(self.spp))).max(0.0)
@@ -73,10 +73,10 @@ impl RenderPair {
 }
 
 impl<'a> FrameRenderer<'a> {
-    /// Of the camera that is asked for, else of the first.
+    /// Opens the job with the requested camera, by default the first.
     ///
     /// # Errors
-    /// Where the job has faults or no such camera.
+    /// The job is invalid or has no such camera.
     pub(crate) fn open(request: &'a Request, clock: &'a dyn Clock, observer: &'a dyn Observer) -> Result<Self, Error> {
         let job = request.job.clone().open()?;
         let camera = request.camera.clone().unwrap_or_else(|| job.plan().cameras[0].name.clone());
@@ -85,13 +85,13 @@ impl<'a> FrameRenderer<'a> {
         Ok(Self { request, clock, observer, job, camera, job_spp: settings.spp.into(), seed: settings.seed, own })
     }
 
-    /// What the camera's plan says of its effects.
+    /// The effects of the camera's plan.
     pub(crate) fn effects(&self) -> Vec<PlannedEffect> {
         let effects = self.job.effects().into_iter().find(|(plan, _)| plan.name == self.camera);
         effects.map(|(_, effects)| effects).unwrap_or_default()
     }
 
-    /// Samples of the first rendering with which so many pairs take the study's time, by one rendering's.
+    /// Samples of the first render at which `pairs` pairs fill the study's time, extrapolated from one render.
     pub(crate) fn affordable_spp(&self, pairs: usize) -> Result<u32, Error> {
         let from_s = self.clock.seconds();
         self.render(&self.own, 1, 3)?;
@@ -108,10 +108,10 @@ impl<'a> FrameRenderer<'a> {
         self.clock.processor_seconds().unwrap_or_else(|| self.clock.seconds())
     }
 
-    /// A frame of `job` by `spp` and by [`MORE`] times as many samples a pixel.
+    /// Renders a frame of `job` with `spp` and with [`MORE`] times as many samples per pixel.
     ///
     /// # Errors
-    /// Where the job has faults, the observer cancels, or bands that are on the disk cannot be read.
+    /// The job is invalid, the observer cancels, or bands on disk cannot be read.
     pub(crate) fn pair(&self, job: &JobRequest, spp: u32) -> Result<RenderPair, Error> {
         Ok(RenderPair { few: self.render(job, spp, 1)?, many: self.render(job, MORE * spp, 2)?, spp })
     }
@@ -137,13 +137,13 @@ impl<'a> FrameRenderer<'a> {
     }
 }
 
-/// A signal, and what it is.
+/// A signal, and the name of its quantity.
 type Signal = (&'static str, Plane<WatchedSignal>);
 
 /// The signal of a camera's pixels.
 ///
 /// # Errors
-/// Where bands that are on the disk cannot be read.
+/// Bands on disk cannot be read.
 fn light(results: &CameraResults) -> Result<Option<Signal>, Error> {
     let light = results.light();
     if let Some(electrons) = &light.electrons {

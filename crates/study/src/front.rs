@@ -1,45 +1,45 @@
-//! The ways that no other beats, and three of them for drafts, standard pictures and references.
+//! The Pareto front of configurations, and three recommendations: draft, standard image and reference.
 
 use crate::error::{Currencies, Estimate};
 use crate::measured::Measured;
 use crate::way::WayToRender;
 use serde::Serialize;
 
-/// Samples that are looked at, at most.
+/// Maximum number of samples considered.
 const MOST_SPP: f64 = 1_048_576.0;
-/// What bias may have of the mean square that is wanted, with this many of its uncertainties on top.
+/// Maximum bias as a fraction of the target's mean square, and the number of its uncertainties that are added to it.
 const BIAS_PART: f64 = 0.25;
 const BIAS_UNCERTAINTIES: f64 = 1.0;
-/// The most samples of a point of the front, a power of two.
+/// Exponents of the sample counts of a point of the front, powers of two.
 const FRONT_POWERS: std::ops::RangeInclusive<u32> = 2..=14;
 
-/// A number of samples of a way, and what it comes to.
+/// A configuration with a number of samples, and its estimated time and error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrontPoint {
-    /// Which way.
+    /// Configuration.
     pub way: WayToRender,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub spp: u32,
-    /// Independent replicates of them.
+    /// Number of independent replicates.
     pub replicates: u32,
-    /// The whole run, s.
+    /// Time of the whole run, s.
     pub seconds: Estimate,
-    /// Root mean square errors, bias and noise together.
+    /// Root mean square errors, bias and noise combined.
     pub error: Currencies<Estimate>,
 }
 
-/// How good a picture shall be: one of these is enough.
+/// Required quality of an image: either limit suffices.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Target {
-    /// Its name, and that of the job file.
+    /// Its name, also that of the job file.
     pub name: &'static str,
-    /// The root mean square error over the sensor's noise; `None` where no electrons are made.
+    /// Root mean square error over the sensor's noise; `None` without electrons.
     pub sensor: Option<f64>,
-    /// That of the light, relative; `None` where the sensor's noise alone decides.
+    /// Relative root mean square error of the light; `None` if the sensor's noise alone decides.
     pub relative: Option<f64>,
 }
 
-/// Error over the sensor's noise; relative to the light. A draft is good enough by either.
+/// Error over the sensor's noise; relative to the light. For a draft either limit suffices.
 const TARGETS: [(&str, f64, f64); 3] = [("draft", 2.0, 0.1), ("standard", 0.5, 0.03), ("reference", 0.1, 0.01)];
 
 /// The three targets of a study.
@@ -53,7 +53,7 @@ pub(crate) fn targets(has_sensor: bool) -> [Target; 3] {
 }
 
 impl Target {
-    /// Whether a way with so many samples is good enough, and its bias a small part of what is let be.
+    /// Returns true if a configuration with this number of samples meets the target, with its bias a small part of the permitted error.
     fn is_met(&self, way: &Measured, spp: f64, replicates: f64) -> bool {
         let (error, bias) = (way.error(spp, replicates), &way.bias_squares);
         let meets = |wanted: Option<f64>, error: Option<Estimate>, bias: Option<Estimate>| {
@@ -66,42 +66,42 @@ impl Target {
     }
 }
 
-/// What happened where a recommendation was tried on other tiles, over what was foretold.
+/// Test of a recommendation on other tiles, compared with its estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Confirmation {
-    /// Tiles it was tried on.
+    /// Number of tiles of the test.
     pub tiles: u32,
-    /// Whether the study had not looked at them before; small pictures are looked at as a whole.
+    /// True if the study had not sampled these tiles; small images are sampled as a whole.
     pub unseen: bool,
-    /// Samples of each replicate of the trial: those of the recommendation, or fewer where these take longer than a study may.
+    /// Samples of each replicate of the test: those of the recommendation, or fewer if these take longer than a study may.
     pub samples: u32,
-    /// Time found for samples over what pilots foretold. The recommendation's time has it in it.
+    /// Measured time of samples over the estimate of the pilots. The recommendation's time includes this factor.
     pub seconds: Estimate,
-    /// Noise (root mean square, without bias) found over foretold; `None` where none was foretold.
+    /// Measured noise (root mean square, without bias) over the estimate; `None` without an estimate.
     pub noise: Option<Estimate>,
 }
 
-/// A setting for a target.
+/// Recommended settings for a target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Recommendation {
-    /// What is wanted.
+    /// The target.
     pub target: Target,
-    /// What is foretold, its time by the trial where there was one.
+    /// The estimate, with the time corrected by the test if there was one.
     pub point: FrontPoint,
-    /// Whether the target is reached.
+    /// True if the target is reached.
     pub is_reached: bool,
-    /// How it went where it was tried; `None` of pictures of too few tiles.
+    /// Result of the test; `None` for images of too few tiles.
     pub confirmation: Option<Confirmation>,
 }
 
-/// What a frame takes beside its light, and into how many replicates samples are shared.
+/// Time of a frame excluding its light, and the number of replicates that share the samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     pub(crate) rest_s: f64,
     pub(crate) replicates: u32,
 }
 
-/// A way with so many samples.
+/// Estimated point of a configuration with a number of samples.
 pub(crate) fn point(measured: &Measured, spp: u32, frame: Frame) -> FrontPoint {
     let replicates = frame.replicates.min(spp);
     FrontPoint {
@@ -113,7 +113,7 @@ pub(crate) fn point(measured: &Measured, spp: u32, frame: Frame) -> FrontPoint {
     }
 }
 
-/// What no other way beats in both time and error, by the deciding currency, shortest first.
+/// Pareto front: the points that no other configuration beats in both time and error, by the deciding metric, shortest first.
 pub(crate) fn front(ways: &[Measured], frame: Frame) -> Vec<FrontPoint> {
     let counts = FRONT_POWERS.map(|power| (1_u32 << power).next_multiple_of(frame.replicates));
     let mut points: Vec<_> = counts.flat_map(|spp| ways.iter().map(move |way| point(way, spp, frame))).collect();
@@ -128,7 +128,7 @@ pub(crate) fn front(ways: &[Measured], frame: Frame) -> Vec<FrontPoint> {
     points
 }
 
-/// The quickest way to a target; that of the least error where none reaches it.
+/// The fastest configuration that reaches a target; the one with the smallest error if none does.
 pub(crate) fn recommend(ways: &[Measured], target: Target, frame: Frame) -> Option<Recommendation> {
     let reaching = ways.iter().filter_map(|way| Some(point(way, samples_for(way, target, frame)?, frame)));
     let quickest = reaching.min_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
@@ -142,7 +142,7 @@ pub(crate) fn recommend(ways: &[Measured], target: Target, frame: Frame) -> Opti
     Some(Recommendation { target, point, is_reached, confirmation: None })
 }
 
-/// The fewest samples that reach a target; `None` where no number does.
+/// Smallest number of samples that reaches a target; `None` if no number does.
 fn samples_for(way: &Measured, target: Target, frame: Frame) -> Option<u32> {
     let replicates = f64::from(frame.replicates);
     let reaches = |rounds: u32| target.is_met(way, f64::from(rounds) * replicates, replicates);
@@ -164,7 +164,7 @@ mod tests {
     use crate::measured::{PowerLaw, Role};
     use etendue::{Accelerator, Integrator, PathSettings};
 
-    /// A way whose sample takes `sample_s`, of a variance and bias in the relative currency.
+    /// A configuration whose sample takes `sample_s`, with a variance and bias in the relative metric.
     fn way(integrator: Integrator, sample_s: f64, variance: f64, bias: f64) -> Measured {
         let exact = |value: f64| Estimate { value, uncertainty: 0.0 };
         let law = PowerLaw { samples: 1.0, value: exact(variance), exponent: exact(1.0) };
@@ -196,7 +196,7 @@ mod tests {
         };
         // 0.04/n + 1e-4 is 0.0025 at 16.7.
         assert_eq!(of(0.05), Some((Integrator::Direct, 20)));
-        // Of 1e-4 the bias alone would take all.
+        // For 1e-4 the bias alone exhausts the target.
         assert_eq!(of(0.01), Some((Integrator::Path, 400)));
         let seconds = recommend(&ways, Target { name: "draft", sensor: None, relative: Some(0.01) }, FRAME)
             .map(|r| r.point.seconds.value);

@@ -1,4 +1,4 @@
-//! A recommendation as a job file that builds on the user's.
+//! A recommendation as a job file based on the user's.
 
 use crate::front::Recommendation;
 use crate::report::{error_text, time_text};
@@ -6,10 +6,10 @@ use crate::way::{is_of, studied_keys};
 use etendue::{Error, JobRequest, StatedRender, Word as _, relative_path};
 use std::path::{Component, Path, PathBuf};
 
-/// The text of a job file in `folder` that renders `camera` of a job as recommended.
+/// Text of a job file in `folder` that renders `camera` of a job as recommended.
 ///
 /// # Errors
-/// Where the job cannot be read.
+/// The job cannot be read.
 pub fn job_file(
     recommendation: &Recommendation,
     job: &JobRequest,
@@ -18,7 +18,7 @@ pub fn job_file(
 ) -> Result<String, Error> {
     let StatedRender { keys: stated, cameras, .. } = job.stated_render(camera)?;
     let superseded = studied_keys();
-    // What the job says for all cameras is left to the others.
+    // Values that the job states for all cameras remain for the other cameras.
     let is_free = |key: &str| cameras == 1 || !key.starts_with("render.");
     let removed = stated.iter().filter(|key| is_of(key, camera, &superseded) && is_free(key));
     let removed: Vec<_> = removed.map(|key| format!("{key:?}")).collect();
@@ -50,7 +50,7 @@ pub fn job_file(
     Ok(text)
 }
 
-/// What of the command line's changes a job file does not hold.
+/// Changes of the command line that a job file does not contain.
 fn changes(job: &JobRequest, camera: &str) -> Vec<String> {
     let held = studied_keys();
     let set = job.set.iter().filter(|change| !is_of(change, camera, &held)).map(|change| format!("--set {change}"));
@@ -58,14 +58,14 @@ fn changes(job: &JobRequest, camera: &str) -> Vec<String> {
     set.chain(quality).chain(job.seed.map(|seed| format!("--seed {seed}"))).collect()
 }
 
-/// A file as seen from a folder.
+/// Path of a file relative to a folder.
 fn path_from(folder: &Path, file: &Path) -> Result<PathBuf, Error> {
     let whole =
         |path: &Path| std::path::absolute(path).map_err(|error| Error::Run(format!("{}: {error}", path.display())));
     Ok(relative_path(&tidied(&whole(folder)?), &tidied(&whole(file)?)))
 }
 
-/// Without "." and "a/..".
+/// Path without "." and "a/..".
 fn tidied(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for part in path.components() {

@@ -1,10 +1,11 @@
-//! What each choice of rendering costs in time and in error, for a job of one's own.
+//! Cost of each choice of rendering in time and error, for a user's own job.
 //!
-//! A study renders parts of a job's frame again and again, with few samples and in many ways ([`WayToRender`]); tells of each how long a sample takes and how noisy it is
-//! (pilots), and how far its mean lies from that of the exact form (bias and variance apart); foretells from these the time and error of any
-//! number of samples; and names the ways that no other beats (the front), with three settings of them for drafts, standard pictures and references.
+//! A study renders parts of a job's frame repeatedly, with few samples and in many configurations ([`WayToRender`]). For each it measures the time and noise
+//! of a sample (pilots), and the distance of its mean from that of the exact form (bias separate from variance). From these it estimates time and error of
+//! any number of samples. It then names the configurations that no other beats (the Pareto front), with three recommendations: draft, standard image and
+//! reference.
 //!
-//! No clock is read here: the caller gives one ([`Clock`]).
+//! No clock is read here: the caller supplies one ([`Clock`]).
 
 mod ablation;
 mod budget;
@@ -40,14 +41,14 @@ pub use study::{Request, Study, study};
 pub use variation::{Variations, Varied, variation_table, variations};
 pub use way::WayToRender;
 
-/// Clocks that only go forward.
+/// A monotonic clock.
 pub trait Clock: Sync {
-    /// Seconds since any moment.
+    /// Seconds since an arbitrary origin.
     fn seconds(&self) -> f64;
 
-    /// Processor time of all threads of this process since any moment, s; `None` where the machine does not tell it.
+    /// CPU time of all threads of this process since an arbitrary origin, s; `None` if the machine does not report it.
     fn processor_seconds(&self) -> Option<f64>;
 
-    /// Threads that gather light.
+    /// Number of render threads.
     fn threads(&self) -> usize;
 }

@@ -1,16 +1,17 @@
-//! What a change does to how light is spread over a picture: fall-off towards the corners, and contrast.
+//! Effect of a change on the distribution of light over an image: fall-off towards the corners, and contrast.
 
 use crate::error::Estimate;
 use crate::frame_render::RenderPair;
 use etendue_core::Plane;
 use etendue_core::quantity::WatchedSignal;
 
-/// Side of the cells whose means the contrast is of, px.
+/// Side of the cells whose means give the contrast, px.
 const CELL_PX: usize = 16;
-/// Parts of the cells that are darker than the dark end, and than the bright end, of the contrast.
+/// Percentiles of the dark end and of the bright end of the contrast, as fractions of the cells.
 const ENDS: [f64; 2] = [0.05, 0.95];
 
-/// A figure of two renderings that err independently, the second of so many times the first one's samples: their mean by samples, and what their difference says of it.
+/// Combines a figure of two independent renders, the second with `more` times the samples of the first: the mean weighted by samples, and its uncertainty
+/// from their difference.
 fn pooled([few, many]: [f64; 2], more: f64) -> Option<Estimate> {
     let value = (few + more * many) / (1.0 + more);
     // Variances are σ² and σ²/more: that of the mean is σ²/(1 + more), of the difference σ²(1 + 1/more).
@@ -18,7 +19,7 @@ fn pooled([few, many]: [f64; 2], more: f64) -> Option<Estimate> {
     value.is_finite().then_some(Estimate { value, uncertainty })
 }
 
-/// One figure of both renderings of two frames of equal size.
+/// One figure from both renders of two frames of equal size.
 fn of_both(
     own: &RenderPair,
     changed: &RenderPair,
@@ -34,8 +35,8 @@ fn of_both(
     pooled([few, many], crate::frame_render::MORE.into())
 }
 
-/// By what factor the light of the corners (an eighth of width and height each) over that of the middle (a quarter of both) changes: 1 where it does not. `None`
-/// where it is dark there, or the light has another size or quantity.
+/// Factor by which the ratio of the light of the corners (an eighth of width and height each) to that of the centre (a quarter of both) changes: 1 if
+/// unchanged. `None` if it is dark there, or the light has another size or quantity.
 pub(crate) fn change_of_corners(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
     of_both(own, changed, |own, changed| {
         let factor = corners_over_middle(changed)? / corners_over_middle(own)?;
@@ -43,7 +44,7 @@ pub(crate) fn change_of_corners(own: &RenderPair, changed: &RenderPair) -> Optio
     })
 }
 
-/// By how much (bright − dark)/(bright + dark) changes, of the cells of 16 × 16 px that only 5 % are darker, and brighter, than. `None` likewise.
+/// Change of (bright − dark)/(bright + dark), where dark and bright are the 5 % and 95 % percentiles of the cells of 16 × 16 px. `None` in the same cases.
 pub(crate) fn change_of_contrast(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
     of_both(own, changed, |own, changed| Some(contrast(changed)? - contrast(own)?))
 }

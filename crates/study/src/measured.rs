@@ -1,4 +1,4 @@
-//! What pilots tell of one way to render: how noisy a sample is, how long it takes, how far its mean lies from the exact one.
+//! Results of pilots of one configuration: noise and time of a sample, and distance of its mean from the exact one.
 
 use crate::error::{Currencies, Estimate};
 use crate::pilot::Pilot;
@@ -14,33 +14,33 @@ use std::f64::consts::FRAC_PI_2;
 pub(crate) struct SampledPilot<'a> {
     /// Samples per pixel.
     pub(crate) spp: u32,
-    /// What it rendered.
+    /// Its planes and times.
     pub(crate) pilot: &'a Pilot,
 }
 
-/// A mean square that falls with a power of the samples of a replicate.
+/// A mean square that decreases with a power of the samples of a replicate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PowerLaw {
-    /// At so many samples.
+    /// Number of samples at which `value` holds.
     pub samples: f64,
-    /// The mean square.
+    /// Mean square.
     pub value: Estimate,
-    /// The power: 1 of independent samples, more of stratified ones; with its uncertainty.
+    /// Exponent: 1 for independent samples, more for stratified ones; with its uncertainty.
     pub exponent: Estimate,
 }
 
-/// Exponents that are believed: independent samples have 1, stratified ones of smooth light more; below 1 lies none, but for luck.
+/// Plausible exponents: independent samples have 1, stratified samples of smooth light more; values below 1 occur only by chance.
 const EXPONENTS: [f64; 2] = [0.9, 1.6];
 
 impl PowerLaw {
-    /// Through two numbers of samples, the second the larger; an exponent that is badly known is drawn towards 1.
+    /// Power law through two numbers of samples, the second the larger; an uncertain exponent is shrunk towards 1.
     fn through(few: u32, at_few: Estimate, many: u32, at_many: Estimate) -> Self {
         let (few, many) = (f64::from(few), f64::from(many));
         let span = ln(many / few);
         let found = ln(at_few.value / at_many.value) / span;
         let of = |e: Estimate| e.uncertainty / e.value;
         let uncertainty = hypot(of(at_few), of(at_many)) / span;
-        // By how much exponents of scenes differ from 1.
+        // Typical deviation of scenes' exponents from 1.
         const SCATTER: f64 = 0.15;
         let weight = SCATTER * SCATTER / (SCATTER * SCATTER + uncertainty * uncertainty);
         let exponent = 1.0 + weight * (found - 1.0);
@@ -53,7 +53,7 @@ impl PowerLaw {
         Self { samples: many, value: at_many, exponent: Estimate { value: exponent, uncertainty } }
     }
 
-    /// The mean square of one replicate of so many samples.
+    /// Mean square of one replicate of `samples` samples.
     #[must_use]
     pub fn at(&self, samples: f64) -> Estimate {
         let ratio = samples / self.samples;
@@ -63,51 +63,51 @@ impl PowerLaw {
     }
 }
 
-/// What a way leaves out: the mean square of the difference of means, in each currency.
+/// Bias: mean square of the difference of means, in each metric.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bias {
-    /// Against which way.
+    /// Configuration that it is compared with.
     pub against: WayToRender,
-    /// Mean squares; below 0 only by their uncertainty.
+    /// Mean squares; below 0 only within their uncertainty.
     pub squares: Currencies<Estimate>,
 }
 
-/// Why a way was looked at.
+/// Role of a configuration in the study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
-    /// It follows all light; the others are compared with it.
+    /// Simulates all light; the others are compared with it.
     Exact,
-    /// It leaves something out: its bias is told.
+    /// Omits some light: its bias is reported.
     Approximation,
-    /// The job as it stands.
+    /// The unchanged job.
     Stated,
-    /// A choice that changes no mean, made otherwise than the job makes it: it has the bias of the way that it was made from, and what is found beside that is chance.
+    /// An unbiased alternative to a choice of the job. It has the bias of the configuration that it is derived from; any other measured difference is chance.
     Choice,
 }
 
-/// What is known of one way to render.
+/// Measurements of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measured {
-    /// Which.
+    /// The configuration.
     pub way: WayToRender,
-    /// Why it was looked at.
+    /// Its role in the study.
     pub role: Role,
-    /// Reading files, compiling the scene and building its trees, s.
+    /// Time of reading files, compiling the scene and building its acceleration structures, s.
     pub load_s: f64,
-    /// What the light of a frame takes beside its samples, s.
+    /// Time of a frame's light excluding its samples, s.
     pub frame_s: f64,
-    /// One sample of every pixel of the frame, s.
+    /// Time of one sample of every pixel of the frame, s.
     pub sample_s: Estimate,
     /// Variances of one replicate.
     pub variance: Currencies<PowerLaw>,
-    /// Found against the next more exact way; `None` of the exact form itself.
+    /// Bias relative to the next more exact configuration; `None` for the exact form itself.
     pub bias: Option<Bias>,
-    /// The mean square of everything that it leaves out of the exact form, at most, and 0 or more: what is found below 0 is chance.
+    /// Upper bound of the mean square of all that it omits from the exact form, 0 or more: measured values below 0 are chance.
     pub bias_squares: Currencies<Estimate>,
 }
 
-/// Times of a way.
+/// Times of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Times {
     pub(crate) frame_s: f64,
@@ -115,7 +115,7 @@ pub(crate) struct Times {
 }
 
 impl Times {
-    /// By pilots of few and of many samples of a share of the frame's tiles: samples are all threads' work, the rest one's.
+    /// Times from pilots of few and of many samples of a fraction of the frame's tiles: samples use all threads, the rest a single one.
     pub(crate) fn of(few: SampledPilot<'_>, many: SampledPilot<'_>, share: f64, threads: usize) -> Self {
         let median = |seconds: &[f64]| upper_median(seconds.iter().copied()).unwrap_or(f64::NAN);
         let (SampledPilot { spp: few, pilot: at_few }, SampledPilot { spp: many, pilot: at_many }) = (few, many);
@@ -123,7 +123,7 @@ impl Times {
         let step = f64::from(many - few);
         let slope_s = ((long_s - short_s) / step).max(1e-12);
         let frame_s = (short_s - slope_s * f64::from(few)).clamp(0.0, short_s);
-        // Of a median of n normal numbers: √(π/2) of the deviation of their mean.
+        // Standard deviation of the median of n normal numbers: √(π/2) times that of their mean.
         let spread = |seconds: &[f64]| {
             let variance = Moments::of(seconds.iter().copied()).variance().unwrap_or(f64::NAN);
             (FRAC_PI_2 * variance / seconds.len() as f64).sqrt()
@@ -133,13 +133,13 @@ impl Times {
     }
 }
 
-/// Variances by pilots of few and of many samples.
+/// Variances from pilots of few and of many samples.
 pub(crate) fn variance(pixels: &Pixels, few: SampledPilot<'_>, many: SampledPilot<'_>) -> Currencies<PowerLaw> {
     let (low, high) = (pixels.variance(&few.pilot.planes), pixels.variance(&many.pilot.planes));
     low.with(&high, |a, b| PowerLaw::through(few.spp, *a, many.spp, *b))
 }
 
-/// Mean squares of what planes of equal seeds differ by.
+/// Mean squares of the differences between planes of equal seeds.
 pub(crate) fn bias(pixels: &Pixels, own: &Pilot, exact: &Pilot) -> Currencies<Estimate> {
     let difference = |(a, b): (&Vec<f32>, &Vec<f32>)| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f32>>();
     let differences: Vec<_> = own.planes.iter().zip(&exact.planes).map(difference).collect();
@@ -147,14 +147,14 @@ pub(crate) fn bias(pixels: &Pixels, own: &Pilot, exact: &Pilot) -> Currencies<Es
 }
 
 impl Measured {
-    /// The mean square of the error of so many samples in so many replicates.
+    /// Mean square error of `spp` samples in `replicates` replicates.
     #[must_use]
     pub fn error(&self, spp: f64, replicates: f64) -> Currencies<Estimate> {
         let variance = self.variance.map(|law| law.at(spp / replicates).times(1.0 / replicates));
         variance.with(&self.bias_squares, |variance, bias| variance.plus(*bias))
     }
 
-    /// The whole run, s, with what a frame takes beside its light.
+    /// Time of the whole run, s, including that of a frame outside its light.
     #[must_use]
     pub fn seconds(&self, spp: f64, rest_s: f64) -> Estimate {
         let fixed = Estimate { value: self.load_s + self.frame_s + rest_s, uncertainty: 0.0 };

@@ -1,4 +1,4 @@
-//! What approximations do to the picture: the exact form, the approximation, and their difference side by side.
+//! Images of approximations: the exact form, the approximation, and their difference side by side.
 
 use crate::measured::{Measured, Role};
 use crate::study::{Request, Study};
@@ -7,29 +7,29 @@ use etendue::{Error, Job, Observer, RenderOptions, display_jpeg};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 
-/// By how much differences are made brighter, in the encoded picture.
+/// Gain of differences in the encoded image.
 const GAIN: f32 = 4.0;
-/// What part of a study's time one picture may take.
+/// Maximum fraction of a study's time for one image.
 const PICTURE_PART: f64 = 0.03;
-/// Of the JPEG.
+/// Quality of the JPEG.
 pub(crate) const QUALITY: u8 = 92;
-/// Samples of a picture, at most.
+/// Maximum samples per pixel of an image.
 const MOST_SPP: f64 = 64.0;
 
-/// A picture beside that of the exact form.
+/// An image compared with that of the exact form.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// The name of its file.
+    /// File name.
     pub file: String,
-    /// Exact form, approximation, and four times their difference on grey, side by side, JPEG.
+    /// Exact form, approximation, and four times their difference on grey, side by side, as JPEG.
     pub jpeg: Vec<u8>,
 }
 
-/// The pictures of what a study's approximations do, each with as many samples as there is time for, by the same random numbers as the exact
-/// form; none where the camera makes no pictures. Runs on the caller's thread pool.
+/// Images of a study's approximations, each with as many samples as time allows and with the random numbers of the exact form; empty if the camera makes no
+/// images. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the observer cancels, or light is not finite.
+/// The observer cancels, or light is not finite.
 pub fn pictures(study: &Study, request: &Request, observer: &dyn Observer) -> Result<Vec<Comparison>, Error> {
     let Some(exact) = study.ways.iter().find(|way| way.way.is_exact()) else { return Ok(Vec::new()) };
     let affordable = PICTURE_PART * request.budget_s / exact.sample_s.value;
@@ -55,7 +55,7 @@ fn picture_of(job: &Job, request: &Request, observer: &dyn Observer) -> Result<O
     Ok(results.cameras()[0].display_picture())
 }
 
-/// Approximations that are not the exact form.
+/// Returns true for approximations that are not the exact form.
 fn is_shown(way: &Measured) -> bool {
     matches!(way.role, Role::Approximation | Role::Stated) && !way.way.is_exact()
 }
@@ -65,7 +65,7 @@ fn file_stem(way: &WayToRender) -> String {
     word.split_whitespace().collect::<Vec<_>>().join("-")
 }
 
-/// The first, the second, and (second − first) times a gain about grey.
+/// The first image, the second, and (second − first) times a gain on grey.
 pub(crate) fn side_by_side(first: &Plane<Display>, second: &Plane<Display>) -> Plane<Display> {
     let (width, height) = (first.width(), first.height());
     let mut sheet = Plane::new(3 * width, height);

@@ -1,23 +1,23 @@
-//! Pilot runs: the light of some tiles with few samples, by one seed after the other.
+//! Pilot runs: the light of some tiles with few samples, with one seed after the other.
 
 use crate::Clock;
 use crate::plan::PilotPlan;
 use crate::stint::Stint;
 use etendue::{Error, Job, LightSampling, Observer, SampledPixel, Simd};
 
-/// The planes of one way with one number of samples, and how long each took.
+/// Planes of one configuration with one number of samples, and the time of each.
 #[derive(Clone, Debug)]
 pub(crate) struct Pilot {
     pub(crate) pixels: Vec<SampledPixel>,
-    /// One of each seed.
+    /// One plane per seed.
     pub(crate) planes: Vec<Vec<f32>>,
-    /// Processor time of each plane, all threads together, s.
+    /// CPU time of each plane, sum over all threads, s.
     pub(crate) processor_s: Vec<f64>,
-    /// All planes by the clock, s.
+    /// Wall-clock time of all planes, s.
     pub(crate) clock_s: f64,
 }
 
-/// What runs pilots.
+/// Runs pilots.
 pub(crate) struct Pilots<'a> {
     pub(crate) camera: &'a str,
     pub(crate) plan: PilotPlan,
@@ -27,8 +27,8 @@ pub(crate) struct Pilots<'a> {
 }
 
 impl Pilots<'_> {
-    /// A pilot of `spp` samples a pixel in one replicate by each of `seeds` seeds. Equal seeds make equal paths as far as two ways have them in common, so that
-    /// their differences are little noisy.
+    /// Runs a pilot of `spp` samples per pixel in one replicate with each of `seeds` seeds. With equal seeds two configurations share the common part of
+    /// their paths, so that their differences have little noise.
     pub(crate) fn run(&self, job: &Job, spp: u32, seeds: u32) -> Result<Pilot, Error> {
         let own = job.camera_plan(self.camera)?.settings.seed;
         let (mut pixels, mut planes, mut processor_s) = (Vec::new(), Vec::new(), Vec::new());
@@ -42,7 +42,7 @@ impl Pilots<'_> {
         Ok(Pilot { pixels, planes, processor_s, clock_s: all.clock_s() })
     }
 
-    /// The light of the study's tiles with so many samples and replicates, and its processor time, all threads together, s.
+    /// Renders the light of the study's tiles with the given samples and replicates; returns it with its CPU time, sum over all threads, s.
     pub(crate) fn timed(
         &self,
         job: &Job,
@@ -58,7 +58,7 @@ impl Pilots<'_> {
     }
 }
 
-/// A seed of a study, not the job's own: what is foretold is no part of what is told.
+/// A seed of a study, different from the job's own: the estimates are independent of the reported result.
 pub(crate) fn seed(own: u64, k: u32) -> u64 {
     (own.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (0x5851_f42d_4c95_7f2d_u64.wrapping_mul(u64::from(k) + 1))) >> 1
 }

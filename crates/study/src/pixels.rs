@@ -1,4 +1,4 @@
-//! The pixels that a study looks at: their cells, and what errors there are measured by.
+//! The pixels of a study: their cells, and the normalisation of errors.
 
 use crate::error::{Currencies, Estimate};
 use etendue::{SampledPixel, TemporalNoise};
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// Side of a cell, px.
 const CELL_PX: u32 = 8;
-/// A cell's light is taken as at least this part of the picture's mean: in the dark, errors are not divided by next to nothing.
+/// Lower limit of a cell's light as a fraction of the image's mean: avoids division by nearly zero in dark parts.
 const LEAST_LIGHT: f64 = 1e-3;
 
 /// Pixels of one colour in 8 × 8 px of a tile.
@@ -15,13 +15,13 @@ const LEAST_LIGHT: f64 = 1e-3;
 struct Cell {
     tile: usize,
     pixels: Vec<usize>,
-    /// 1 over the square of its light.
+    /// Reciprocal of the square of its light.
     relative: f64,
-    /// 1 over the variance that the sensor has; `None` in the white.
+    /// Reciprocal of the sensor's variance; `None` at white.
     sensor: Option<f64>,
 }
 
-/// The pixels of a study, with what their errors are measured by.
+/// The pixels of a study, with the normalisation of their errors.
 #[derive(Clone, Debug)]
 pub(crate) struct Pixels {
     tiles: usize,
@@ -29,11 +29,11 @@ pub(crate) struct Pixels {
     has_sensor: bool,
 }
 
-/// Planes of one quantity over the study's pixels, one of each seed.
+/// Planes of one quantity over the study's pixels, one per seed.
 pub(crate) type Planes<'a> = &'a [Vec<f32>];
 
 impl Pixels {
-    /// By the light of the exact form, one plane a seed, and the noise of the sensor.
+    /// Normalisation from the light of the exact form, one plane per seed, and the noise of the sensor.
     pub(crate) fn new(pixels: &[SampledPixel], light: Planes<'_>, noise: Option<&TemporalNoise>) -> Self {
         let mut members: BTreeMap<(u32, u32, u32, u32), Vec<usize>> = BTreeMap::new();
         for (i, p) in pixels.iter().enumerate() {
@@ -56,12 +56,12 @@ impl Pixels {
         Self { tiles, cells: members.into_iter().map(cell).collect(), has_sensor: noise.is_some() }
     }
 
-    /// The variance of one plane by the scatter of independent ones, two or more.
+    /// Variance of one plane from the scatter of two or more independent planes.
     pub(crate) fn variance(&self, planes: Planes<'_>) -> Currencies<Estimate> {
         self.currencies(planes, variance)
     }
 
-    /// The square of the mean over independent planes, freed of the part that their scatter has in it.
+    /// Square of the mean over independent planes, corrected for the contribution of their scatter.
     pub(crate) fn squared_mean(&self, planes: Planes<'_>) -> Currencies<Estimate> {
         self.currencies(planes, |moments| moments.mean() * moments.mean() - variance(moments) / moments.count() as f64)
     }
@@ -99,7 +99,7 @@ fn add(group: &mut (f64, usize), sum: f64, count: usize) {
     *group = (group.0 + sum, group.1 + count);
 }
 
-/// The scatter of two numbers or more; not a number of fewer.
+/// Variance of two numbers or more; NaN for fewer.
 fn variance(moments: &Moments) -> f64 {
     moments.variance().unwrap_or(f64::NAN)
 }
@@ -114,7 +114,7 @@ mod tests {
         (0..4).flat_map(of).collect()
     }
 
-    /// Numbers with the deviation `by` about `mean`: evenly spread, from a multiplicative congruential generator.
+    /// Numbers of mean `mean` and standard deviation `by`: uniformly distributed, from a multiplicative congruential generator.
     fn noisy(mean: f64, by: f64, seed: u64) -> Vec<f32> {
         let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
         let mut next = || {
@@ -130,11 +130,11 @@ mod tests {
         let exact: Vec<_> = (0..16).map(|k| noisy(100.0, 10.0, 1 + k)).collect();
         let pixels = Pixels::new(&pixels(), &exact, Some(&noise));
         let variance = pixels.variance(&exact);
-        // 10² of 100²; of 100 + 25; a 64th of it for the mean of 64. 256 pixels of 15 degrees of freedom know it to 2.5 %, patches to 20 %.
+        // 10² of 100²; of 100 + 25; a 64th of it for the mean of 64. With 256 pixels of 15 degrees of freedom the uncertainty is 2.5 %, of patches 20 %.
         assert!((variance.relative.value / 0.01 - 1.0).abs() < 0.1, "{variance:?}");
         assert!((variance.sensor.expect("a sensor").value / 0.8 - 1.0).abs() < 0.1, "{variance:?}");
         assert!((variance.patch.value * 64.0 / 0.01 - 1.0).abs() < 0.7, "{variance:?}");
-        // Differences of 7 with their own scatter of 10: the bias is found below its noise.
+        // Differences of 7 with a scatter of 10: the bias is found below its noise.
         let differences: Vec<_> = (0..16).map(|k| noisy(7.0, 10.0, 100 + k)).collect();
         let bias = pixels.squared_mean(&differences);
         assert!((bias.relative.value - 0.0049).abs() < 4.0 * bias.relative.uncertainty, "{bias:?}");

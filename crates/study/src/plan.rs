@@ -1,12 +1,12 @@
-//! Which tiles a study looks at, so that it takes the time that it may take.
+//! Selection of a study's tiles, for a given time.
 
 use etendue::{Error, Job, ShardSpec};
 use etendue_core::maths::greatest_common_divisor;
 
-/// Side of the study's tiles, px, where no pixels share more.
+/// Side of the study's tiles, px, unless larger blocks of pixels share paths.
 pub(crate) const TILE_PX: u32 = 16;
 
-/// Which tiles.
+/// The selected tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PilotPlan {
     pub(crate) tile_px: u32,
@@ -14,7 +14,7 @@ pub(crate) struct PilotPlan {
 }
 
 impl PilotPlan {
-    /// About so many tiles, spread over the frame.
+    /// Selects about `tiles` tiles, spread over the frame.
     pub(crate) fn of_tiles([columns, rows]: [u32; 2], tiles: u32) -> Self {
         let count = spread(columns * rows / tiles.max(1), columns);
         Self { tile_px: TILE_PX, shard: ShardSpec { index: count / 2, count } }
@@ -22,11 +22,11 @@ impl PilotPlan {
 }
 
 impl PilotPlan {
-    /// Tiles that this plan has none of, about one in `fewer` and at least one in `fewest`; the same ones where it has them all.
+    /// Tiles that this plan does not contain, about one in `fewer` and at least one in `fewest`; the same tiles if it contains all.
     pub(crate) fn unseen(&self, columns: u32, fewer: u32, fewest: u32) -> Self {
         let count = self.shard.count;
         let wanted = f64::from(fewer) / f64::from(count);
-        // By what factor a number of times is off.
+        // Deviation of a number of tiles from the target, as a factor.
         let off = |times: u32| (f64::from(times) / wanted).max(wanted / f64::from(times));
         let apart = (1..=(fewest / count).max(1)).filter(|times| greatest_common_divisor(*times, columns) == 1);
         let times = apart.min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or(1);
@@ -35,13 +35,13 @@ impl PilotPlan {
     }
 }
 
-/// A number of shards, about `count`, whose tiles stand on no columns: one that has no divisor in common with their number.
+/// Number of shards near `count` whose tiles do not align in columns: it has no divisor in common with the number of columns.
 fn spread(count: u32, columns: u32) -> u32 {
     let apart = |a: u32, b: u32| greatest_common_divisor(a, b) == 1;
     (1..=count.max(1)).rev().find(|n| apart(*n, columns)).unwrap_or(1)
 }
 
-/// The part of a frame that so many of its pixels are.
+/// Fraction of a frame in `pixels` of its pixels.
 pub(crate) fn share(job: &Job, camera: &str, pixels: usize) -> Result<f64, Error> {
     let [width, height] = job.film_px(camera)?;
     Ok(pixels as f64 / (f64::from(width) * f64::from(height)))
@@ -57,14 +57,14 @@ mod tests {
         let ShardSpec { index, count } = plan.shard;
         let tiles: Vec<u32> = (0..4000).filter(|tile| tile % count == index).collect();
         assert!((90..=130).contains(&tiles.len()), "{}", tiles.len());
-        // No column or row has much more than its part.
+        // No column or row has much more than its proportion.
         for column in 0..80 {
             assert!(tiles.iter().filter(|tile| *tile % 80 == column).count() <= 3, "{column}");
         }
         let other = plan.unseen(80, 3 * count, 1000);
         assert!(other.shard.count == 3 * count && other.shard.index % count != index, "{other:?}");
         assert!(tiles.iter().all(|tile| tile % other.shard.count != other.shard.index));
-        // 120 columns have 2, 3, 4, 5 and 6 as divisors, or divisors in common with them.
+        // 120 columns share divisors with 2, 3, 4, 5 and 6.
         let wide = PilotPlan::of_tiles([120, 68], 48);
         let times = |fewer: u32, fewest: u32| wide.unseen(120, fewer, fewest).shard.count / wide.shard.count;
         assert_eq!([times(250, 510), times(600, 510), times(900, 2000), times(1, 510)], [1, 1, 7, 1]);

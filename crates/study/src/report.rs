@@ -1,4 +1,4 @@
-//! A study for people: its table and its plot.
+//! Table and plot of a study.
 
 use crate::error::{Currencies, Estimate};
 use crate::front::{FrontPoint, Recommendation};
@@ -8,10 +8,10 @@ use etendue::plot::{Axis, Mark, Plot, Series, svg};
 use etendue_core::maths::f64::log10;
 use std::fmt::Write as _;
 
-/// By how much longer pilots take on a machine that is told to be busy.
+/// Slow-down of pilots above which a machine is reported as busy.
 const BUSY: f64 = 1.25;
 
-/// A time as people say it.
+/// A time as readable text.
 pub(crate) fn time_text(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => format!("{s:.2} s"),
@@ -23,7 +23,7 @@ pub(crate) fn time_text(seconds: f64) -> String {
     }
 }
 
-/// An error in words, in the currency that decides.
+/// An error as text, in the deciding metric.
 pub(crate) fn error_text(error: &Currencies<Estimate>) -> String {
     match &error.sensor {
         Some(e) => format!("{} of the sensor's noise", figure(*e)),
@@ -31,7 +31,7 @@ pub(crate) fn error_text(error: &Currencies<Estimate>) -> String {
     }
 }
 
-/// As many decimals as the first figure of the uncertainty needs, three at most.
+/// Formats a value with the decimals that the first digit of its uncertainty needs, at most three.
 pub(crate) fn figure(e: Estimate) -> String {
     if e == Estimate::default() {
         return "0".to_owned();
@@ -48,7 +48,7 @@ pub(crate) fn percent(e: Estimate) -> String {
     format!("{} %", figure(e.times(100.0)))
 }
 
-/// The table of a study: what was looked at, what no other way beats, what is recommended.
+/// Table of a study: configurations, Pareto front, recommendations.
 #[must_use]
 pub fn table(study: &Study) -> String {
     let mut out = String::new();
@@ -83,7 +83,7 @@ pub fn table(study: &Study) -> String {
     out
 }
 
-/// Every way with as many samples as the job has.
+/// Every configuration with the job's number of samples.
 fn ways(study: &Study, out: &mut String) {
     let (spp, replicates) = (study.as_stated.spp, study.as_stated.replicates);
     let of = if study.as_stated.error.sensor.is_some() { "sensor's noise" } else { "light" };
@@ -112,12 +112,12 @@ fn ways(study: &Study, out: &mut String) {
     biases(&study.ways, out);
 }
 
-/// In the currency that decides.
+/// Text of the deciding metric.
 fn deciding(error: &Currencies<Estimate>) -> String {
     error.sensor.map_or_else(|| percent(error.relative), figure)
 }
 
-/// What each approximation leaves out, and whether that is sure.
+/// Omissions of each approximation, and the significance of their bias.
 fn biases(ways: &[Measured], out: &mut String) {
     let _ = writeln!(out, "\nbias, named:");
     for way in ways.iter().filter(|way| matches!(way.role, Role::Approximation | Role::Stated)) {
@@ -181,7 +181,7 @@ fn recommended(recommendation: &Recommendation, out: &mut String) {
     };
 }
 
-/// Time against error: the curve of each way, the front, and what is recommended, as SVG.
+/// Time against error as SVG: the curve of each configuration, the Pareto front, and the recommendations.
 #[must_use]
 pub fn plot(study: &Study) -> String {
     let has_sensor = study.as_stated.error.sensor.is_some();

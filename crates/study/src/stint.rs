@@ -1,8 +1,8 @@
-//! How long work takes on a machine that does nothing else: by processor time, which other programs do not count in.
+//! Duration of work on an otherwise idle machine: measured by CPU time, which excludes other programs.
 
 use crate::Clock;
 
-/// From one moment to another, by the clock and by processor time.
+/// A time interval, by wall-clock and CPU time.
 pub(crate) struct Stint<'a> {
     clock: &'a dyn Clock,
     from_s: f64,
@@ -14,18 +14,18 @@ impl<'a> Stint<'a> {
         Self { clock, from_s: clock.seconds(), from_processor_s: clock.processor_seconds() }
     }
 
-    /// By the clock, s.
+    /// Wall-clock time, s.
     pub(crate) fn clock_s(&self) -> f64 {
         self.clock.seconds() - self.from_s
     }
 
-    /// Of all threads together, s; where the machine does not tell it, all of them are taken to have worked.
+    /// CPU time of all threads, s; if the machine does not report it, all threads are assumed to have worked.
     pub(crate) fn processor_s(&self) -> f64 {
         let told = self.from_processor_s.and_then(|from_s| Some(self.clock.processor_seconds()? - from_s));
         told.unwrap_or_else(|| self.clock_s() * self.clock.threads() as f64)
     }
 
-    /// Of work that one thread does, or several in part: by the clock of a machine that is idle, by the processor of one that is not.
+    /// Duration, on an idle machine, of work that one thread or partly several threads do: wall-clock time if the machine is idle, CPU time otherwise.
     pub(crate) fn alone_s(&self) -> f64 {
         self.clock_s().min(self.processor_s())
     }

@@ -1,4 +1,4 @@
-//! A study: which ways are looked at, in which order, and what is made of them.
+//! A study: configurations, their order, and the evaluation.
 
 use crate::Clock;
 use crate::budget::within;
@@ -25,71 +25,71 @@ use std::path::{Path, PathBuf};
 const FEW: u32 = 2;
 const MANY: u32 = 8;
 const SEEDS: u32 = 8;
-/// Ways that a study looks at, about: what its time is shared among.
+/// Approximate number of configurations of a study, which share its time.
 const WAYS: f64 = 22.0;
-/// The part of the time that pilots may have; the rest is for whole frames and for trying what is recommended.
+/// Fraction of the time for pilots; the rest is for whole frames and tests of recommendations.
 const PILOTS_PART: f64 = 0.7;
-/// Samples that are told of a job whose pixels get as many as their noise asks for.
+/// Samples assumed for a job with noise-limited sampling.
 const EVEN_SPP: u32 = 64;
-/// By how much a choice without bias must be better to be taken.
+/// Maximum relative cost of an unbiased choice that is adopted.
 const WORTH: f64 = 0.9;
 
-/// What is studied.
+/// Request of a study.
 #[derive(Args, Clone, Debug)]
 pub struct Request {
-    /// The job, with what is changed in it.
+    /// The job, with its changes.
     #[arg(skip = JobRequest::new(""))]
     pub job: JobRequest,
-    /// Which camera; `None`: the first.
+    /// Name of the camera; `None`: the first.
     #[arg(skip)]
     pub camera: Option<String>,
-    /// About how long the study may take, seconds (10 or more): the longer, the surer
+    /// Approximate duration of the study, seconds (10 or more); longer studies are more precise
     #[arg(long = "time", value_name = "S", default_value_t = 120.0, value_parser = seconds)]
     pub budget_s: f64,
-    /// The instruction set of the accelerator.
+    /// Instruction set of the accelerator.
     #[arg(skip)]
     pub simd: Simd,
-    /// For changes of a frame: a folder that is not there, in which a chart of edges is photographed for the contrast transfer, and which is removed; `None`: that is not
-    /// told.
+    /// For changes of a frame: path of a new folder in which a chart of edges is captured for the contrast transfer; removed afterwards. `None`: no contrast
+    /// transfer.
     #[arg(skip)]
     pub edges: Option<PathBuf>,
 }
 
-/// Seconds of a study.
+/// Parses the seconds of a study.
 fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok().filter(|s: &f64| (10.0..=1e6).contains(s));
     seconds.ok_or_else(|| format!("expected seconds from 10 to 1000000, not '{text}'"))
 }
 
-/// What a study found.
+/// Result of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Study {
     /// The camera.
     pub camera: String,
-    /// What its signal is: `electrons`, `irradiance` or `radiance`.
+    /// Quantity of its signal: `electrons`, `irradiance` or `radiance`.
     pub signal: &'static str,
-    /// What part of the frame's pixels was looked at.
+    /// Fraction of the frame's pixels that were sampled.
     pub share: f64,
-    /// What a frame takes beside loading and light, s: sensor, processing, ground truth, files.
+    /// Time of a frame excluding loading and light, s: sensor, processing, ground truth, files.
     pub rest_s: f64,
-    /// The job as it stands.
+    /// The unchanged job.
     pub as_stated: FrontPoint,
-    /// All ways that were looked at, the job's own first.
+    /// All configurations of the study, the job's own first.
     pub ways: Vec<Measured>,
-    /// What no other way beats, shortest first.
+    /// Pareto front, shortest first.
     pub front: Vec<FrontPoint>,
-    /// Settings for a draft, a standard picture and a reference.
+    /// Settings for a draft, a standard image and a reference.
     pub recommendations: Vec<Recommendation>,
-    /// How long the study took, s.
+    /// Duration of the study, s.
     pub took_s: f64,
-    /// By how much longer pilots took by the clock than all times that are told, which are of a machine that does nothing else: 1 where it is.
+    /// Ratio of the pilots' wall-clock time to the reported times, which are those of an idle machine: 1 on an idle machine.
     pub slowed: f64,
 }
 
-/// Studies a job's frame. Runs on the caller's thread pool. `scratch` is a folder that is not there: one frame is written to it, and it is removed.
+/// Studies a job's frame. Runs on the caller's thread pool. `scratch` is the path of a new folder: one frame is written to it, and it is removed.
 ///
 /// # Errors
-/// Where the job has faults or no such camera, the observer cancels, or `scratch` cannot be written.
+/// The job is invalid or has no such camera, the observer cancels, or `scratch` cannot be written.
 pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dyn Observer) -> Result<Study, Error> {
     if scratch.exists() {
         let problem =
@@ -132,7 +132,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     for recommendation in &mut recommendations {
         let way = recommendation.point.way;
         let measured = bench.ways.iter().find(|m| m.way == way).expect("recommended of these");
-        // The job's own way stands first; of no other use is the exact form.
+        // The job's own configuration is first; the exact form serves only as the control here.
         let control = bench.ways.iter().find(|m| m.way != way).expect("several ways are looked at");
         trial.of(recommendation, measured, control, rest_s)?;
     }
@@ -154,7 +154,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     })
 }
 
-/// The most that two omissions come to together (Minkowski): both are light that is missing, so that they seldom cancel.
+/// Upper bound of two omissions together (Minkowski): both are missing light, so that they seldom cancel.
 fn in_series(a: &Estimate, b: &Estimate) -> Estimate {
     let (first, second) = (a.value.max(0.0).sqrt(), b.value.max(0.0).sqrt());
     if first * second == 0.0 {
@@ -164,24 +164,24 @@ fn in_series(a: &Estimate, b: &Estimate) -> Estimate {
     Estimate { value: (first + second) * (first + second), uncertainty }
 }
 
-/// A study under way.
+/// A study in progress.
 struct Bench<'a> {
     request: &'a Request,
     pilots: Pilots<'a>,
-    /// The job as it stands.
+    /// The unchanged job.
     job: &'a Job,
-    /// Known once the exact form is.
+    /// Known once the exact form has run.
     pixels: Option<Pixels>,
     ways: Vec<Measured>,
-    /// Long pilots that others are compared with.
+    /// Long pilots with which others are compared.
     kept: Vec<(WayToRender, Pilot)>,
-    /// All pilots by the clock, and by the processor, s.
+    /// Time of all pilots by wall clock and by CPU, s.
     clock_s: f64,
     processor_s: f64,
 }
 
 impl Bench<'_> {
-    /// Everything that is looked at for itself.
+    /// Runs all configurations with a role of their own.
     fn look_at_ways(&mut self, stated: WayToRender) -> Result<(), Error> {
         let with_paths = |paths| WayToRender { paths, ..stated };
         let exact = PathSettings {
@@ -208,7 +208,7 @@ impl Bench<'_> {
         }
         self.look_at(less(Integrator::Direct), Role::Approximation, Some(bare))?;
         self.look_at(less(Integrator::Flat), Role::Approximation, Some(bare))?;
-        // The job's own, compared with what leaves out as little as it may beside its own omissions.
+        // The job's own configuration is compared with one that omits as little as possible apart from the job's own omissions.
         let against = if stated.is_exact() {
             None
         } else {
@@ -224,7 +224,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Ways with the means of the job's own: other wavelengths, shared and branched paths, choices of lights, trees.
+    /// Configurations with the job's own means: other wavelengths, shared and branched paths, choices of lights, acceleration structures.
     fn choices_without_bias(&self, stated: WayToRender) -> Result<Vec<WayToRender>, Error> {
         let disperses = self.job.camera_plan(self.pilots.camera)?.disperses();
         let wavelengths = [1, 4, 8].into_iter().filter(|n| !disperses || *n == 1);
@@ -246,14 +246,14 @@ impl Bench<'_> {
         Ok(wavelengths.chain(shares).chain(branches).chain(lights).chain(trees).filter(|way| *way != stated).collect())
     }
 
-    /// Looks at a way that others are compared with.
+    /// Runs a configuration with which others are compared.
     fn keep(&mut self, way: WayToRender, role: Role, against: Option<WayToRender>) -> Result<(), Error> {
         let pilot = self.look_at(way, role, against)?;
         self.kept.extend(pilot.map(|pilot| (way, pilot)));
         Ok(())
     }
 
-    /// Looks at a choice that changes no mean of the way `from`, whose bias it has.
+    /// Runs an unbiased alternative to the configuration `from`, whose bias it has.
     fn choose(&mut self, way: WayToRender, from: WayToRender, against: Option<WayToRender>) -> Result<(), Error> {
         if self.look_at(way, Role::Choice, against)?.is_some() {
             let bias = self.ways.iter().find(|m| m.way == from).map(|m| m.bias_squares);
@@ -263,7 +263,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Looks at a way, against one that was kept; answers with its long pilot. Ways that were looked at are not again.
+    /// Runs a configuration and compares it with a stored one; returns its long pilot. A configuration runs only once.
     fn look_at(&mut self, way: WayToRender, role: Role, against: Option<WayToRender>) -> Result<Option<Pilot>, Error> {
         if self.ways.iter().any(|measured| measured.way == way) {
             return Ok(None);
@@ -284,7 +284,7 @@ impl Bench<'_> {
             self.pixels = Some(Pixels::new(&many.pixels, &many.planes, noise.as_ref()));
         }
         if self.kept.first().is_some_and(|(_, first)| first.pixels != many.pixels) {
-            // Pixels that share paths fall into other tiles where the filter's are large.
+            // Blocks of pixels with shared paths are in other tiles if the filter's tile is large.
             return Ok(None);
         }
         let pixels = self.pixels.as_ref().expect("made above");
@@ -301,7 +301,7 @@ impl Bench<'_> {
         Ok(Some(many))
     }
 
-    /// A bias, and that of what it is told against; all of it together, at most.
+    /// Upper bound of the total bias: a bias plus that of the configuration it is compared with.
     fn all_bias(&self, own: Option<&Bias>, none: &Currencies<Estimate>) -> Currencies<Estimate> {
         let Some(own) = own else { return *none };
         let under = self.ways.iter().find(|measured| measured.way == own.against);
@@ -312,7 +312,7 @@ impl Bench<'_> {
         }
     }
 
-    /// What one frame of the job takes beside loading and light, s.
+    /// Time of one frame of the job excluding loading and light, s.
     fn rest_s(&self, scratch: &Path) -> Result<f64, Error> {
         let request = self.ways[0].way.request(&self.request.job, self.pilots.camera);
         let job = JobRequest { spp: Some(1), noise: None, ..request }.open()?;
@@ -326,13 +326,13 @@ impl Bench<'_> {
                 .map_err(|error| Error::Run(format!("{}: cannot be removed: {error}", scratch.display())))?;
         }
         saved?;
-        // What is left of the clock on a machine that is idle, of the processor on one that is not.
+        // Remaining wall-clock time on an idle machine, CPU time otherwise.
         let Measured { frame_s, sample_s, .. } = &self.ways[0];
         let left = |took_s: f64, threads: usize| (took_s - frame_s - sample_s.value * threads as f64).max(0.0);
         Ok(left(clock_s, 1).min(left(processor_s, clock.threads())))
     }
 
-    /// The best choices without bias, joined with the ways that targets call for.
+    /// Combines the best unbiased choices with the configurations that targets require.
     fn combine(&mut self, spp: u32, frame: Frame) -> Result<(), Error> {
         let stated = self.ways[0].way;
         let best = |of: fn(&WayToRender, &WayToRender) -> WayToRender| {
@@ -342,7 +342,7 @@ impl Bench<'_> {
             best.filter(|m| cost(m) < WORTH).map_or(stated, |m| m.way)
         };
         let wavelengths = best(|own, other| WayToRender { wavelengths: other.wavelengths, ..*own }).wavelengths;
-        // Paths share their tails or branch: one of the two.
+        // Paths either share their tails or branch, not both.
         let of_paths = |own: &WayToRender, other: &WayToRender| WayToRender {
             paths: PathSettings { branches: other.paths.branches, ..own.paths },
             path_reuse_px: other.path_reuse_px,
@@ -372,7 +372,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Ways that may be recommended: of the choices made from the job's own way those that gain in pixels and in patches.
+    /// Configurations that may be recommended: of the choices derived from the job's own configuration those that gain both per pixel and per patch.
     fn eligible(&self, spp: u32, frame: Frame) -> Vec<Measured> {
         let stated = self.ways[0].way;
         let is_of_own = |m: &Measured| m.role == Role::Choice && m.way.paths.has_mean_of(&stated.paths);
@@ -381,8 +381,8 @@ impl Bench<'_> {
     }
 }
 
-/// Time times mean square of a choice over that of the job's own, in the currency that gains least of it: noise that neighbours share is
-/// quiet in each pixel and loud in their mean.
+/// Time times mean square of a choice over that of the job's own configuration, in the metric with the smallest gain: noise shared by neighbours is small in
+/// each pixel and large in their mean.
 fn cost(choice: &Measured, own: &Measured, spp: u32, frame: Frame) -> f64 {
     let replicate = f64::from(spp) / f64::from(frame.replicates);
     let time = choice.seconds(f64::from(spp), frame.rest_s).value / own.seconds(f64::from(spp), frame.rest_s).value;

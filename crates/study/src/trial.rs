@@ -1,6 +1,6 @@
-//! A recommendation tried on tiles that the study has not seen. Of many ways the quickest by times that scatter is in part the luckiest: a time
-//! that is measured after the choice is not. Tiles differ in what they cost, so that another way, which was not chosen for its time, is timed on the same
-//! tiles in turn with it: told is the ratio of both, times what the pilots know of the other.
+//! Test of a recommendation on tiles that the study has not sampled. Among many configurations with scattered times the fastest is partly the luckiest; a
+//! time measured after the choice is free of this bias. Tiles differ in cost. Another configuration, which was not chosen for its time, is therefore timed on
+//! the same tiles in turn. The reported time is the ratio of both, times the pilots' result for the other configuration.
 
 use crate::error::Estimate;
 use crate::front::{Confirmation, Recommendation};
@@ -11,37 +11,37 @@ use crate::plan::PilotPlan;
 use etendue::{Error, Job};
 use etendue_stats::Moments;
 
-/// The part of the study's time that trying one recommendation may have.
+/// Maximum fraction of the study's time for the test of one recommendation.
 const PART: f64 = 0.1;
-/// The fewest tiles worth it.
+/// Minimum number of tiles of a test.
 const FEWEST_TILES: u32 = 16;
-/// The most replicates, and the fewest that tell a variance.
+/// Minimum number of replicates that gives a variance, and maximum number.
 const REPLICATES: [u32; 2] = [2, 16];
-/// The first seed of trials.
+/// First seed of tests.
 const FIRST_SEED: u32 = 2000;
 
-/// What trials are made with.
+/// Context of tests.
 pub(crate) struct Trial<'a> {
-    /// How long the study may take, s.
+    /// Approximate duration of the study, s.
     pub(crate) budget_s: f64,
     /// The studied job.
     pub(crate) job: &'a Job,
     pub(crate) pilots: &'a Pilots<'a>,
 }
 
-/// What is rendered for a trial.
+/// Extent of a test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Extent {
     plan: PilotPlan,
     tiles: u32,
-    /// Of each replicate.
+    /// Samples of each replicate.
     samples: u32,
     replicates: u32,
 }
 
 impl Extent {
-    /// As much of a recommendation of `spp` samples as may be rendered where the whole takes `1 / affordable` times what is there: fewer
-    /// tiles first, then fewer samples. `None` of pictures of too few tiles.
+    /// Part of a recommendation of `spp` samples that can be rendered when only the fraction `affordable` is: reduces tiles first, then samples. `None` for
+    /// images of too few tiles.
     fn within(affordable: f64, spp: u32, replicates: u32, seen: PilotPlan, [columns, rows]: [u32; 2]) -> Option<Self> {
         let all = columns * rows;
         let plan = seen.unseen(columns, (1.0 / affordable).ceil() as u32, all / FEWEST_TILES);
@@ -56,7 +56,7 @@ impl Extent {
 }
 
 impl Trial<'_> {
-    /// Tries a recommendation beside another way, and tells its time by what was found.
+    /// Tests a recommendation next to another configuration, and corrects its time by the result.
     pub(crate) fn of(
         &self,
         recommendation: &mut Recommendation,
@@ -112,13 +112,13 @@ impl Trial<'_> {
     }
 }
 
-/// What a trial's samples took, s, the time of a frame beside its samples taken off.
+/// Time of a test's samples, s, without the time of a frame outside its samples.
 fn samples_time(took_s: &Moments, measured: &Measured) -> Estimate {
     let uncertainty = took_s.variance_of_mean().unwrap_or(f64::NAN).sqrt();
     Estimate { value: (took_s.mean() - measured.frame_s).max(0.05 * took_s.mean()), uncertainty }
 }
 
-/// Noise of the planes over what was foretold of so many samples, in the currency that decides; `None` where none was foretold.
+/// Noise of the planes over the estimate for `samples` samples, in the deciding metric; `None` without an estimate.
 fn noise(pixels: &Pixels, planes: &[Vec<f32>], measured: &Measured, samples: u32) -> Option<Estimate> {
     let (found, laws) = (pixels.variance(planes), &measured.variance);
     let (found, law) = match (found.sensor, laws.sensor) {

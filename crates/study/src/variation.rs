@@ -1,4 +1,4 @@
-//! The frame with other values of keys: forms and precisions of what a job models, compared with the job as it stands.
+//! The frame with other values of keys: models and precisions, compared with the unchanged job.
 
 use crate::Clock;
 use crate::change::{Change, header};
@@ -10,14 +10,14 @@ use etendue::{Error, ErrorCode, Job, JobRequest, Observer, Progress, Unit};
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// What is found where keys have other values.
+/// Result of other values of keys.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Varied {
-    /// The changes of keys, as `--set` takes them.
+    /// Changes of keys, in the syntax of `--set`.
     pub set: Vec<String>,
-    /// Memory of all effects that the plan foretells memory of, bytes: cubes of light, maps, textures in tiles.
+    /// Estimated memory of all effects for which the plan has an estimate, bytes: cubes of light, maps, textures in tiles.
     pub memory_bytes: f64,
-    /// What that changes.
+    /// Change of the frame.
     #[serde(flatten)]
     pub change: Change,
 }
@@ -27,20 +27,21 @@ pub struct Varied {
 pub struct Variations {
     /// The camera.
     pub camera: String,
-    /// Samples a pixel that the errors are found with.
+    /// Samples per pixel for the errors.
     pub spp: u32,
-    /// Processor time of loading and of making one frame as the job says, s.
+    /// CPU time of loading the job and rendering one unchanged frame, s.
     pub cpu_s: f64,
-    /// Memory of it that the plan foretells, bytes.
+    /// Estimated memory of that frame in the plan, bytes.
     pub memory_bytes: f64,
-    /// What was changed, in the order asked for.
+    /// The variations, in the requested order.
     pub varied: Vec<Varied>,
 }
 
 /// Renders a frame of a job with each of `variations`, which are changes of keys. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// Where the job has faults, as it stands or with a variation, or no such camera; a variation changes the number of samples; the observer cancels, or light is not finite.
+/// The job is invalid, unchanged or with a variation, or has no such camera; a variation changes the number of samples; the observer cancels, or light is not
+/// finite.
 pub fn variations(
     request: &Request,
     variations: &[Vec<String>],
@@ -51,7 +52,7 @@ pub fn variations(
     let camera = &renderer.camera;
     let requests = variations.iter().map(|set| varied_request(&renderer.own, set, camera));
     let requests = requests.collect::<Result<Vec<_>, _>>()?;
-    // All faults before anything is rendered.
+    // Reports all errors before rendering starts.
     let memory = requests.iter().map(|request| Ok(memory_bytes(&request.clone().open()?, camera)));
     let memory = memory.collect::<Result<Vec<_>, Error>>()?;
     let spp = renderer.affordable_spp(requests.len() + 1)?;
@@ -80,7 +81,7 @@ fn varied_request(own: &JobRequest, set: &[String], camera: &str) -> Result<JobR
     Ok(request)
 }
 
-/// Of every effect of a camera together.
+/// Estimated memory of all effects of a camera, bytes.
 fn memory_bytes(job: &Job, camera: &str) -> f64 {
     let effects = job.effects().into_iter().find(|(plan, _)| plan.name == camera);
     effects.map_or(0.0, |(_, effects)| effects.iter().filter_map(|effect| effect.memory_bytes).fold(0.0, |a, b| a + b))

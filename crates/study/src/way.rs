@@ -1,28 +1,28 @@
-//! A way to render: what of a job's rendering a study changes.
+//! A configuration: the part of a job's render settings that a study varies.
 
 use etendue::{Accelerator, Integrator, Job, JobRequest, PathSettings, Word as _};
 use etendue_core::words::SettingValue;
 use etendue_core::{LightSampling, Setting};
 use serde::{Serialize, Serializer};
 
-/// What of a camera's rendering a study changes; samples come on top.
+/// The part of a camera's render settings that a study varies, without the number of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WayToRender {
-    /// Which light paths are simulated.
+    /// Light paths that are simulated.
     pub paths: PathSettings,
-    /// Side of the squares of pixels that share the tails of their paths; of paths only.
+    /// Side of the blocks of pixels that share the tails of their paths, px; only for paths.
     pub path_reuse_px: u32,
-    /// Wavelengths a path.
+    /// Wavelengths per path.
     pub wavelengths: u32,
-    /// How the hierarchies are built.
+    /// Build of the acceleration structures.
     pub accelerator: Accelerator,
 }
 
 impl WayToRender {
-    /// That of a camera of a job.
+    /// Configuration of a camera of a job.
     ///
     /// # Errors
-    /// Where the job cannot be read or has no such camera.
+    /// The job cannot be read or has no such camera.
     pub(crate) fn of(job: &Job, camera: &str) -> Result<Self, etendue::Error> {
         let settings = job.camera_plan(camera)?.settings;
         Ok(Self {
@@ -33,7 +33,7 @@ impl WayToRender {
         })
     }
 
-    /// Its settings by their keys in `[render]`.
+    /// The settings by their keys in `[render]`.
     pub(crate) fn settings(&self) -> Vec<Setting> {
         let own = [
             Setting::of_paths("path_reuse_px", self.path_reuse_px.into()),
@@ -43,18 +43,18 @@ impl WayToRender {
         self.paths.stated().into_iter().chain(own).collect()
     }
 
-    /// The keys of `[render]` that say it, with their values as TOML writes them: none that has no effect.
+    /// Keys of `[render]` for this configuration, with their values in TOML; keys without effect are omitted.
     #[must_use]
     pub fn keys(&self) -> Vec<(&'static str, String)> {
         let traces = self.paths.integrator == Integrator::Path;
-        // What guiding learns belongs to whole pictures, of which a study renders parts.
+        // Guiding learns over whole images, but a study renders parts of them.
         let guiding = Setting::of_paths("guiding", false.into());
         let settings = self.settings().into_iter().chain([guiding]);
         let in_force = settings.filter(|setting| traces || !setting.is_of_paths);
         in_force.map(|setting| (setting.key, setting.value.to_string())).collect()
     }
 
-    /// The job rendered so, with samples that the caller says.
+    /// The job with this configuration; the caller states the samples.
     pub(crate) fn request(&self, job: &JobRequest, camera: &str) -> JobRequest {
         let mut request = without_keys(job, camera, &studied_keys());
         request.integrator = Some(self.paths.integrator);
@@ -64,7 +64,7 @@ impl WayToRender {
         request
     }
 
-    /// In a few words.
+    /// A short label.
     #[must_use]
     pub fn label(&self) -> String {
         let accelerator = match self.accelerator {
@@ -84,7 +84,7 @@ impl WayToRender {
         format!("path, {} bounces, {caustics}{lobes}{branches}{reuse}, {wavelengths}{accelerator}", paths.max_bounces)
     }
 
-    /// Whether it follows all the light that the exact form follows: it has no bias.
+    /// Returns true if all light of the exact form is simulated: the configuration is unbiased.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         let paths = &self.paths;
@@ -94,7 +94,7 @@ impl WayToRender {
             && paths.max_bounces >= EXACT_BOUNCES
     }
 
-    /// What it leaves out of the exact form, in words.
+    /// Omissions relative to the exact form, as text.
     #[must_use]
     pub fn left_out(&self) -> String {
         let paths = &self.paths;
@@ -112,19 +112,19 @@ impl WayToRender {
     }
 }
 
-/// An object of its settings.
+/// Serialises the settings as an object.
 impl Serialize for WayToRender {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.settings().into_iter().map(|setting| (report_name(setting.key), setting.value)))
     }
 }
 
-/// The name of a setting in a study's report.
+/// Name of a setting in a study's report.
 fn report_name(key: &'static str) -> &'static str {
     if key == "wavelengths_per_path" { "wavelengths" } else { key }
 }
 
-/// Keys of `[render]` that a study states itself: those of its ways, and those of samples.
+/// Keys of `[render]` that a study states itself: those of its configurations, and those of samples.
 pub(crate) fn studied_keys() -> Vec<&'static str> {
     let way = WayToRender {
         paths: PathSettings::default(),
@@ -135,10 +135,10 @@ pub(crate) fn studied_keys() -> Vec<&'static str> {
     way.keys().into_iter().map(|(key, _)| key).chain(SAMPLE_KEYS).collect()
 }
 
-/// Keys of `[render]` that say how many samples there are.
+/// Keys of `[render]` that determine the number of samples.
 pub(crate) const SAMPLE_KEYS: [&str; 6] = ["spp", "noise_threshold", "min_spp", "max_spp", "passes", "replicates"];
 
-/// Whether a change, `key=value`, is of one of these keys of `[render]`, of all cameras or of this one.
+/// Returns true if a change, `key=value`, is of one of these keys of `[render]`, of all cameras or of this one.
 pub(crate) fn is_of(change: &str, camera: &str, keys: &[&str]) -> bool {
     let key = change.split('=').next().unwrap_or_default().trim();
     let own = format!("cameras.{camera}.render.");
@@ -153,5 +153,5 @@ pub(crate) fn without_keys(job: &JobRequest, camera: &str, keys: &[&str]) -> Job
     job
 }
 
-/// Bounces of the exact form: Russian roulette has ended nearly every path before, and a job that asks for more keeps its own.
+/// Bounces of the exact form: Russian roulette has ended nearly every path by then; a job with more bounces keeps its own number.
 pub(crate) const EXACT_BOUNCES: u32 = 64;

@@ -1,4 +1,4 @@
-//! Stored radiance, in memory, behind a lens.
+//! Stored radiance, in memory, seen through a lens.
 
 use crate::camera::defocus;
 use crate::camera::effects::{EffectsOutput, behind};
@@ -13,10 +13,10 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 impl Light {
-    /// The light behind a lens of a stored radiance image (its radiance itself is not repeated), rows exposed alike.
+    /// Light behind a lens of a stored radiance image (without the radiance itself), with all rows exposed equally.
     ///
     /// # Errors
-    /// Where the picture needs directions that the image does not hold, or the radiance is no finite number.
+    /// The image does not contain directions that the camera needs, or the radiance is not finite.
     pub(super) fn of_stored(
         body: &CameraBody,
         stored: &Stored<'_>,
@@ -41,7 +41,7 @@ impl Light {
     }
 }
 
-/// The mean of the dirt over the footprint of each pixel of a camera's film; `None` where there is none.
+/// Mean transmittance of the dirt over the footprint of each pixel of a camera's film; `None` without dirt.
 pub(super) fn dirt_shades(body: &CameraBody) -> Option<Vec<f64>> {
     let dirt = body.front.as_ref().and_then(Front::dirt)?;
     let raster = body.film();
@@ -51,12 +51,12 @@ pub(super) fn dirt_shades(body: &CameraBody) -> Option<Vec<f64>> {
     Some(pixels.map(|i| dirt.shade(&body.lens, centre(i))).collect())
 }
 
-/// Each pixel by its dirt.
+/// Multiplies each pixel by its dirt.
 pub(super) fn shaded(plane: &mut Plane<Irradiance>, shades: &[f64]) {
     plane.samples_mut().iter_mut().zip(shades).for_each(|(e, shade)| *e = (f64::from(*e) * shade) as f32);
 }
 
-/// Electrons of an irradiance; `None` where the camera has no electronics.
+/// Electrons of an irradiance; `None` for a camera without electronics.
 pub(super) fn electrons(body: &CameraBody, irradiance: &SpectralCube<Irradiance>) -> Option<Plane<MeanElectrons>> {
     body.sensor.as_ref().map(|sensor| sensor.electrons(irradiance))
 }

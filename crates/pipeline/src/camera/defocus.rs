@@ -1,4 +1,4 @@
-//! Depth of field behind stored radiance: the margin it needs, and the work on several threads.
+//! Depth of field for stored radiance: the required margin, and the work on several threads.
 
 use crate::camera::stored::{PinholeImages, Stored};
 use crate::plan::CameraBody;
@@ -8,10 +8,10 @@ use etendue_optics::defocus::{self, Physical};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling};
 use rayon::prelude::*;
 
-/// The margin, up to the one that is needed, that a stored image holds.
+/// Margin in a stored image, up to the required one.
 ///
 /// # Errors
-/// Where it does not hold the picture itself.
+/// It does not contain the image itself.
 pub fn held_margin_px(
     stored: &PupilProjection,
     body: &CameraBody,
@@ -39,10 +39,10 @@ pub fn held_margin_px(
     Ok(held)
 }
 
-/// What the pixels of a camera's film see, blurred as asked: each pixel the mean over its pupil. Without distances there is no blur.
+/// Radiance seen by the pixels of a camera's film, blurred as requested: each pixel is the mean over its pupil. Without distances there is no blur.
 ///
 /// # Errors
-/// Where the stored image does not hold the picture, or its radiance is no finite number.
+/// The stored image does not contain the camera's image, or its radiance is not finite.
 pub fn seen(
     stored: &Stored<'_>,
     body: &CameraBody,
@@ -60,7 +60,7 @@ pub fn seen(
     })
 }
 
-/// Strips do not depend on each other, so threads do not change the result.
+/// Strips are independent of each other, so that threads do not change the result.
 fn physical(view: defocus::PinholeView<'_>) -> SpectralCube<Radiance> {
     let prepared = Physical::new(view);
     let strips: Vec<_> = prepared.strips().collect();

@@ -1,13 +1,13 @@
-//! From a film whose bands are on the disk to the light of its camera: the numbers that a film in memory gives, with the memory of a few planes.
+//! Light of a camera from a film with bands on disk: the same values as from a film in memory, with the memory of a few planes.
 //!
-//! - Radiance is read off the film when it is wanted.
-//! - Point spread and glare take band after band; the result is a scratch file of its own.
-//! - On the route at the pupil some bands at a time go through the lens, as many as [`GROUP_BYTES`] hold.
+//! - Radiance is read from the film on request.
+//! - Point spread and glare process band after band; the result is a scratch file of its own.
+//! - On the pupil route some bands at a time pass through the lens, as many as [`GROUP_BYTES`] hold.
 //! - Electrons are summed some rows at a time.
-//! - Ghosts (which look for their sources in all bands) and depth of field (whose outlines serve all bands) need all bands at once: they are read into
-//!   memory, and all goes on as if they had been there.
+//! - Ghosts (which search their sources in all bands) and depth of field (whose outlines serve all bands) need all bands at once: they are read into
+//!   memory, and processed like a film in memory.
 //!
-//! Light that is not delivered, and nothing delivered is made of, is not made.
+//! Light that neither is delivered nor contributes to a product is not computed.
 
 use crate::camera::behind_lens::{dirt_shades, shaded};
 use crate::camera::defocus::held_margin_px;
@@ -30,10 +30,10 @@ use etendue_optics::effects::FilmPart;
 use etendue_optics::{BandEtendue, DepthOfField, PupilProjection, Resampling};
 use std::sync::Arc;
 
-/// Bytes of the bands that go through the lens together, where one band has no more.
+/// Maximum bytes of the bands that pass through the lens together, unless a single band has more.
 const GROUP_BYTES: usize = 1 << 29;
 
-/// [`EffectsOutput`], in memory or on the disk.
+/// [`EffectsOutput`], in memory or on disk.
 struct KeptOutput {
     irradiance: KeptCube<Irradiance>,
     variance: Option<KeptCube<Variance>>,
@@ -50,10 +50,10 @@ impl From<EffectsOutput> for KeptOutput {
     }
 }
 
-/// The light of a film whose bands are in `cube`, rows exposed alike.
+/// Light of a film with bands in `cube`, with all rows exposed equally.
 ///
 /// # Errors
-/// As [`Light::of_film`], and where the disk fails.
+/// As [`Light::of_film`], and on disk errors.
 pub(super) fn seen(
     camera: &CameraPlan,
     film: Film,
@@ -61,7 +61,7 @@ pub(super) fn seen(
     depth: Option<&PupilDepth>,
 ) -> Result<Light, LightError> {
     let (body, products) = (&camera.body, &camera.products);
-    // What is not named goes at once.
+    // Unnamed planes are dropped at once.
     let (weight, electron_rate) = (Arc::new(film.weight), film.electron_rate);
     drop((film.watched, film.samples, film.not_finite));
     let radiance = KeptEstimate {
@@ -93,7 +93,7 @@ pub(super) fn seen(
     }
 }
 
-/// The light behind the lens of a radiance at the pupil (its radiance itself is not repeated).
+/// Light behind the lens of a radiance at the pupil (without the radiance itself).
 fn at_pupil(
     camera: &CameraPlan,
     projection: &PupilProjection,
@@ -113,7 +113,7 @@ fn at_pupil(
     with_irradiance(camera, output, Light::default())
 }
 
-/// The irradiance on the film of a radiance at the pupil without depth of field, some bands after the other.
+/// Irradiance on the film of a radiance at the pupil without depth of field, some bands after the other.
 fn through_lens(
     body: &CameraBody,
     projection: &PupilProjection,
@@ -142,7 +142,7 @@ fn through_lens(
     Ok(film.kept())
 }
 
-/// What the effects of a camera leave of a film.
+/// Result of a camera's effects on a film.
 fn effects_on(
     body: &CameraBody,
     part: FilmPart,
@@ -161,7 +161,7 @@ fn effects_on(
     by_band(body, part, &film, variance.as_ref(), store).map_err(LightError::Scratch)
 }
 
-/// Effects that take band after band.
+/// Effects that process band after band.
 fn by_band(
     body: &CameraBody,
     part: FilmPart,
@@ -184,7 +184,7 @@ fn by_band(
     Ok(KeptOutput { irradiance: means.kept(), variance: variances.map(PlaneCube::kept), ghosts: None })
 }
 
-/// The light with its irradiance, and the electrons that are made of it.
+/// Light with its irradiance, and the electrons computed from it.
 fn with_irradiance(camera: &CameraPlan, output: KeptOutput, light: Light) -> Result<Light, LightError> {
     let KeptOutput { irradiance, variance, ghosts } = output;
     let (body, products) = (&camera.body, &camera.products);
@@ -194,7 +194,7 @@ fn with_irradiance(camera: &CameraPlan, output: KeptOutput, light: Light) -> Res
     Ok(Light { irradiance: Some(irradiance), irradiance_variance: variance, ghosts, electrons, ..light })
 }
 
-/// The electrons that pixels summed directly, and their variance where it is delivered.
+/// Electrons that pixels accumulated directly, and their variance if it is delivered.
 fn folded(camera: &CameraPlan, rate: Option<Estimate<ElectronRate>>) -> Light {
     let Some((sensor, Estimate { mean, variance })) = camera.body.sensor.as_ref().zip(rate) else {
         return Light::default();
@@ -205,7 +205,7 @@ fn folded(camera: &CameraPlan, rate: Option<Estimate<ElectronRate>>) -> Light {
     Light { electrons: Some(exposed(mean, exposure_s)), electrons_variance: of_variance, ..Light::default() }
 }
 
-/// Bands of a film as they are.
+/// Bands of a film, unchanged.
 fn kept<Q: Quantity>(cube: &TiledCube, reader: &Arc<dyn BandReader>) -> KeptCube<Q> {
     let (width, height) = cube.size();
     of_size(cube.bands(), width, height, Arc::clone(reader))
@@ -215,7 +215,7 @@ fn of_size<Q: Quantity>(bands: Bands, width: usize, height: usize, reader: Arc<d
     KeptCube::Disk(CubeOnDisk::new(bands, width, height, reader))
 }
 
-/// Bands of a film over the pupil's weight.
+/// Bands of a film divided by the pupil's weight.
 fn over_weight<Q: Quantity>(
     cube: &TiledCube,
     reader: &Arc<dyn BandReader>,
@@ -227,7 +227,7 @@ fn over_weight<Q: Quantity>(
     of_size(cube.bands(), width, height, Arc::new(view))
 }
 
-/// The picture's part of a film.
+/// Image part of a film.
 fn part<Q: Quantity<Sample = f32>>(body: &CameraBody, film: KeptCube<Q>) -> KeptCube<Q> {
     let (bands, whole_width) = (film.bands(), film.width());
     match film {

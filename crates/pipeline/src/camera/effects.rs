@@ -1,4 +1,4 @@
-//! The irradiance effects of a camera on a whole film, bands side by side.
+//! Irradiance effects of a camera on a whole film, bands in parallel.
 
 use crate::plan::CameraBody;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
@@ -7,17 +7,17 @@ use etendue_optics::effects::{FilmPart, Prepared};
 use etendue_optics::{Lens, ghosts};
 use rayon::prelude::*;
 
-/// What effects leave of a film: a picture.
+/// Result of effects on a film: an image.
 pub(crate) struct EffectsOutput {
     pub(crate) irradiance: SpectralCube<Irradiance>,
-    /// Without that of ghosts, which is far below the picture's own.
+    /// Variance without that of ghosts, which is far below the image's own.
     pub(crate) variance: Option<SpectralCube<Variance>>,
-    /// The part of the irradiance that is ghosts, where the camera has them.
+    /// Ghosts, as part of the irradiance, if the camera has them.
     pub(crate) ghosts: Option<SpectralCube<Irradiance>>,
 }
 
-/// The picture's irradiance and its variance, of the film's, on the caller's pool; the same where the camera has no effects. `part` of the point spread
-/// is not yet in the film.
+/// Irradiance of the image and its variance, from those of the film; unchanged if the camera has no effects. `part` of the point spread is not yet in the
+/// film. Runs on the caller's pool.
 pub(crate) fn behind(
     body: &CameraBody,
     part: FilmPart,
@@ -47,7 +47,7 @@ pub(crate) fn behind(
     }
 }
 
-/// The picture's ghosts, of the film's light.
+/// Ghosts of the image, from the film's light.
 fn ghosts(body: &CameraBody, film: &SpectralCube<Irradiance>) -> Option<SpectralCube<Irradiance>> {
     let (Some(settings), Lens::Prescription(lens)) = (body.effects.ghosts(), &body.lens) else { return None };
     let layer =
@@ -59,7 +59,7 @@ fn add(sum: &mut Plane<Irradiance>, plane: &Plane<Irradiance>) {
     sum.samples_mut().iter_mut().zip(plane.samples()).for_each(|(sum, value)| *sum += value);
 }
 
-/// What effects leave of a band and its variance.
+/// Result of effects on a band and its variance.
 pub(crate) fn of_band(
     prepared: &Prepared,
     bands: Bands,
@@ -71,7 +71,7 @@ pub(crate) fn of_band(
     prepared.apply(WavelengthRange::new(low_nm, low_nm + bands.width_nm()), film, variance)
 }
 
-/// The picture of a film, without its margin.
+/// Image of a film, without its margin.
 pub(crate) fn picture<Q: Quantity>(body: &CameraBody, film: SpectralCube<Q>) -> SpectralCube<Q> {
     if body.effects.margin_px() == [0, 0] {
         return film;
@@ -80,7 +80,7 @@ pub(crate) fn picture<Q: Quantity>(body: &CameraBody, film: SpectralCube<Q>) -> 
     SpectralCube::from_planes(film.bands(), planes).expect("planes of one picture")
 }
 
-/// The picture's part of a plane of a film.
+/// Image part of a plane of a film.
 pub(crate) fn plane_of_picture<Q: Quantity>(body: &CameraBody, film: &Plane<Q>) -> Plane<Q> {
     let [x, y] = body.effects.margin_px();
     film.part(x, y, body.raster.width(), body.raster.height())

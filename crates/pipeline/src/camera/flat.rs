@@ -1,11 +1,11 @@
-//! Even light on the bare sensor, as EMVA 1288 measures with: no lens, no scene, and nothing is traced.
+//! Uniform illumination of the bare sensor, as in EMVA 1288: no lens, no scene, and nothing is traced.
 //!
-//! Light of one wavelength λ falls along the normal on all pixels alike. Mean electrons have a closed form, μ = E R(λ), E the
-//! irradiance (W·m⁻²) and R the responsivity of the pixel's channel (e⁻ per W·m⁻²). Photons are counted on the whole square
-//! of a pixel, as the standard does: μ_p = A E t λ/(hc), so that its quantum efficiency has the fill factor in it.
+//! Light of one wavelength λ is incident along the normal, equal on all pixels. Mean electrons have a closed form, μ = E R(λ), E the irradiance (W·m⁻²) and R
+//! the responsivity of the pixel's channel (e⁻ per W·m⁻²). Photons are counted on the full area of a pixel, as in the standard: μ_p = A E t λ/(hc), so that
+//! its quantum efficiency includes the fill factor.
 //!
-//! [`photon_transfer`] is the standard's series (release 4.0 Linear, method of changing exposure time): levels of equal steps up to a
-//! little above saturation, two bright and two dark frames each, then a stack of bright frames at half of saturation and one of dark ones.
+//! [`photon_transfer`] is the standard's series (release 4.0 Linear, method of changing exposure time): levels in equal steps to slightly above saturation,
+//! two bright and two dark frames each, then a stack of bright frames at half of saturation and one of dark frames.
 
 use crate::plan::CameraBody;
 use etendue_core::Plane;
@@ -16,23 +16,23 @@ use etendue_sensor::photon::photons_per_joule;
 use etendue_sensor::{OperatingPoint, Sensor, SensorState};
 use std::ops::Range;
 
-/// The last level over saturation: the largest temporal variance, which marks saturation, lies within the series.
+/// Last level relative to saturation: the largest temporal variance, which marks saturation, is within the series.
 const LAST_LEVEL: f64 = 1.05;
 
-/// Even light.
+/// Uniform illumination.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatLight {
-    /// Its wavelength, nm.
+    /// Wavelength, nm.
     pub wavelength_nm: f64,
     /// Irradiance of the sensor, W·m⁻².
     pub irradiance_w_m2: f64,
 }
 
 impl FlatLight {
-    /// Light of which `photons` fall on the whole square of a pixel in the described exposure.
+    /// Light with `photons` on the full area of a pixel in the described exposure.
     ///
     /// # Errors
-    /// [`FlatError::NoExposure`] where photons are wanted in no time.
+    /// [`FlatError::NoExposure`] if photons are requested for an exposure of zero.
     pub fn of_photons(sensor: &Sensor, wavelength_nm: f64, photons: f64) -> Result<Self, FlatError> {
         let exposure_s = sensor.parameters().exposure.exposure_s;
         let one = Self { wavelength_nm, irradiance_w_m2: 1.0 };
@@ -44,8 +44,8 @@ impl FlatLight {
     }
 }
 
-/// The camera without what only light through a lens meets (the angle response), and without exposure control; `None` where it
-/// has no electronics.
+/// The camera without the properties that affect only light through a lens (the angle response), and without exposure control; `None` for a camera without
+/// electronics.
 #[must_use]
 pub fn bare(body: &CameraBody) -> Option<CameraBody> {
     let mut parameters = body.sensor.as_ref()?.parameters().clone();
@@ -55,8 +55,8 @@ pub fn bare(body: &CameraBody) -> Option<CameraBody> {
     Some(CameraBody { sensor: Some(sensor), ..body.clone() })
 }
 
-/// Mean electrons of every pixel in the described exposure, in which the light is on: rows of a global reset that are read later get no
-/// more of it; `None` where the camera has no electronics.
+/// Mean electrons of every pixel in the described exposure, during which the light is on: rows of a global reset that are read later receive no more of it.
+/// `None` for a camera without electronics.
 #[must_use]
 pub fn electrons(body: &CameraBody, light: FlatLight) -> Option<Plane<MeanElectrons>> {
     let sensor = body.sensor.as_ref()?;
@@ -69,28 +69,28 @@ pub fn electrons(body: &CameraBody, light: FlatLight) -> Option<Plane<MeanElectr
     Plane::from_samples(width, height, samples)
 }
 
-/// Photons that fall on a pixel's square in a time.
+/// Photons on a pixel's full area in a time.
 #[must_use]
 pub fn photons(sensor: &Sensor, light: FlatLight, exposure_s: f64) -> f64 {
     let pitch_m = sensor.parameters().pixel.pitch_um * 1e-6;
     pitch_m * pitch_m * light.irradiance_w_m2 * exposure_s * photons_per_joule(light.wavelength_nm)
 }
 
-/// Why a sensor has no photon transfer.
+/// Reasons for which a sensor has no photon transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FlatError {
-    /// No channel responds.
+    /// No channel responds to the light.
     #[error(
         "the sensor does not respond to light of that wavelength: give one at which its quantum efficiency is above 0"
     )]
     Blind,
-    /// Photons are wanted in no time.
+    /// Photons are requested for an exposure of zero.
     #[error("no photons fall on a pixel in the camera's \"exposure_s\", which is 0: give a longer one, or 0 photons")]
     NoExposure,
-    /// The longest exposure of the series is none.
+    /// The longest exposure of the series is zero.
     #[error("photon transfer takes exposures up to the camera's \"exposure_s\", which is 0: give a longer one")]
     NoTime,
-    /// Numbers are not proportional to the charge of single pixels.
+    /// Digital numbers are not proportional to the charge of single pixels.
     #[error(
         "photon transfer needs numbers proportional to the charge of single pixels: take \"hdr\", \"companding\", \"response\" and \
          \"binning\" out of the camera's [sensor] (a file with \"base\" and \"without\" does)"
@@ -98,19 +98,19 @@ pub enum FlatError {
     NotLinear,
 }
 
-/// Frames taken one after the other, of the same light and exposure.
+/// Consecutive frames of the same light and exposure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stack {
     /// Exposure time, s.
     pub exposure_s: f64,
-    /// Photons a pixel; 0 in the dark.
+    /// Photons per pixel; 0 in the dark.
     pub photons: f64,
-    /// Their numbers.
+    /// Frame numbers.
     pub frames: Range<u32>,
 }
 
 impl Stack {
-    /// The state of its next frame after one that left `state`; before the first a sensor that has rested.
+    /// State of the sensor before its next frame, after one that left `state`; before the first frame an idle sensor.
     #[must_use]
     pub fn state(&self, sensor: &Sensor, state: SensorState) -> SensorState {
         let analogue_gain = sensor.parameters().read_out.analogue_gain;
@@ -118,16 +118,16 @@ impl Stack {
     }
 }
 
-/// The standard's series.
+/// Series of EMVA 1288.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhotonTransfer {
-    /// The light of the bright frames.
+    /// Light of the bright frames.
     pub light: FlatLight,
-    /// All stacks, in the order they are taken.
+    /// All stacks, in the order of capture.
     pub stacks: Vec<Stack>,
 }
 
-/// The series of a bare sensor: `levels` exposures up to the described one, at which the most sensitive channel is a little above
+/// Series of a bare sensor: `levels` exposures up to the described one, at which the most sensitive channel is slightly above
 /// saturation, and two stacks of `many` frames.
 ///
 /// # Errors
@@ -160,7 +160,7 @@ pub fn photon_transfer(
     Ok(series)
 }
 
-/// Electrons at which a number ends: the full well's, or the converter's where that comes first.
+/// Electrons at which the digital number saturates: at the full well, or at the ADC's limit if it is lower.
 fn saturation_e(sensor: &Sensor) -> f64 {
     let read_out = &sensor.parameters().read_out;
     let dn = sensor.white_level_dn() - sensor.black_level_dn();
@@ -168,7 +168,7 @@ fn saturation_e(sensor: &Sensor) -> f64 {
 }
 
 impl PhotonTransfer {
-    /// Bright frames, and as many dark ones.
+    /// Adds bright frames, and as many dark ones.
     fn add(&mut self, sensor: &Sensor, exposure_s: f64, count: u32) {
         for photons in [photons(sensor, self.light, exposure_s), 0.0] {
             let first = self.stacks.last().map_or(0, |stack| stack.frames.end);
@@ -213,7 +213,7 @@ mod tests {
             let found = f64::from(electrons.at(x, y)) / photons;
             assert!((found / (0.5 * efficiency) - 1.0).abs() < 3e-7, "{x} {y}: {found}");
         }
-        // 5 µm, 10 ms, 550 nm, 1 µW/cm²: the standard's handy form.
+        // 5 µm, 10 ms, 550 nm, 1 µW/cm²: the standard's numerical form.
         assert!((photons / (50.341_165_675_4 * 25.0 * 10.0 * 0.55) - 1.0).abs() < 1e-9, "{photons}");
     }
 

@@ -1,4 +1,4 @@
-//! A camera's light, sorted by what it is.
+//! Light of a camera, by quantity.
 
 use crate::plan::RowExposure;
 use crate::render::film::CubeEstimate;
@@ -7,7 +7,7 @@ use etendue_core::{KeptCube, Plane};
 use etendue_optics::OpticsError;
 use etendue_sensor::CaptureLight;
 
-/// A spectral cube of means and their variances, in memory or on the disk.
+/// A spectral cube of means and their variances, in memory or on disk.
 #[derive(Clone, Debug)]
 pub struct KeptEstimate<Q: Quantity> {
     /// Band means.
@@ -22,29 +22,28 @@ impl<Q: Quantity> From<CubeEstimate<Q>> for KeptEstimate<Q> {
     }
 }
 
-/// A camera's light, sorted by what it is. Of a film on the disk there is only what the camera's files are made of.
+/// Light of a camera, by quantity. Of a film on disk it contains only what the camera's files require.
 #[derive(Clone, Debug, Default)]
 pub struct Light {
-    /// Spectral radiance: through the lens, the mean over each pixel's pupil; at the pupil, as seen from its centre
-    /// in the stored geometry.
+    /// Spectral radiance: through the lens, the mean over each pixel's pupil; at the pupil, as seen from its centre in the stored projection.
     pub radiance: Option<KeptEstimate<Radiance>>,
     /// Spectral irradiance on the sensor plane.
     pub irradiance: Option<KeptCube<Irradiance>>,
-    /// Its variance; `None` on the route at the pupil, where only the radiance's is known.
+    /// Its variance; `None` on the pupil route, where only the radiance's is known.
     pub irradiance_variance: Option<KeptCube<Variance>>,
-    /// The part of the irradiance that is ghosts, where the camera has them.
+    /// Ghosts, as part of the irradiance, if the camera has them.
     pub ghosts: Option<KeptCube<Irradiance>>,
     /// Mean electrons of each pixel in the first capture.
     pub electrons: Option<Plane<MeanElectrons>>,
-    /// Those of the captures after it, each in the exposure of the first; empty where all captures see the same light.
+    /// Mean electrons of the further captures, each in the exposure of the first; empty if all captures see the same light.
     pub further_electrons: Vec<Plane<MeanElectrons>>,
-    /// Their variance; `None` where they come from a cube.
+    /// Variance of the electrons; `None` if they come from a cube.
     pub electrons_variance: Option<Plane<Variance>>,
 }
 
 impl Light {
-    /// The same with each row's own exposure, and with the electrons of `further` captures of rows exposed alike; where there are none, all see
-    /// the light of the first.
+    /// Applies each row's own exposure, and adds the electrons of `further` captures with rows exposed equally; without any, all captures see the light of
+    /// the first.
     pub(super) fn exposed(mut self, rows: &RowExposure, mut further: Vec<Plane<MeanElectrons>>) -> Self {
         if !rows.is_even() {
             let Some(first) = &mut self.electrons else { return self };
@@ -62,14 +61,14 @@ impl Light {
         Self { further_electrons: further, ..self }
     }
 
-    /// What the captures of a frame see; `None` where the camera has no electronics.
+    /// Light of a frame's captures; `None` for a camera without electronics.
     #[must_use]
     pub fn captures(&self) -> Option<CaptureLight<'_>> {
         self.electrons.as_ref().map(|first| CaptureLight { first, further: &self.further_electrons })
     }
 }
 
-/// Multiplies each row.
+/// Multiplies each row by a factor.
 fn scale_rows<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, by: impl Fn(usize) -> f64) {
     let width = plane.width();
     for (row, values) in plane.samples_mut().chunks_mut(width).enumerate() {
@@ -78,10 +77,10 @@ fn scale_rows<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, by: impl Fn(usize
     }
 }
 
-/// Why a film does not become light.
+/// Reasons for which a film cannot be converted to light.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LightError {
-    /// The lens cannot be put on the film.
+    /// The lens cannot be applied to the film.
     #[error(transparent)]
     Optics(#[from] OpticsError),
     /// A scratch file cannot be written or read.

@@ -1,8 +1,7 @@
-//! What a camera makes of even light in the middle of its picture: for exposures that are chosen before anything is rendered.
+//! Response of a camera to uniform light at the centre of its image: for exposures that are chosen before a render.
 //!
-//! μ = Ω ∫ L(λ) R(λ) dλ: the lens's étendue over the pixel (sr, at 587.56 nm), radiance, responsivity of the channel in its
-//! exposure. Left out: what stands in front of the lens, filters whose edge moves, every effect of the sensor but its
-//! quantum efficiency.
+//! μ = Ω ∫ L(λ) R(λ) dλ: the lens's étendue over the pixel (sr, at 587.56 nm), radiance, responsivity of the channel in its exposure. Not included: elements
+//! before the lens, filters with a shifting edge, every effect of the sensor except its quantum efficiency.
 
 use crate::plan::CameraBody;
 use etendue_sensor::Sensor;
@@ -18,7 +17,7 @@ pub struct LightMeter<'a> {
 }
 
 impl<'a> LightMeter<'a> {
-    /// The meter of a camera; `None` without electronics.
+    /// Light meter of a camera; `None` without electronics.
     #[must_use]
     pub fn of(body: &'a CameraBody) -> Option<Self> {
         let size = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
@@ -26,7 +25,7 @@ impl<'a> LightMeter<'a> {
         body.sensor.as_ref().map(|sensor| Self { sensor, projected_solid_angle_sr })
     }
 
-    /// Mean electrons of each channel for an even radiance, W·m⁻²·sr⁻¹·nm⁻¹, in the described exposure.
+    /// Mean electrons of each channel for a uniform radiance, W·m⁻²·sr⁻¹·nm⁻¹, in the described exposure.
     #[must_use]
     pub fn electrons(&self, radiance: &Spectrum) -> Vec<(String, f64)> {
         let channels = self.sensor.parameters().channels.iter().zip(self.sensor.responsivities());
@@ -36,7 +35,7 @@ impl<'a> LightMeter<'a> {
         channels.map(|(channel, responsivity)| (channel.name.clone(), of(responsivity))).collect()
     }
 
-    /// Electrons at which the pixel is full, or its converter if that comes first (of a linear response).
+    /// Electrons at which the pixel saturates, or its ADC if it does so first (for a linear response).
     #[must_use]
     pub fn saturation_e(&self) -> f64 {
         let p = self.sensor.parameters();

@@ -1,11 +1,11 @@
-//! Cameras: from the light on a film to irradiance, electrons, digital numbers and pictures.
+//! Cameras: from the light on a film to irradiance, electrons, digital numbers and images.
 //!
 //! # Contract
-//! - [`photograph`] conducts the stages: the effects behind the lens, exposure, the sensor's frames, their development.
-//! - [`stored`], [`defocus`] and `rectified` put a lens before stored radiance, or another camera in a camera's place.
-//! - `disk_light` does for films on the disk what [`photograph`] does for those in memory.
-//! - [`flat`] and [`light_meter`] are closed forms for even light: nothing is traced.
-//! - [`datasheet`] makes a camera file of an EMVA 1288 data sheet.
+//! - [`photograph`] runs the stages: effects behind the lens, exposure, the sensor's frames, their processing.
+//! - [`stored`], [`defocus`] and `rectified` apply a lens to stored radiance, or replace a camera by another.
+//! - `disk_light` does the same for films on disk as [`photograph`] for those in memory.
+//! - [`flat`] and [`light_meter`] are closed forms for uniform light: nothing is traced.
+//! - [`datasheet`] makes a camera file from an EMVA 1288 data sheet.
 
 mod behind_lens;
 pub mod datasheet;

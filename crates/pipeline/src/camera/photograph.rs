@@ -1,4 +1,4 @@
-//! From light to photographs: irradiance, electrons, raw, picture.
+//! From light to frames: irradiance, electrons, raw, image.
 
 use crate::camera::behind_lens::electrons;
 use crate::camera::disk_light;
@@ -18,17 +18,16 @@ use etendue_optics::{DepthOfField, OpticsError};
 use etendue_sensor::{CaptureLight, Raw, SensorState, SignalBreakdown};
 
 impl Light {
-    /// The light of a camera's film; at the pupil with the distances of its pixels, which its depth of field needs. Runs on
-    /// the caller's pool.
+    /// Light of a camera's film; at the pupil with the distances of its pixels, which its depth of field needs. Runs on the caller's pool.
     ///
     /// # Errors
-    /// Where depth of field meets a radiance that is no finite number (a compiled plan covers its own picture), or a scratch file fails.
+    /// Depth of field meets a radiance that is not finite (a compiled plan contains its own image), or a scratch file fails.
     pub fn of_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
         Self::seen(camera, film, depth).map(|light| light.exposed(&camera.body.exposure, Vec::new()))
     }
 
-    /// The light of a camera whose captures see different light: films of the distinct captures
-    /// ([`RowExposure::distinct_captures`]) in their order, or one that all of them see.
+    /// Light of a camera whose captures see different light: films of the distinct captures ([`RowExposure::distinct_captures`]) in order, or a single one
+    /// for all of them.
     ///
     /// # Errors
     /// As [`Light::of_film`].
@@ -40,7 +39,7 @@ impl Light {
         Ok(lights.swap_remove(0).exposed(rows, further))
     }
 
-    /// The light of a film, rows exposed alike.
+    /// Light of a film, with all rows exposed equally.
     fn seen(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, LightError> {
         if let Some(cube) = film.disk().cloned() {
             return disk_light::seen(camera, film, &cube, depth);
@@ -87,10 +86,10 @@ impl Light {
         }
     }
 
-    /// The light behind a lens of a stored radiance image (its radiance itself is not repeated).
+    /// Light behind a lens of a stored radiance image (without the radiance itself).
     ///
     /// # Errors
-    /// Where the picture needs directions that the image does not hold, or the radiance is no finite number.
+    /// The image does not contain directions that the camera needs, or the radiance is not finite.
     pub fn at_pupil(
         body: &CameraBody,
         stored: &Stored<'_>,
@@ -100,29 +99,28 @@ impl Light {
     }
 }
 
-/// Electrons of the captures after the first, of the lights of the distinct ones.
+/// Electrons of the captures after the first, from the lights of the distinct ones.
 fn further_electrons(rows: &RowExposure, lights: &[Light]) -> Vec<Plane<MeanElectrons>> {
     let distinct = rows.distinct_captures();
     let same = |capture: usize| distinct.iter().position(|d| rows.captures[*d] == rows.captures[capture]);
     (1..rows.captures.len()).filter_map(|capture| lights[same(capture)?].electrons.clone()).collect()
 }
 
-/// One frame out of the converter, and its picture.
+/// One raw frame, and its developed image.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// Digital numbers.
     pub raw: Raw,
-    /// What they are made of, where that was asked for.
+    /// Components of the digital numbers, if requested.
     pub signal_breakdown: Option<SignalBreakdown>,
-    /// The picture, where the camera makes one.
+    /// Developed image, if the camera has processing.
     pub picture: Option<Developed>,
 }
 
-/// The picture of the part of a raw that light reached, of numbers that are proportional to the reading, by the processing of
-/// a camera. Runs on the caller's pool.
+/// Develops the part of a raw that receives light, from linear digital numbers, with the processing of a camera. Runs on the caller's pool.
 ///
 /// # Errors
-/// Where the raw is not one of the camera's sensor.
+/// The raw is not of the camera's sensor.
 pub fn developed(development: &Development, raw: &Raw, address: FrameAddress) -> Result<Developed, DevelopError> {
     let linear = raw.linear();
     let picture = RawPicture {
@@ -135,14 +133,13 @@ pub fn developed(development: &Development, raw: &Raw, address: FrameAddress) ->
     develop(&picture, &development.processing, address)
 }
 
-/// The picture of a frame of the camera's own, where it makes one.
+/// Developed image of a frame of the camera's own, if it has processing.
 fn own_picture(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<Developed> {
     let development = body.development.as_ref()?;
     Some(developed(development, raw, address).expect("a compiled plan's processing fits its sensor"))
 }
 
-/// Takes one frame of `light`; the state is passed from frame to frame. `None` where the camera has no
-/// electronics.
+/// Captures one frame of `light`; the state is passed from frame to frame. `None` for a camera without electronics.
 #[must_use]
 pub fn take(
     body: &CameraBody,
@@ -155,7 +152,7 @@ pub fn take(
     Some((state, Frame { raw, signal_breakdown: None, picture }))
 }
 
-/// The same frame, with what each pixel's digital number is made of.
+/// Captures the same frame, with the components of each pixel's digital number.
 #[must_use]
 pub fn take_with_breakdown(
     body: &CameraBody,

@@ -16,7 +16,7 @@ pub(super) struct PlaneCube {
 }
 
 impl PlaneCube {
-    /// Room for the bands of `width` × `height` pixels.
+    /// Allocates the bands of `width` × `height` pixels.
     pub(super) fn new(store: &dyn ScratchStore, bands: Bands, width: usize, height: usize) -> Result<Self, String> {
         let scratch = store.room((width * height * bands.count() * NUMBER_BYTES) as u64)?;
         Ok(Self { bands, size: (width, height), scratch })
@@ -28,13 +28,13 @@ impl PlaneCube {
         write_numbers(&*self.scratch, self.offset(band, 0), plane.samples())
     }
 
-    /// What was written.
+    /// The written cube.
     pub(super) fn kept<Q: Quantity>(self) -> KeptCube<Q> {
         let (bands, size) = (self.bands, self.size);
         KeptCube::Disk(CubeOnDisk::new(bands, size.0, size.1, Arc::new(self)))
     }
 
-    /// Where a row of a band begins, bytes.
+    /// Offset of a row of a band, bytes.
     fn offset(&self, band: usize, row: usize) -> u64 {
         let (width, height) = self.size;
         ((band * height + row) * width * NUMBER_BYTES) as u64

@@ -1,9 +1,8 @@
-//! Pictures of undistorted twins.
+//! Images of rectified cameras.
 //!
-//! The picture of a twin is the developed one resampled, linearly between pixels, in linear light before the tone curve: what software
-//! does with a picture of the camera, so that the sensor's noise, demosaicing, vignetting and blur are the camera's own.
-//! Values are those of the place they come from, unscaled: an even picture stays even. Where the camera sees nothing, or the
-//! place lies outside its picture, the twin is black.
+//! The image of a rectified camera is the developed one resampled, linearly between pixels, in linear light before the tone curve, as software does with an
+//! image of the camera. The sensor's noise, demosaicing, vignetting and blur are therefore the camera's own. Values are not rescaled: a uniform image remains
+//! uniform. Where the camera sees nothing, or the position is outside its image, the result is black.
 
 use crate::plan::CameraBody;
 use crate::plan::rectified::RectifiedCamera;
@@ -14,7 +13,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 impl RectifiedCamera {
-    /// The camera's picture in the twin's raster, in linear light. Runs on the caller's pool.
+    /// The camera's image in the raster of the rectified camera, in linear light. Runs on the caller's pool.
     #[must_use]
     pub fn resampled(&self, camera: &CameraBody, linear: &Plane<LinearRgb>) -> Plane<LinearRgb> {
         let (width, height) = (self.body().raster.width(), self.body().raster.height());
@@ -26,8 +25,8 @@ impl RectifiedCamera {
         Plane::from_samples(width, height, samples).expect("one sample a pixel")
     }
 
-    /// The same with the camera's tone curve and sharpening; `None` where it makes no picture. The address is that of the
-    /// paper's noises.
+    /// The rectified image with the camera's tone curve and sharpening; `None` for a camera without processing. The address is that of the noise of the image
+    /// filters.
     #[must_use]
     pub fn picture(
         &self,
@@ -40,7 +39,7 @@ impl RectifiedCamera {
     }
 }
 
-/// A picture's value between its pixels' centres; at its rim that of the outermost centre, `None` outside.
+/// Interpolated value of an image; up to half a pixel from its edge that of the outermost pixel, `None` outside.
 fn between(picture: &Plane<LinearRgb>, at: DVec2) -> Option<[f32; 3]> {
     let last = DVec2::new((picture.width() - 1) as f64, (picture.height() - 1) as f64);
     let from_centre = at - 0.5;
@@ -94,7 +93,7 @@ mod tests {
             let picture = Plane::from_samples(64, 48, (0..64 * 48).map(|i| [i as f32, 0.5, (i % 7) as f32]).collect());
             let picture = picture.expect("filled");
             let same = twin.resampled(&camera, &picture);
-            // Points are found again to 1e-12 px, over which neighbours differ by up to 64.
+            // Positions are recovered to 1e-12 px, over which neighbours differ by up to 64.
             let close = |(a, b): (&[f32; 3], &[f32; 3])| (0..3).all(|i| (a[i] - b[i]).abs() <= 1e-6 * (1.0 + b[i]));
             assert!(same.samples().iter().zip(picture.samples()).all(close));
         }
@@ -135,7 +134,8 @@ mod tests {
     fn an_even_picture_stays_even_and_what_is_not_seen_is_black() {
         let camera = calibrated("type = \"opencv\", fx_px = 50, distortion = [-0.2, 0.02, 0, 0]");
         let even = Plane::filled(64, 48, [0.25, 0.5, 1.0]);
-        // A barrel is drawn out: the twin of the same scale shows a part of it, one of half the scale all, and black around.
+        // Barrel distortion is expanded: the rectified camera of the same scale shows a part of the image, that of half the scale the whole, with black
+        // around it.
         let of = |scale| RectifiedCamera::of(&camera, scale).expect("a twin").resampled(&camera, &even);
         assert!(of(1.0).samples().iter().all(|v| *v == [0.25, 0.5, 1.0]));
         let small = of(0.5);

@@ -1,4 +1,4 @@
-//! How a picture was sampled: samples of each pixel, the variance that they leave, and that of the sensor's noise beside it.
+//! Sampling of an image: samples of each pixel, the resulting variance, and the variance of the sensor's noise.
 
 use crate::camera::effects::plane_of_picture;
 use crate::plan::{CameraPlan, Route};
@@ -8,21 +8,21 @@ use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity, Variance};
 use etendue_sensor::Sensor;
 
-/// Planes of the picture; at the pupil of the stored view.
+/// Planes of the image; at the pupil of the stored view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SamplingPlanes {
     /// Samples of each pixel.
     pub samples: Plane<Identity>,
-    /// Variance of each pixel's mean by its samples, e⁻² of the described exposure; (W/m²)² of irradiance where no electrons are made, (W·m⁻²·sr⁻¹)² of radiance at the pupil. `None` where neither
-    /// electrons are summed nor noise is monitored, and for a single replicate, which has no variance.
+    /// Variance of each pixel's mean from its samples, e⁻² of the described exposure; (W/m²)² of irradiance without electrons, (W·m⁻²·sr⁻¹)² of radiance at
+    /// the pupil. `None` if neither electrons are accumulated nor noise is monitored, and for a single replicate, which has no variance.
     pub monte_carlo: Option<Plane<Variance>>,
-    /// Variance of a pixel's signal from frame to frame by the sensor ([`etendue_sensor::TemporalNoise`]), e⁻² of the described exposure. `None`
-    /// where no electrons are summed.
+    /// Variance of a pixel's signal from frame to frame by the sensor ([`etendue_sensor::TemporalNoise`]), e⁻² of the described exposure. `None` if no
+    /// electrons are accumulated.
     pub sensor: Option<Plane<Variance>>,
 }
 
 impl SamplingPlanes {
-    /// Those of a camera's film.
+    /// Planes of a camera's film.
     #[must_use]
     pub fn of(camera: &CameraPlan, film: &Film) -> Self {
         let noise = camera.body.sensor.as_ref().filter(|_| camera.settings.route == Route::Lens);
@@ -50,7 +50,7 @@ fn scaled(variance: &Plane<Variance>, by: f64) -> Plane<Variance> {
     variance.map(|value| stored_variance(f64::from(value) * by))
 }
 
-/// Without the film's margin, where it is the picture's.
+/// Removes the film's margin if the planes are those of the image.
 fn shown<Q: Quantity>(camera: &CameraPlan, plane: &Plane<Q>) -> Plane<Q> {
     match camera.settings.route {
         Route::Lens => plane_of_picture(&camera.body, plane),

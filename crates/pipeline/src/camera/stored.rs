@@ -1,26 +1,26 @@
-//! A stored radiance image, and what a camera sees of it.
+//! A stored radiance image, and a camera's view of it.
 
 use crate::plan::CameraBody;
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_optics::{OpticsError, PupilProjection, Resampling};
 
-/// A stored radiance image: what the route at the pupil begins with.
+/// A stored radiance image: the input of the pupil route.
 #[derive(Clone, Copy, Debug)]
 pub struct Stored<'a> {
     /// Its geometry.
     pub projection: &'a PupilProjection,
     /// Radiance as seen from the centre of the entrance pupil.
     pub radiance: &'a SpectralCube<Radiance>,
-    /// Distance of what each of its pixels sees, where it is known.
+    /// Distance seen by each of its pixels, if known.
     pub distance: Option<&'a Plane<Length>>,
 }
 
 impl Stored<'_> {
-    /// Radiance and distance in the raster of a camera's picture, with `margin_px` more columns and rows on all sides.
+    /// Radiance and distance in the raster of a camera's image, with `margin_px` additional columns and rows on each side.
     ///
     /// # Errors
-    /// Where the picture needs directions that the image does not hold.
+    /// The stored image does not contain directions that the camera needs.
     pub fn seen(&self, body: &CameraBody, margin_px: [usize; 2]) -> Result<PinholeImages, OpticsError> {
         let (lens, bands) = (&body.lens, self.radiance.bands());
         let resampling = Resampling::new(*self.projection, lens, &body.raster, margin_px, bands)?;
@@ -30,11 +30,11 @@ impl Stored<'_> {
     }
 }
 
-/// What a camera's pixels see from the centre of the entrance pupil.
+/// View of a camera's pixels from the centre of the entrance pupil.
 #[derive(Clone, Debug)]
 pub struct PinholeImages {
     /// Mean radiance of each pixel.
     pub radiance: SpectralCube<Radiance>,
-    /// Distance of what each pixel's centre sees, m; +∞ for the sky, NaN where no ray is.
+    /// Distance along the ray of each pixel's centre, m; +∞ for the sky, NaN without a ray.
     pub distance: Option<Plane<Length>>,
 }

@@ -1,4 +1,4 @@
-//! What is said of light in media: how often it is scattered, and what is not done with it.
+//! Notes on light in media: the number of scattering events, and unsupported settings.
 
 use super::context::{Context, ErrorCode};
 use crate::plan::CameraPlan;
@@ -9,17 +9,17 @@ use etendue_scene::Description;
 use etendue_tracer::media::{Media, Medium};
 use glam::Vec3;
 
-/// Albedo from which on light is scattered so often that the limit of bounces is felt.
+/// Albedo above which multiple scattering makes the limit of bounces significant.
 const BRIGHT: f32 = 0.5;
 
-/// Bounces to an optical depth of one and more by which some 95 % of fog's light is found: with the forward peak of its phase function
-/// followed, and with it taken as unscattered. Found for water droplets of 12 µm in a layer of optical depth 2.2.
+/// Bounces per optical depth plus one that include about 95 % of fog's light: with the forward peak of its phase function simulated, and with it treated as
+/// unscattered. Measured for water droplets of 12 µm in a layer of optical depth 2.2.
 const BOUNCES: [f64; 2] = [10.0, 4.0];
 
-/// The most that can be asked for.
+/// Maximum number of bounces that can be requested.
 const MAX_BOUNCES: f64 = 1024.0;
 
-/// Refuses layers of weather where there is none; adds the cover to them where something falls.
+/// Refuses weather layers without weather; adds the cover to them if there is precipitation.
 pub(super) fn layers(
     description: &Description,
     cameras: &mut [CameraPlan],
@@ -42,7 +42,7 @@ pub(super) fn layers(
     cameras.iter_mut().for_each(|camera| camera.products.cover = camera.products.weather && falls);
 }
 
-/// Says which cameras lose light in fog, and which setting is passed over.
+/// Reports cameras that lose light in fog, and settings that are ignored.
 pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Context<'_>) {
     if media.is_empty() {
         return;
@@ -57,7 +57,7 @@ pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Con
         }
         let depth = depth_above(camera, media);
         let wanted = BOUNCES[usize::from(!camera.settings.paths.caustics)] * (1.0 + depth);
-        // In a medium without end no number is told: light of its lamps comes from near by.
+        // In an unbounded medium no number is reported: light of its lamps comes from nearby.
         if depth > 0.0 && depth.is_finite() && f64::from(camera.settings.paths.max_bounces) < wanted {
             context.remark_on(about(), format!(
                 "it stands in a medium of optical depth {depth:.1} below the sky; light that is scattered more than max_bounces = {} times is left out, \
@@ -68,7 +68,7 @@ pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Con
     }
 }
 
-/// The optical depth of what scatters, straight up from a camera at its first frame.
+/// Optical depth of scattering media, straight up from a camera at its first frame.
 fn depth_above(camera: &CameraPlan, media: &[Medium]) -> f64 {
     let start_s = camera.timing.frame_start_s(0);
     let interval = TimeInterval::at(start_s).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Flow, disparity and boxes: from what is asked for to what is delivered.
+//! Flow, disparity and boxes: from requested to delivered products.
 
 use super::context::{Context, ErrorCode};
 use crate::plan::{Annotations, CameraPlan, CorrespondenceFormat, DisparityProduct};
@@ -8,10 +8,10 @@ use etendue_scene::record::Output;
 use etendue_scene::record::output::CorrespondenceFormat as FormatRecord;
 use glam::{DVec2, DVec3};
 
-/// How far (px) a point may be seen above or below its row in the other camera of a rectified pair.
+/// Maximum vertical distance (px) of a point from its row in the other camera of a rectified pair.
 const ROW_TOLERANCE_PX: f64 = 1e-3;
 
-/// What a camera delivers, but for disparity, for which all cameras must be known.
+/// Products of a camera, except disparity, for which all cameras must be known.
 pub(super) fn asked(output: &Output) -> Annotations {
     Annotations {
         optical_flow: output.optical_flow.as_ref().map(|key| format(key.value)),
@@ -31,7 +31,7 @@ fn format(record: FormatRecord) -> CorrespondenceFormat {
     }
 }
 
-/// Finds the right cameras of disparities, and refuses what has no other frame or no rectified partner.
+/// Finds the right cameras of disparities, and refuses products without another frame or without a rectified partner.
 pub(super) fn resolve(description: &Description, cameras: &mut [CameraPlan], context: &mut Context<'_>) {
     for place in 0..cameras.len() {
         let Some(setup) = description.cameras.get(cameras[place].index as usize) else { continue };
@@ -107,7 +107,7 @@ fn disparity(
     Some(DisparityProduct { right: right.index, format })
 }
 
-/// Why two views are not rectified at some time: in frame 0 or, of cameras that nothing joins, at their keys and half-way between.
+/// Describes why two views are not rectified at some time: in frame 0 or, for cameras that move independently, at their keys and half-way between.
 fn not_rectified(left: &CameraPlan, right: &CameraPlan) -> Option<String> {
     let mut times_s = left.times_beside_s(right);
     if left.fixed_pair(right).is_some() {
@@ -120,7 +120,7 @@ fn not_rectified(left: &CameraPlan, right: &CameraPlan) -> Option<String> {
     })
 }
 
-/// Why two views are not rectified at a time: points of the left one's pixels, near and far, are not seen on the same rows, or not farther left.
+/// Describes why two views are not rectified at a time: points of the left one's pixels, near and far, are not seen on the same rows, or not farther left.
 fn not_rectified_at(left: &CameraPlan, right: &CameraPlan, time_s: f64) -> Option<String> {
     let (from, to) = (left.path.at(time_s), right.path.at(time_s));
     let base_m = from.point_to_camera(to.position_m);

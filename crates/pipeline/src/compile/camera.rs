@@ -1,4 +1,4 @@
-//! A camera wherever it stands (lens, effects, sensor, processing), and what is refused and remarked of a camera.
+//! A camera without its pose (lens, effects, sensor, processing), with its errors, notes and warnings.
 
 use super::context::{Context, ErrorCode};
 use super::effects::effects;
@@ -12,13 +12,13 @@ use crate::plan::{CameraBody, CameraPlan, PictureFormat};
 use etendue_optics::DepthOfField;
 use etendue_scene::record::{Camera, Output};
 
-/// The camera's models; `None` with the faults noted.
+/// Models of the camera; `None` with the errors recorded.
 pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraBody> {
     let before = context.faults.len();
     let camera = &*scale::scaled(camera, context)?;
     let lens = lens(camera, context);
     let scale = scale::divisor(&camera.sensor);
-    // A lens with faults makes no camera: the sensor is looked at for its own faults.
+    // An invalid lens makes no camera: the sensor is checked for its own errors.
     let exit_pupil_mm = lens.as_ref().map_or(f64::INFINITY, |(lens, _)| lens.exit_pupil_distance_mm());
     let sensor = sensor(&camera.sensor, exit_pupil_mm, context);
     let development = match (&camera.isp, &sensor, &lens) {
@@ -35,14 +35,14 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     (context.faults.len() == before).then_some(body)
 }
 
-/// Light from beyond the picture that the lens does not give.
+/// Warns of light from outside the image that the lens does not transmit.
 pub(super) fn remark_margin(body: &CameraBody, context: &mut Context<'_>) {
     if let (Ok(()), Err(error)) = (body.lens.check(&body.raster), body.lens.check(&body.film())) {
         context.warn(format!("beyond the picture, where the effects take light from, some is missing: {error}"));
     }
 }
 
-/// Blur that is wider than what is kept around the picture.
+/// Warns of blur that is wider than the margin around the image.
 pub(super) fn remark_reach(camera: &str, depth_of_field: &DepthOfField, body: &CameraBody, context: &mut Context<'_>) {
     if let Some([reach, kept]) = body.short_blur_margin_px(depth_of_field) {
         let text = format!(
@@ -53,10 +53,10 @@ pub(super) fn remark_reach(camera: &str, depth_of_field: &DepthOfField, body: &C
     }
 }
 
-/// Rounding from which on it is said, m.
+/// Minimum rounding that is reported, m.
 const NOTICED_M: f64 = 1e-3;
 
-/// Says what the positions of cameras far from the world's origin lose.
+/// Reports the rounding of positions of cameras far from the world's origin.
 pub(super) fn remark_positions(cameras: &[CameraPlan], context: &mut Context<'_>) {
     for camera in cameras.iter().filter(|c| c.products.ground_truth && !c.products.camera_space_position) {
         let farthest = camera.path.at(camera.timing.frame_start_s(0)).position_m.abs().max_element();
@@ -71,7 +71,7 @@ pub(super) fn remark_positions(cameras: &[CameraPlan], context: &mut Context<'_>
     }
 }
 
-/// Refuses a video of pictures that are not written, have other bits or loss, or follow each other at no stated rate.
+/// Refuses a video of images that are not written, have other bits or are lossy, or have no stated frame rate.
 pub(super) fn check_video(output: &Output, camera: &CameraPlan, context: &mut Context<'_>) {
     let Some(key) = &output.video else { return };
     let mut refuse = |lack: String, remedy: &str| {

@@ -1,4 +1,4 @@
-//! Where cameras stand, over time: from records to paths.
+//! Camera poses over time: from records to paths.
 
 use super::context::Context;
 use super::course::{along, through, trajectory};
@@ -10,12 +10,12 @@ use etendue_scene::record::Pose;
 use etendue_scene::record::pose::{PoseKey, camera_axes};
 use glam::{DAffine3, DQuat, DVec3};
 
-/// The path of a camera; `None` where it is faulty.
+/// Path of a camera; `None` if it is invalid.
 pub(super) fn camera_path(pose: &Pose, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<CameraPath> {
     let course = pose.course.as_ref();
     let own = match (trajectory(course), &pose.keys[..]) {
         (Some(file), _) => along(file, course, context)?.after(&DAffine3::from_mat3(camera_axes())),
-        // Poses that were read have been checked.
+        // Poses in a loaded description have been checked.
         (None, []) => still(&pose.to_camera_pose()?),
         (None, [only]) => still(&only.to_camera_pose()?),
         (None, keys) => {
@@ -26,7 +26,7 @@ pub(super) fn camera_path(pose: &Pose, frames: &Frames<'_>, context: &mut Contex
     Some(CameraPath::moving(frames.carrying(pose.frame.as_ref(), own)))
 }
 
-/// The frame that carries a camera, and where it is fixed there.
+/// Frame that carries a camera, and its pose there.
 pub(super) fn mount(pose: &Pose) -> Mount {
     let fixed = match (trajectory(pose.course.as_ref()), &pose.keys[..]) {
         (Some(_), _) => None,

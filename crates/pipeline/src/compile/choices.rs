@@ -1,32 +1,32 @@
-//! What the caller chooses beside the description.
+//! Choices of the caller in addition to the description.
 
 use etendue_core::Quality;
 
-/// What the caller chooses beside the description. Samples and seed are no choices but keys: [`Overrides`] set them, and the
-/// description's own checks see them.
+/// Choices of the caller in addition to the description. Samples and seed are not choices but keys: [`Overrides`] set them, and the description's own checks
+/// apply.
 ///
 /// [`Overrides`]: etendue_scene::Overrides
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Choices {
-    /// A preset for what the description leaves open; `None` is standard.
+    /// Preset for settings that the description leaves open; `None` is standard.
     pub quality: Option<Quality>,
-    /// Whether films are refined pass by pass.
+    /// Refinement of films pass by pass.
     pub refinement: Refinement,
 }
 
-/// Whether and how films are refined pass by pass.
+/// Refinement of films pass by pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Refinement {
-    /// In the passes of the description; without any, in one.
+    /// In the passes of the description; without any, in a single one.
     #[default]
     Described,
     /// In the passes of the description; without any, in those of [`Passes::doubling`](crate::plan::Passes::doubling).
     Progressive,
-    /// In passes that a time decides while it runs: the plan has one, the least, until [`Plan::with_passes`](crate::Plan::with_passes).
+    /// In passes that a given time determines during the run: until [`Plan::with_passes`](crate::Plan::with_passes) the plan has one, the smallest.
     Timed,
 }
 
-/// Samples a pixel of a preset.
+/// Samples per pixel of a preset.
 pub(super) fn spp(quality: Quality) -> u32 {
     match quality {
         Quality::Draft => 16,
@@ -35,7 +35,7 @@ pub(super) fn spp(quality: Quality) -> u32 {
     }
 }
 
-/// Greatest number of scattering events of a preset.
+/// Maximum number of scattering events of a preset.
 pub(super) fn max_bounces(quality: Quality) -> u32 {
     match quality {
         Quality::Draft => 4,

@@ -1,4 +1,4 @@
-//! Codes of the errors of models.
+//! Error codes of the models' errors.
 
 use super::context::ErrorCode;
 use etendue_optics::OpticsError;
@@ -11,7 +11,7 @@ pub(super) trait CodedError: Display {
     fn code(&self) -> ErrorCode;
 }
 
-/// Gives each code to the types of errors behind it.
+/// Assigns each code to the error types that it covers.
 macro_rules! codes {
     ($($Code:ident: $($Error:ty),*;)*) => {
         $($(impl CodedError for $Error {

@@ -1,4 +1,4 @@
-//! What every step of compiling shares: the assets, the faults found so far, and remarks for the plan.
+//! Shared state of all compile steps: the assets, the errors found so far, and notes and warnings for the plan.
 
 use super::coded_error::CodedError;
 use super::coverage::Coverage;
@@ -10,17 +10,17 @@ use etendue_scene::{Fault, Place, Placed, stated};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-/// Assets to resolve names in, faults and remarks collected on the way.
+/// Assets for name resolution, and the errors and notes collected so far.
 #[derive(Debug)]
 pub(super) struct Context<'a> {
     pub(super) assets: &'a Assets,
-    /// The time from which all times are counted.
+    /// Origin of all times.
     pub(super) epoch: Epoch,
     pub(super) faults: Vec<Fault>,
     pub(super) remarks: Vec<Remark>,
-    /// What the command line supersedes.
+    /// Settings overridden by the command line.
     pub(super) notices: Vec<String>,
-    /// Wavelengths of the tables that are used.
+    /// Wavelength ranges of the tables in use.
     pub(super) coverage: Coverage,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Context<'a> {
     /// Returns a time since the epoch, s; warns if a number in the file cannot represent it to a nanosecond.
     pub(super) fn since_epoch_s(&mut self, time: &Placed<ExactTime>) -> f64 {
         let step_s = time.value.step_s();
-        // A fraction of few binary digits is exact as a number.
+        // A fraction of few binary digits is exactly representable.
         let is_exact = (1024.0 * time.value.fraction_s()).fract() == 0.0;
         if time.value.is_number() && !is_exact && step_s > 1e-9 {
             let text = format!(
@@ -45,7 +45,7 @@ impl<'a> Context<'a> {
         self.epoch.to(time.value)
     }
 
-    /// Notes a fault at `place`.
+    /// Records an error at `place`.
     pub(super) fn fault(
         &mut self,
         code: ErrorCode,
@@ -56,8 +56,8 @@ impl<'a> Context<'a> {
         self.faults.push(Fault::new(code, place, problem, remedy));
     }
 
-    /// Notes that `key`, which stands at `place`, has no effect for what stands at `cause`: a fault, but not where the
-    /// command line says the cause and a file the key. What the command line says supersedes what it makes meaningless.
+    /// Records that `key` at `place` has no effect because of the setting at `cause`: an error, unless the command line states the cause and a file the key.
+    /// A command-line setting overrides the keys that it makes meaningless.
     pub(super) fn idle(
         &mut self,
         code: ErrorCode,
@@ -75,41 +75,41 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A notice, once.
+    /// Records a notice, without duplicates.
     pub(super) fn notice(&mut self, text: String) {
         if !self.notices.contains(&text) {
             self.notices.push(text);
         }
     }
 
-    /// The value, or `None` with its error noted as a fault at `place`; the errors of the models say what to do.
+    /// Returns the value, or `None` with its error recorded at `place`; the errors of the models state the remedy.
     pub(super) fn accept<T, E: CodedError>(&mut self, place: &Place, result: Result<T, E>) -> Option<T> {
         result.map_err(|error| self.fault(error.code(), place, error.to_string(), "")).ok()
     }
 
-    /// The faults found, each once: a key of the job is looked at for every camera.
+    /// Returns the recorded errors without duplicates: a key of the job is checked for every camera.
     pub(super) fn into_faults(self) -> Vec<Fault> {
         let mut seen = BTreeSet::new();
         let is_new = |fault: &Fault| seen.insert((fault.place.clone(), fault.problem.clone(), fault.remedy.clone()));
         self.faults.into_iter().filter(is_new).collect()
     }
 
-    /// A remark that the plan prints, equal ones once with their number.
+    /// Records a note for the plan, which prints equal ones once with their number.
     pub(super) fn remark(&mut self, text: impl Into<String>) {
         self.add(None, text.into(), Weight::Note);
     }
 
-    /// A remark on a file, a place or a thing; the plan tells equal ones together.
+    /// Records a note on a file, a place or an object; the plan prints equal ones together.
     pub(super) fn remark_on(&mut self, about: impl Display, text: impl Into<String>) {
         self.add(Some(about.to_string()), text.into(), Weight::Note);
     }
 
-    /// A remark that the picture may not be what was meant, which a rendering repeats.
+    /// Records a warning that the image may differ from the user's intent; a render repeats it.
     pub(super) fn warn(&mut self, text: impl Into<String>) {
         self.add(None, text.into(), Weight::Warning);
     }
 
-    /// [`Context::warn`] on a file, a place or a thing.
+    /// Does the same as [`Context::warn`] for a file, a place or an object.
     pub(super) fn warn_on(&mut self, about: impl Display, text: impl Into<String>) {
         self.add(Some(about.to_string()), text.into(), Weight::Warning);
     }

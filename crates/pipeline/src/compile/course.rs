@@ -1,4 +1,4 @@
-//! Where things are over time: keys and trajectories to motions.
+//! Motion over time: from keys and trajectories to motions.
 
 use super::context::{Context, ErrorCode};
 use etendue_core::track::{Key, RollingError};
@@ -7,7 +7,7 @@ use etendue_scene::Place;
 use etendue_scene::record::motion::{Course, Rolls, Trajectory, TrajectoryAxes};
 use glam::DVec3;
 
-/// Through `keys`, stated at `place`.
+/// Motion through `keys`, stated at `place`.
 pub(super) fn through(
     keys: &[Key],
     course: Option<&Course>,
@@ -19,12 +19,12 @@ pub(super) fn through(
     context.accept(place, Track::new(keys, interpolation)).map(Motion::from)
 }
 
-/// The trajectory of a course.
+/// Trajectory of a course.
 pub(super) fn trajectory(course: Option<&Course>) -> Option<&Trajectory> {
     course?.trajectory.as_ref()
 }
 
-/// Through the rows of a trajectory's file.
+/// Motion through the rows of a trajectory's file.
 pub(super) fn along(trajectory: &Trajectory, course: Option<&Course>, context: &mut Context<'_>) -> Option<Motion> {
     let file = &trajectory.file;
     let Some(asset) = context.assets.trajectories.get(&file.value) else {
@@ -46,7 +46,7 @@ pub(super) fn along(trajectory: &Trajectory, course: Option<&Course>, context: &
     through(&keys, course, &file.place, context)
 }
 
-/// How a wheel turns in the frame of its hub.
+/// Rotation of a wheel in the frame of its hub.
 pub(super) fn turning(hub: &Motion, rolls: &Rolls, context: &mut Context<'_>) -> Option<Motion> {
     match hub.rolling(rolls.radius_m.value) {
         Ok(turns) => Some(turns),
@@ -66,7 +66,7 @@ pub(super) fn turning(hub: &Motion, rolls: &Rolls, context: &mut Context<'_>) ->
     }
 }
 
-/// A hub with the wheel that rolls on it; without one itself.
+/// A hub with the wheel that rolls on it; without a wheel the hub itself.
 pub(super) fn rolling(hub: Motion, rolls: Option<&Rolls>, context: &mut Context<'_>) -> Option<Motion> {
     let Some(rolls) = rolls else { return Some(hub) };
     turning(&hub, rolls, context).map(|turns| hub.carrying(&turns))

@@ -1,39 +1,39 @@
-//! Which wavelengths tables cover, and which of them are rendered.
+//! Wavelength ranges of tables, and their coverage of the rendered range.
 
 use etendue_core::WavelengthRange;
 use etendue_spectra::Outside;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The wavelengths that a table covers.
+/// Wavelength range of a table.
 #[derive(Debug)]
 struct CoveredRange {
     range: WavelengthRange,
-    /// The values beyond them.
+    /// Values beyond the range.
     outside: Outside,
 }
 
-/// The tables over the wavelength that are used, each once.
+/// Tables over wavelength in use, each once.
 #[derive(Debug, Default)]
 pub(super) struct Coverage {
     tables: BTreeMap<PathBuf, CoveredRange>,
 }
 
-/// Tables that are told one by one; more are counted.
+/// Maximum number of tables that are named; more are counted.
 const TOLD: usize = 4;
 
-/// Returns the range around both.
+/// Returns the smallest range that contains both.
 pub(super) fn around(a: WavelengthRange, b: WavelengthRange) -> WavelengthRange {
     WavelengthRange::new(a.low_nm.min(b.low_nm), a.high_nm.max(b.high_nm))
 }
 
 impl Coverage {
-    /// Notes a table.
+    /// Registers a table.
     pub(super) fn add(&mut self, file: &Path, range: WavelengthRange, outside: Outside) {
         self.tables.insert(file.to_path_buf(), CoveredRange { range, outside });
     }
 
-    /// What is to be told of tables that do not cover the wavelengths that are rendered; `None` where all do.
+    /// Note on tables that do not cover the rendered wavelengths; `None` if all do.
     pub(super) fn remark(&self, rendered: WavelengthRange) -> Option<String> {
         let is_short = |range: &WavelengthRange| range.low_nm > rendered.low_nm || range.high_nm < rendered.high_nm;
         let tables: Vec<_> = self.tables.iter().filter(|(_, table)| is_short(&table.range)).collect();

@@ -1,4 +1,4 @@
-//! `[effects]`: from the record to the effects.
+//! `[effects]`: from the record to the optical effects.
 
 use super::context::{Context, ErrorCode};
 use super::picture::grey;
@@ -20,7 +20,7 @@ use std::path::PathBuf;
 const NM_PER_UM: f64 = 1000.0;
 const UM_PER_MM: f64 = 1000.0;
 
-/// The effects behind a picture; none where the record is silent.
+/// Effects on the irradiance of an image; none for an empty record.
 pub(super) fn effects(
     record: Option<&record::Effects>,
     lens: &Lens,
@@ -54,7 +54,7 @@ pub(super) fn effects(
     context.accept(place, effects)
 }
 
-/// Refuses samples that are to be displaced and do not come through the lens.
+/// Refuses displaced samples on a route other than through the lens.
 pub(super) fn check_spread_by(record: Option<&record::Effects>, route: &Route, context: &mut Context<'_>) {
     let asked = record.and_then(|effects| effects.psf.as_ref()).and_then(|psf| psf.spread_by.as_ref());
     if let (Some(asked), Route::Pupil(_)) = (asked, route)
@@ -86,7 +86,7 @@ fn ghosts(
     context.accept(place, GhostSettings::new(reflectance.map_or(0.0, |r| r.value)))
 }
 
-/// The widest film that a camera's effects can ask for.
+/// Largest possible film of a camera's effects.
 pub(super) fn widest_film(record: Option<&record::Effects>, picture: &Raster) -> Raster {
     let Some(record) = record else { return *picture };
     let margin = record.margin.as_ref().map_or(MARGIN_CAP, |m| m.value);
@@ -125,7 +125,7 @@ fn point_spread(
     }
 }
 
-/// A function from a picture; where its distances are at fault, the distance is.
+/// A point spread from an image; errors in its distances are reported at the distance.
 fn image(
     file: &Placed<PathBuf>,
     pitch: &Placed<f64>,
@@ -141,7 +141,7 @@ fn image(
     context.accept(if of_pitch { &pitch.place } else { &file.place }, image)
 }
 
-/// A function from a table of modulation, of a file with what was made of it remarked.
+/// A point spread from a table of modulation, with notes on the conversion of a file.
 fn modulation(
     table: &description::ModulationTable,
     picture: &Raster,
@@ -178,12 +178,12 @@ fn psf(record: &description::Psf, lens: &Lens, picture: &Raster) -> Result<Psf, 
     Psf::new(parameters, lens, picture)
 }
 
-/// Patches across and down.
+/// Number of patches, columns and rows.
 fn counts(patches: &Placed<[Placed<u64>; 2]>) -> [usize; 2] {
     [patches.value[0].value as usize, patches.value[1].value as usize]
 }
 
-/// A term whose index the record holds within the known ones.
+/// A term whose index has been checked by the record.
 fn term(record: &description::ZernikeTerm) -> ZernikeTerm {
     let zernike = match &record.index {
         ZernikeIndex::Noll(index) => Zernike::noll(index.value as u32),

@@ -1,17 +1,15 @@
-//! The hash of a plan: of everything that decides its result. No path, no comment, no number of threads, no size of tiles and no
-//! quality of trees is in it.
+//! Hash of a plan: of everything that determines its result. It excludes paths, comments, the number of threads, the size of tiles and the quality of trees.
 //!
-//! A plan is made of a description, of the contents of the files that it names, of the caller's choices, and by a version of the
-//! program with the data and defaults built into it. These are hashed: the description by the bytes that its records give
-//! ([`Table::feed`]), so that a key that can be read cannot be left out, and what is built in by [`RESULTS_REVISION`], because the
-//! description has only words for it (the name of a metal) or nothing (a default).
+//! A plan is made from a description, the contents of the files that it names, the caller's choices, and a version of the program with its built-in data and
+//! defaults. These are hashed. The description is hashed by the bytes of its records ([`Table::feed`]), so that no key that can be read is omitted. Built-in
+//! data is represented by [`RESULTS_REVISION`], because the description contains only its names (a metal) or nothing (a default).
 //!
-//! The hash is stricter than the result: a default spelt out, an effect of no strength, a material, mesh or texture that
-//! nothing uses, and the quality where every key that it governs is stated make another plan of the same picture. To leave these
-//! out, what has no effect would have to be known here a second time, and a mistake in it would give two pictures one hash.
+//! The hash is stricter than the result. A default stated explicitly, an effect of zero strength, an unused material, mesh or texture, and the quality when
+//! all of its keys are stated give another plan of the same image. To exclude these, this module would have to know a second time which settings have no
+//! effect, and a mistake would give two images one hash.
 //!
-//! Samples that come in passes are the exception: a schedule or a time makes passes that no description says. There the
-//! passes and the replicates are hashed, and the keys that decide samples are not: the same passes have one hash however they came about.
+//! Samples in passes are the exception: a schedule or a time makes passes that no description states. The passes and the replicates are then hashed instead
+//! of the keys that determine samples: equal passes have one hash whatever their origin.
 
 use super::choices::Choices;
 use crate::plan::CameraPasses;
@@ -23,19 +21,18 @@ use etendue_scene::written::Table;
 use etendue_scene::{CameraSetup, Description};
 use sha2::{Digest, Sha256};
 
-/// Raised whenever the same description gives other bits: with every blessing of golden images and every change of built-in data
-/// or of a default.
+/// Increased whenever the same description gives other bits: with every update of golden images and every change of built-in data or of a default.
 const RESULTS_REVISION: u32 = 10;
 
-/// SHA-256 of all that decides the plan's result, the program's version and revision included. Every file that the description
-/// uses is among the assets.
+/// SHA-256 of everything that determines the plan's result, including the program's version and revision. Every file that the description uses is among the
+/// assets.
 pub(super) fn fingerprint(
     description: &Description,
     assets: &Assets,
     choices: &Choices,
     passes: &[CameraPasses],
 ) -> [u8; 32] {
-    // How films are refined is in their passes.
+    // The refinement of films is represented by their passes.
     let Choices { quality, refinement: _ } = choices;
     let in_passes = |place: usize| passes.get(place).is_some_and(|camera| camera.passes.is_some());
     let cameras: Vec<_> =
@@ -55,7 +52,7 @@ pub(super) fn fingerprint(
     hash.finalize().into()
 }
 
-/// The size of a tile and the trees do not change the result, nor what stands in the place of passes.
+/// The size of a tile and the trees do not change the result, nor do the keys that passes replace.
 fn camera(setup: &CameraSetup, in_passes: bool) -> Table {
     let mut render = Render { tile_px: None, accelerator: None, ..setup.render.clone() };
     if in_passes {
@@ -76,7 +73,7 @@ mod tests {
                        lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 2 }\n\
                        sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6 }\n[render]\nspp = 4\n";
 
-    /// Of a job in a folder whose paint has this content.
+    /// Hash of a job in a folder with a paint file of this content.
     fn of(folder: &str, job: &str, sets: &[&str], paint: u8, quality: Option<Quality>) -> [u8; 32] {
         let read = |_: &Path| Ok(job.to_owned());
         let file = Path::new(folder).join("job.toml");

@@ -1,4 +1,4 @@
-//! The frames of a scene: from records to motions.
+//! Frames of a scene: from records to motions.
 
 use super::context::Context;
 use super::course::{along, through, trajectory, turning};
@@ -11,28 +11,28 @@ use glam::DVec3;
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The frames that are used, by name.
+/// Frames in use, by name.
 #[derive(Debug, Default)]
 pub(super) struct Frames<'a>(BTreeMap<&'a str, PlacedFrame<'a>>);
 
-/// A frame in its parent. The way to the world is made of these where it is asked for: what carries others alone holds no copy of all that carries it.
+/// A frame in its parent. The transform to the world is composed on request: a frame that only carries others stores no copy of its chain.
 #[derive(Debug)]
 struct PlacedFrame<'a> {
     parent: Option<&'a str>,
-    /// The motion in the parent, and in that the turning of a wheel.
+    /// Motion in the parent, followed by the rotation of a wheel, if any.
     own: Vec<Motion>,
     /// To the world.
     to_world: OnceCell<Motion>,
 }
 
 impl<'a> Frames<'a> {
-    /// Those of a scene.
+    /// Frames of a scene.
     pub(super) fn of(scene: &'a Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
         let by_name: BTreeMap<&str, &Frame> =
             scene.frames.iter().map(|frame| (frame.name.value.as_str(), frame)).collect();
         let (mut frames, mut tried) = (Self::default(), BTreeSet::new());
         for frame in scene.frames.iter().filter(|frame| !unused.frames.contains(&frame.name.value)) {
-            // Parents first; what carries itself was refused where it was read.
+            // Parents first; cycles were refused when the scene was read.
             let mut chain = Vec::new();
             let mut next = Some(frame);
             while let Some(frame) = next.filter(|frame| tried.insert(frame.name.value.as_str())) {
@@ -44,7 +44,7 @@ impl<'a> Frames<'a> {
         frames
     }
 
-    /// What moves by `own` in a frame; in the world where none is named.
+    /// World motion of an object that moves by `own` in a frame; in the world if none is named.
     pub(super) fn carrying(&self, frame: Option<&Placed<String>>, own: Motion) -> Motion {
         match frame.and_then(|name| self.to_world(name.value.as_str())) {
             Some(frame) => frame.carrying(&own),
@@ -52,13 +52,13 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// `None` of a frame that is not here: it has faults of its own.
+    /// `None` for an unknown frame, which has its own errors.
     fn to_world(&self, frame: &str) -> Option<&Motion> {
         let found = self.0.get(frame)?;
         Some(found.to_world.get_or_init(|| Motion::nested(self.chain(frame))))
     }
 
-    /// The motions from the world to a frame.
+    /// Motions from the world to a frame.
     fn chain(&self, frame: &str) -> Vec<&Motion> {
         let (mut chain, mut next) = (Vec::new(), self.0.get(frame));
         while let Some(found) = next {
@@ -84,7 +84,7 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// In its parent.
+/// Motion in the parent.
 fn own_motion(frame: &Frame, context: &mut Context<'_>) -> Option<Motion> {
     let course = frame.course.as_ref();
     match (trajectory(course), &frame.keys[..]) {

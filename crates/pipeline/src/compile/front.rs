@@ -1,4 +1,4 @@
-//! `[front]`: what stands in front of the lens.
+//! `[front]`: elements before the lens.
 
 use super::context::{Context, ErrorCode};
 use super::lens::coating;
@@ -21,7 +21,7 @@ use etendue_scene::record::{Colour, Curve as CurveRecord, front as record};
 use etendue_spectra::{Outside, dielectric};
 use glam::{DVec2, DVec3};
 
-/// The front of a camera, checked against what the camera sees; `None` with the faults noted.
+/// Front of a camera, checked against the camera's field; `None` with the errors recorded.
 pub(super) fn front(record: &record::Front, lens: &Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Front> {
     let dirt = match &record.dirt {
         Some(record) => Some(self::dirt(record, context)?),
@@ -56,7 +56,7 @@ fn dirt(r: &record::dirt::Dirt, context: &mut Context<'_>) -> Option<Dirt> {
 fn mirror(r: &record::mirror::Mirror, context: &mut Context<'_>) -> Option<Mirror> {
     let reflectance = reflectance(&r.finish, context);
     let (shape, usual_mm) = shape(&r.shape, context)?;
-    // A mirror that was read has a distance, or is a hyperboloid.
+    // A mirror in a loaded description has a distance, or is a hyperboloid.
     let distance_mm = r.distance_mm.as_ref().map(|d| d.value).or(usual_mm)?;
     let [x, y] = r.offset_mm.as_ref().map_or([0.0; 2], |o| o.value);
     let degrees = r.rotation_deg.as_ref().map_or([0.0; 3], |d| d.value);
@@ -64,7 +64,7 @@ fn mirror(r: &record::mirror::Mirror, context: &mut Context<'_>) -> Option<Mirro
     context.accept(&r.place, Mirror::new(MirrorParameters { shape, placement, reflectance: reflectance? }))
 }
 
-/// The surface, and where its vertex stands if it is not said.
+/// Surface, and the position of its vertex unless stated.
 fn shape(r: &Shape, context: &mut Context<'_>) -> Option<(MirrorShape, Option<f64>)> {
     let (place, made) = match r {
         Shape::Sphere(s) => (&s.place, conic(s.radius_mm.value, 0.0, &s.edges)),
@@ -105,9 +105,8 @@ fn reflectance(finish: &Finish, context: &mut Context<'_>) -> Option<Reflectance
     }
 }
 
-/// Laminated glass as cars have it: 2.1 mm of float glass each side of an interlayer of 0.76 mm. Indices at 588 nm: soda-lime
-/// glass 1.52 (M. Rubin, "Optical properties of soda lime silica glasses", Solar Energy Materials 12, 1985), polyvinyl
-/// butyral 1.48 (makers' data sheets by ASTM D542).
+/// Laminated glass of cars: 2.1 mm of float glass on each side of an interlayer of 0.76 mm. Indices at 588 nm: soda-lime glass 1.52 (M. Rubin, "Optical
+/// properties of soda lime silica glasses", Solar Energy Materials 12, 1985), polyvinyl butyral 1.48 (manufacturers' data sheets by ASTM D542).
 const LAMINATE: [(f64, f64); 3] = [(2.1, 1.52), (0.76, 1.48), (2.1, 1.52)];
 
 fn windscreen(r: &record::windscreen::Windscreen, context: &mut Context<'_>) -> Option<Windscreen> {
@@ -153,14 +152,14 @@ fn layers(records: Option<&[record::windscreen::Layer]>, context: &mut Context<'
     records.iter().map(layer).collect()
 }
 
-/// `None` with a fault noted, `Some(None)` for clear glass.
+/// `None` with an error recorded, `Some(None)` for clear glass.
 fn tint(r: &record::windscreen::Windscreen, context: &mut Context<'_>) -> Option<Option<Tint>> {
     let Some(colour) = &r.internal_transmittance else { return Some(None) };
     let thickness_mm = r.reference_thickness_mm.as_ref().map(|t| t.value);
     Some(Some(Tint { transmittance: curve(colour, context)?, thickness_mm }))
 }
 
-/// Of drops that condense and join: see the record.
+/// For drops that condense and coalesce: see the record.
 const SIZE_EXPONENT: f64 = 8.0 / 3.0;
 const CONTACT_ANGLE_DEG: f64 = 60.0;
 
@@ -203,7 +202,7 @@ fn course(r: &record::drops::Drops, context: &mut Context<'_>) -> Course {
     }
 }
 
-/// Of the drops that fell: the record has checked that they are 1 to 1 000 000.
+/// Number of fallen drops: the record has checked the range 1 to 1 000 000.
 fn count(r: &record::drops::Drops) -> u32 {
     match &r.amount {
         DropAmount::Count(count) => count.value as u32,
@@ -222,7 +221,7 @@ fn water(disperses: bool) -> Curve {
     }
 }
 
-/// A share of light over the wavelength.
+/// A transmittance over wavelength.
 fn curve(colour: &Colour, context: &mut Context<'_>) -> Option<Curve> {
     match colour {
         Colour::Grey(share) => Some(Curve::Constant(share.value)),

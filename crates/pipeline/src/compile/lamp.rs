@@ -23,20 +23,20 @@ use etendue_tracer::lights::{Cone, Lamp, MaskImage, PhotometricAxes, Photometric
 use glam::DMat3;
 use std::sync::Arc;
 
-/// A lamp everywhere where it stands.
+/// A lamp with all its instances.
 pub(super) enum Lamps {
     /// As points.
     Points(Vec<Lamp>),
-    /// With an opening that is to be placed in the world.
+    /// With an opening that is still to be placed in the world.
     Open(OpenLamp),
 }
 
-/// What lamps of a kind have in common, but for their intensity.
+/// Properties that the lamps of a kind share, except their intensity.
 struct Kind<'a> {
     name: &'a str,
     placement: &'a LampPlacement,
     main: MainAxis,
-    /// How they are turned in their own frame.
+    /// Rotation in their own frame.
     turn: DMat3,
     opening: Option<&'a LampOpening>,
     modulation: Option<&'a Modulation>,
@@ -44,7 +44,7 @@ struct Kind<'a> {
     place: &'a Place,
 }
 
-/// The lamps of a light that is one; `None` where it is faulty, or a sun.
+/// Lamps of a light; `None` if it is invalid, or a sun.
 pub(super) fn lamps(light: &Light, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
     match light {
         Light::Sun(_) => None,
@@ -155,7 +155,7 @@ fn head_lamp(lamp: &HeadLamp, frames: &Frames<'_>, context: &mut Context<'_>) ->
     placed(&kind, intensity, profile, frames, context)
 }
 
-/// A profile behind its mask.
+/// A profile with its mask.
 fn masked(profile: Profile, mask: Option<&Mask>, context: &mut Context<'_>) -> Option<Profile> {
     let Some(mask) = mask else { return Some(profile) };
     let Some(picture) = context.assets.images.get(&mask.file.value) else {
@@ -178,7 +178,7 @@ fn masked(profile: Profile, mask: Option<&Mask>, context: &mut Context<'_>) -> O
 /// Luminance of a linear colour, 1 for white.
 fn luminance([r, g, b]: [f32; 3]) -> f32 {
     let [wr, wg, wb] = colour::XYZ_FROM_SRGB[1].map(|w| w as f32);
-    // Greys stay what they are.
+    // Greys remain unchanged.
     if r == g && g == b { r } else { wr * r + wg * g + wb * b }
 }
 
@@ -197,7 +197,7 @@ fn intensity(
     }
 }
 
-/// Spectral intensity a candela of the profile, scaled as asked.
+/// Spectral intensity per candela of the profile, scaled as requested.
 fn of_candela(
     strength: Option<&MeasuredStrength>,
     colour: &LightColour,
@@ -222,7 +222,7 @@ fn of_candela(
     bright(&relative, factor, colour.place(), context)
 }
 
-/// A lamp everywhere where it stands.
+/// A lamp with all its instances.
 fn placed(
     kind: &Kind<'_>,
     intensity: Spectrum,
@@ -258,7 +258,7 @@ fn placed(
     })
 }
 
-/// How much later the lamp's place of a number goes up and down than its record says, s.
+/// Additional delay of the modulation of the lamp's instance `number` relative to its record, s.
 fn delay_s(kind: &Kind<'_>, record: &Modulation, waveform: &Waveform, number: usize) -> f64 {
     let instance = kind.placement.instances.get(number);
     let own_s = instance.and_then(|instance| instance.modulation_delay_s.as_ref()).map_or(0.0, |delay| delay.value);
@@ -267,7 +267,7 @@ fn delay_s(kind: &Kind<'_>, record: &Modulation, waveform: &Waveform, number: us
     own_s + if random { modulation::random_delay_s(waveform, &name()) } else { 0.0 }
 }
 
-/// The names of a lamp's places: those given, or the lamp's with a number where there are many.
+/// Names of a lamp's instances: the stated ones, or the lamp's with a number if there are several.
 fn names(kind: &Kind<'_>) -> Vec<String> {
     match &kind.placement.instances[..] {
         [] => vec![kind.name.to_owned()],

@@ -1,4 +1,4 @@
-//! Where lamps stand and point, over time: from records to motions.
+//! Positions and aims of lamps over time: from records to motions.
 
 use super::context::Context;
 use super::course::{along, through, trajectory};
@@ -10,8 +10,8 @@ use etendue_scene::record::light::placement::MainAxis;
 use etendue_scene::record::light::{LampAim, LampInstance, LampKey, LampPlacement};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// Every place of a lamp of this main axis that is turned by `turn` in its own frame: from the lamp's frame to the world. `None`
-/// where one is faulty.
+/// Motions of all instances of a lamp with this main axis that is rotated by `turn` in its own frame: from the lamp's frame to the world. `None` if one is
+/// invalid.
 pub(super) fn lamp_motions(
     placement: &LampPlacement,
     main: MainAxis,
@@ -21,7 +21,7 @@ pub(super) fn lamp_motions(
 ) -> Option<Vec<Motion>> {
     let course = placement.course.as_ref();
     let frame = placement.frame.as_ref();
-    // Aims that were read have been checked.
+    // Aims in a loaded description have been checked.
     let still = |position: &Placed<[f64; 3]>, aim: Option<&LampAim>| {
         let axes = axes(aim, position, main)? * turn;
         Some(Motion::still(DAffine3::from_mat3_translation(axes, DVec3::from_array(position.value))))

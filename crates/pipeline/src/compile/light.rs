@@ -13,8 +13,7 @@ use etendue_scene::record::{self, Light, Scene, SunLevel};
 use etendue_spectra::Spectrum;
 use etendue_tracer::lights::{BRIGHTEST, Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
 
-/// What shines but is no surface that glows, the lamps whose openings are yet to be placed in the world, and what the plan says of
-/// a sky.
+/// Light sources other than emissive surfaces, lamps with openings that are still to be placed in the world, and the plan's facts of a sky.
 pub(super) fn sources(
     scene: &Scene,
     frames: &Frames<'_>,
@@ -68,7 +67,7 @@ fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {
     Some(if darkens { sun.with_limb() } else { sun })
 }
 
-/// Surroundings of one radiance, as bright as can be traced at most.
+/// Radiance of uniform surroundings; reports an error if it is brighter than can be traced.
 fn uniform(emission: &record::Emission, context: &mut Context<'_>) -> Option<Spectrum> {
     let radiance = emitted(emission, context)?;
     let brightest = radiance.max_value();
@@ -98,7 +97,7 @@ fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEn
     context.accept(&record.file.place, ImageEnvironment::new(width, height, texels, scale, rotation_rad))
 }
 
-/// Texels without negative components. Where there are any, the record must ask for it, and they are counted.
+/// Texels without negative components. If there are any, the record must permit it; they are counted.
 fn light_only(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mut Context<'_>) -> Vec<[f32; 3]> {
     let negative = texels.iter().filter(|t| t.iter().any(|v| *v < 0.0)).count();
     let file = record.file.value.display();

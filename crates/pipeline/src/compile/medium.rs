@@ -1,4 +1,4 @@
-//! Media: from records to the tracer's.
+//! Participating media: from records to the tracer's.
 
 use super::context::{Context, ErrorCode};
 use super::frames::Frames;
@@ -11,10 +11,10 @@ use etendue_tracer::media::{Medium, Noise, Phase, Shape, Solid, SpectralTable, U
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Median diameter of droplets where nothing is said, µm.
+/// Default median diameter of droplets, µm.
 const DROPLETS_UM: f64 = 12.0;
 
-/// The media of a scene.
+/// Media of a scene.
 pub(super) fn media(scene: &Scene, frames: &Frames<'_>, context: &mut Context<'_>) -> Vec<Medium> {
     remark_darkness(scene, context);
     scene.media.iter().filter_map(|record| medium(record, frames, context)).collect()
@@ -71,7 +71,7 @@ pub(super) fn shape(record: Option<&MediumShape>, context: &mut Context<'_>) -> 
     })
 }
 
-/// The inside of a file's triangles.
+/// Interior of a file's triangles.
 fn solid(record: &MediumMesh, context: &mut Context<'_>) -> Option<Solid> {
     let Some(asset) = context.assets.meshes.get(&record.file.value) else {
         context.fault(ErrorCode::UnreadableFile, &record.file.place, "the mesh was not loaded", "give a readable file");
@@ -118,7 +118,7 @@ fn unevenness(record: &medium::Unevenness) -> Unevenness {
     Unevenness { noise, amplitude: record.amplitude.value, wind_mps }
 }
 
-/// Says that nothing comes from infinity through a medium without end.
+/// Notes that no light from infinity passes an unbounded medium.
 fn remark_darkness(scene: &Scene, context: &mut Context<'_>) {
     let endless = scene.media.iter().find(|medium| matches!(medium.shape, None | Some(MediumShape::Everywhere(_))));
     let shines = scene.environment.is_some() || scene.lights.iter().any(|light| matches!(light, Light::Sun(_)));

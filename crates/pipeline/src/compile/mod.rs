@@ -1,7 +1,6 @@
-//! From a description and its assets to a plan.
+//! Compiles a description and its assets to a plan.
 //!
-//! Names are resolved, models are made, contradictions are collected, all of them, with their places. After this
-//! nothing fails because of what the user wrote.
+//! Names are resolved, models are built, and all contradictions are collected with their places. After this no error in the user's input remains.
 
 mod air;
 mod annotations;
@@ -74,7 +73,7 @@ use material::MaterialTableBuilder;
 use std::sync::Arc;
 pub use weather::compile_weather;
 
-/// The plan of a description.
+/// Plan of a description.
 ///
 /// # Errors
 /// All contradictions, with their places.
@@ -85,7 +84,7 @@ pub fn compile(description: &Description, assets: &Assets, choices: &Choices) ->
     plan.filter(|_| faults.is_empty()).ok_or(faults)
 }
 
-/// A camera by itself, for a stored radiance image.
+/// A single camera, for a stored radiance image.
 ///
 /// # Errors
 /// All contradictions, with their places.
@@ -93,7 +92,7 @@ pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Ve
     compile_camera_with_remarks(camera, assets).map(|(body, _)| body)
 }
 
-/// The same, with what a plan would remark of the camera.
+/// Compiles a single camera, with the notes and warnings that a plan would have for it.
 ///
 /// # Errors
 /// As [`compile_camera`].
@@ -171,13 +170,13 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     })
 }
 
-/// How the samples of a camera come.
+/// Passes of a camera's samples.
 fn camera_passes(setup: &CameraSetup, camera: &CameraPlan) -> CameraPasses {
     let is_open = setup.render.samples.replicates.as_ref().is_none_or(|given| !given.place.is_command_line());
     CameraPasses { replicates: camera.settings.replicates, is_open, passes: camera.passes.clone() }
 }
 
-/// Refuses files that are named and were not read, also those that no step asked for: two contents would have one hash.
+/// Refuses files that are named but were not read, even if no step requested them: two contents would have one hash.
 fn unread(description: &Description, context: &mut Context<'_>) {
     for request in context.assets.missing(&description.assets()) {
         let problem = format!("the file {} was not read", request.path.display());
@@ -185,7 +184,7 @@ fn unread(description: &Description, context: &mut Context<'_>) {
     }
 }
 
-/// From the first key of all that moves to the last; a single moment where nothing does.
+/// Interval from the first key of all motions to the last; an instant if nothing moves.
 fn whole_motion(world: &World, camera: &CameraPath) -> TimeInterval {
     let moving = world.instances().iter().filter_map(|instance| instance.to_world.moves_during());
     let animations = world.meshes().iter().filter_map(Mesh::animation).map(VertexAnimation::moves_during);

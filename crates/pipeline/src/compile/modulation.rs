@@ -1,4 +1,4 @@
-//! Strengths that change over time: from records to waveforms.
+//! Time-dependent strengths: from records to waveforms.
 
 use super::context::{Context, ErrorCode};
 use etendue_core::random::number_of_name;
@@ -6,7 +6,7 @@ use etendue_core::{ExactTime, Waveform};
 use etendue_scene::record::light::Modulation;
 use etendue_scene::record::light::modulation::Phases;
 
-/// A record's waveform with its own delay; `None` where it is faulty.
+/// Waveform of a record with its own delay; `None` if it is invalid.
 pub(super) fn waveform(record: &Modulation, context: &mut Context<'_>) -> Option<Waveform> {
     let rows = match record.file() {
         None => Vec::new(),
@@ -34,12 +34,12 @@ pub(super) fn waveform(record: &Modulation, context: &mut Context<'_>) -> Option
     Some(waveform.later_by(delay - context.epoch.start()))
 }
 
-/// Whether every place of the light has a phase of its own.
+/// Returns true if every instance of the light has its own phase.
 pub(super) fn has_random_phases(record: &Modulation) -> bool {
     matches!(record.timing().phases.as_ref().map(|word| word.value), Some(Phases::Random))
 }
 
-/// A random part of a waveform's period, s, for the place of this name.
+/// A random fraction of a waveform's period, s, for the instance of this name.
 pub(super) fn random_delay_s(waveform: &Waveform, name: &str) -> f64 {
     waveform.period_s().map_or(0.0, |period_s| period_s * number_of_name(name))
 }

@@ -1,4 +1,4 @@
-//! What moves, compiled: places against closed forms, files against keys, and what is refused only here.
+//! Compiled motion: positions compared with closed forms, files with keys, and errors that only compilation finds.
 
 use super::{Choices, compile};
 use crate::Plan;
@@ -19,11 +19,11 @@ sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6.0 }
 "#;
 const STILL: &str = "position_m = [0, 0, 1]\nlook_at_m = [10, 0, 1]\n";
 const PAINT: &str = "[[scene.materials]]\nname = \"paint\"\ntype = \"diffuse\"\nreflectance = 0.5\n";
-/// At 15 m/s straight ahead, then standing.
+/// At 15 m/s straight ahead, then stationary.
 const CAR: &str =
     "[[scene.frames]]\nname = \"car\"\nkeys = [{ time_s = 0 }, { time_s = 2, position_m = [30, 0, 0] }]\n";
 
-/// The plan of a job with a trajectory "drive.csv", or its faults, one a line.
+/// Plan of a job with a trajectory "drive.csv", or its errors, one per line.
 fn plan(camera: &str, scene: &str, rows: &[TrajectoryRow]) -> Result<Plan, String> {
     let text = format!("{HEAD}{camera}{PAINT}{scene}");
     let read = |_: &Path| Ok(text.clone());
@@ -58,7 +58,7 @@ const KEYS: &str = "keys = [{ time_s = 0, position_m = [0, 0, 0.25], rotation_de
                     { time_s = 1, position_m = [4, 2, 0.25], rotation_deg = [20, 5, -3] }, \
                     { time_s = 3, position_m = [9, 4.5, 0.25], rotation_deg = [60, 5, -3] }]";
 
-/// A point of the tread: the hub goes on at 15 m/s, the wheel turns by that way over its radius, within its scale.
+/// A point of the tread: the hub moves at 15 m/s, the wheel rotates by its distance over its radius, within its scale.
 #[test]
 fn a_wheel_on_a_car_rolls() {
     let r = 0.3;
@@ -96,7 +96,7 @@ fn a_trajectory_is_its_keys() {
     assert!((linear - DVec3::new(2.0, 1.0, 0.25)).length() < 1e-15 && (smooth - linear).length() > 0.01);
 }
 
-/// Frames in frames, instances in frames of their own, and what stands still in what stands still, bit for bit.
+/// Frames in frames, instances in their own frames, and stationary objects in stationary frames, bit for bit.
 #[test]
 fn frames_carry_what_is_placed_in_them() {
     let scene = format!(
@@ -114,7 +114,7 @@ fn frames_carry_what_is_placed_in_them() {
     assert_eq!(room.cameras[0].time, crate::plan::TimeDependence::None);
 }
 
-/// A low beam on a car and its camera: both go along; a lamp with keys turns between its aims.
+/// A low beam on a car and its camera: both move with it; a lamp with keys rotates between its aims.
 #[test]
 fn lamps_and_cameras_move() {
     let lamp = "[[scene.lights]]\nname = \"lamp\"\ntype = \"spot\"\nfield_angle_deg = 60\nintensity_cd = 100\nilluminant = \"LED-B3\"\n";
@@ -135,7 +135,7 @@ fn lamps_and_cameras_move() {
     let (sin, cos) = sin_cos(0.5 * FRAC_PI_2);
     assert!((half - DVec3::new(cos, sin, 0.0)).length() < 1e-15, "{half}");
     assert_eq!(turning.cameras[0].time, crate::plan::TimeDependence::Motion, "a lamp that moves changes the light");
-    // A camera that turns about its place, by keys and by a file of a body that looks along +x.
+    // A camera that rotates in place, by keys and by a file of a body that looks along +x.
     let keys = "keys = [{ time_s = 0, position_m = [0, 0, 1], look_at_m = [1, 0, 1] }, \
                 { time_s = 1, position_m = [2, 0, 1], look_at_m = [2, 1, 1] }]\n";
     let driven = "trajectory = { file = \"drive.csv\" }\n";
@@ -152,7 +152,7 @@ fn lamps_and_cameras_move() {
     }
 }
 
-/// The last example of docs/motion.md: the wheels turn by the way that the car goes, the camera and the lamps go along.
+/// The last example of docs/motion.md: the wheels rotate by the distance that the car travels, the camera and the lamps move with it.
 #[test]
 fn the_example_of_the_page_moves() {
     let page = include_str!("../../../../docs/motion.md");
@@ -167,7 +167,7 @@ fn the_example_of_the_page_moves() {
     assert!(plan.sources.lamps.iter().all(|lamp| (moved(lamp.to_world()).x - 12.0).abs() < 0.3));
     let [front, roadside] = [0, 1].map(|i| &plan.cameras[i].path);
     assert!(!front.is_still() && roadside.is_still());
-    // Each wheel's way by small steps along the body's x axis, of an error of h²/24 of the second derivative: below 1e-5 m.
+    // Each wheel's distance in small steps along the body's x axis, with an error of h²/24 of the second derivative: below 1e-5 m.
     for wheel in &instances[1..5] {
         let step = |i: u32| {
             let [from, middle, to] = [0.0, 0.5, 1.0].map(|part| 0.001 * (f64::from(i) + part));
@@ -209,7 +209,7 @@ fn what_cannot_move_is_refused() {
     );
 }
 
-/// A world's unit must do wherever the camera goes.
+/// A world's unit must suffice along the camera's whole path.
 #[test]
 fn reach_is_checked_along_the_whole_way() {
     let keys = |x: f64| {

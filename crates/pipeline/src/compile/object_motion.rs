@@ -1,4 +1,4 @@
-//! Where objects stand, over time: from records to motions.
+//! Poses of objects over time: from records to motions.
 
 use super::context::Context;
 use super::course::{along, rolling, through, trajectory};
@@ -11,10 +11,10 @@ use etendue_scene::record::transform::Transform;
 use etendue_scene::record::{Instance, Object};
 use glam::DAffine3;
 
-/// From an object's frame to the world, with the name that the place has.
+/// Motion from an object's frame to the world, with the name of the instance.
 type Placement<'o> = (Motion, Option<&'o Placed<String>>);
 
-/// Every place of an object; `None` where one is faulty.
+/// Motions of all instances of an object; `None` if one is invalid.
 pub(super) fn placements<'o>(
     object: &'o Object,
     frames: &Frames<'_>,
@@ -54,7 +54,7 @@ pub(super) fn placements<'o>(
     Some(vec![(motion?, None)])
 }
 
-/// What does not move in its frame. A wheel turns within its scale.
+/// Motion of an object that is static in its frame. A wheel rotates within its scale.
 fn still(transform: &Transform, object: &Object, moved: impl FnOnce(Motion) -> Option<Motion>) -> Option<Motion> {
     if object.rolls.is_none() {
         return moved(Motion::still(transform.to_world()));

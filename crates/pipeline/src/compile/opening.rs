@@ -1,4 +1,4 @@
-//! Luminous openings of lamps: from records to the tracer's, and into the world.
+//! Luminous openings of lamps: from records to the tracer's, and their placement in the world.
 
 use super::context::{Context, ErrorCode};
 use super::material::MaterialTableBuilder;
@@ -12,7 +12,7 @@ use etendue_tracer::geometry::{Instance, Shape};
 use etendue_tracer::lights::{Lamp, Opening, OpeningBody, Profile};
 use glam::DMat3;
 
-/// The opening of a lamp that shines along its `main` axis as `profile` says; `None` where it is faulty.
+/// Opening of a lamp that emits along its `main` axis according to `profile`; `None` if it is invalid.
 pub(super) fn opening(
     record: &LampOpening,
     main: MainAxis,
@@ -22,7 +22,7 @@ pub(super) fn opening(
 ) -> Option<Opening> {
     let (body, extents_m) = match (record, file) {
         (LampOpening::File(record), Some(asset)) => of_file(asset, &record.place, context)?,
-        // Refused where the record was read.
+        // Refused when the record was read.
         (LampOpening::File(_), None) => return None,
         (LampOpening::Sphere(sphere), _) => (OpeningBody::Ellipsoid, [2.0 * sphere.radius_m.value; 3]),
         (LampOpening::Tube(tube), _) => {
@@ -49,8 +49,8 @@ pub(super) fn opening(
     Some(made)
 }
 
-/// The opening that a photometric file states. Length, width and height are along the photometric horizontal, across it and along
-/// the photometric zero (LM-63-2002, section 3): x, y and z of types A and C, z, y and x of type B.
+/// Opening stated by a photometric file. Length, width and height are along the photometric horizontal, across it and along the photometric zero (LM-63-2002,
+/// section 3): x, y and z of types A and C, z, y and x of type B.
 fn of_file(asset: &PhotometryAsset, place: &Place, context: &mut Context<'_>) -> Option<(OpeningBody, [f64; 3])> {
     let stated = &asset.opening;
     let (length, height) = match asset.axes {
@@ -78,7 +78,7 @@ fn of_file(asset: &PhotometryAsset, place: &Place, context: &mut Context<'_>) ->
     Some((body, extents_m))
 }
 
-/// Places the openings in the world, each with an identity of its own, and gives their lamps.
+/// Places the openings in the world, each with its own identity, and returns their lamps.
 pub(super) fn placed(
     open_lamps: Vec<OpenLamp>,
     builder: &mut WorldBuilder,
@@ -108,9 +108,9 @@ pub(super) fn placed(
     lamps
 }
 
-/// A lamp with an opening, everywhere where it stands.
+/// A lamp with an opening, with all its instances.
 pub(super) struct OpenLamp {
-    /// By the names of its places.
+    /// By the names of its instances.
     pub(super) alike: Vec<(String, Lamp)>,
     pub(super) opening: Opening,
     pub(super) place: Place,

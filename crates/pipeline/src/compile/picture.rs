@@ -1,4 +1,4 @@
-//! Pictures of a file as numbers: grey as they stand in the file, and linear colours.
+//! Images of a file as numbers: grey values as in the file, and linear colours.
 
 use super::context::{Context, ErrorCode};
 use etendue_scene::Placed;
@@ -6,8 +6,7 @@ use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_spectra::colour;
 use std::path::PathBuf;
 
-/// Width and numbers, row by row, of a picture: bytes and words over their largest, floating-point numbers as they are; the
-/// mean of the channels.
+/// Width and numbers, row by row, of an image: bytes and words over their maximum, floating-point numbers unchanged; the mean of the channels.
 pub(super) fn grey(file: &Placed<PathBuf>, context: &mut Context<'_>) -> Option<(usize, Vec<f32>)> {
     let Some(image) = context.assets.images.get(&file.value) else {
         let problem = format!("the picture {} was not loaded", file.value.display());
@@ -30,7 +29,7 @@ fn numbers(image: &ImageAsset) -> Vec<f32> {
     }
 }
 
-/// Linear sRGB of a picture; bytes are taken as sRGB-encoded.
+/// Linear sRGB of an image; bytes are interpreted as sRGB-encoded.
 pub(super) fn linear(picture: &ImageAsset) -> Vec<[f32; 3]> {
     let colour = |p: [f32; 3]| picture.to_rec_709.map_or(p, |matrix| matrix.apply(p));
     match &picture.pixels {

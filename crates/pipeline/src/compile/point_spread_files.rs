@@ -1,7 +1,7 @@
-//! Points' light at places of the field, from files: a table by distance from the axis and by wavelength.
+//! Point spread functions at field positions, from files: a table by distance from the axis and by wavelength.
 //!
-//! x and y of a file are those of its lens program, of the physical image seen against the light: y upwards. The samples' own axes have y
-//! downwards ([`etendue_optics::effects::spread_table`]).
+//! x and y of a file are those of its lens program, of the physical image seen against the light: y upwards. The samples' own axes have y downwards
+//! ([`etendue_optics::effects::spread_table`]).
 
 use super::context::{Context, ErrorCode};
 use etendue_core::maths::f64::{sin_cos, tan};
@@ -13,19 +13,19 @@ use etendue_scene::asset::{FieldPoint, PointSpreadAsset};
 use glam::{DVec2, DVec3};
 use std::path::PathBuf;
 
-/// From which share of a point's light on it is said that it is not kept.
+/// Minimum fraction of a point's light whose loss is reported.
 const LIGHT_ERROR: f64 = 0.002;
-/// How far beyond the farthest function the picture may go before that is said.
+/// Maximum extent of the image relative to the farthest function without a note.
 const BEYOND: f64 = 1.02;
 
-/// A file with what it holds.
+/// A file with its content.
 struct Listed<'a> {
     file: &'a Placed<PathBuf>,
     asset: &'a PointSpreadAsset,
     spread: FieldSpread,
 }
 
-/// The functions of files over a picture.
+/// Functions of files over an image.
 pub(super) fn table(
     files: &[Placed<PathBuf>],
     patches: Option<[usize; 2]>,
@@ -42,7 +42,7 @@ pub(super) fn table(
     Some(table)
 }
 
-/// What a file holds, on the sensor; what was made of it is remarked.
+/// Content of a file, on the sensor, with notes on the conversion.
 fn listed<'a, 'c: 'a>(
     file: &'a Placed<PathBuf>,
     lens: &Lens,
@@ -81,7 +81,7 @@ fn listed<'a, 'c: 'a>(
     Some(Listed { file, asset, spread })
 }
 
-/// Where the point is on the sensor, by the samples' axes.
+/// Position of the point on the sensor, in the samples' axes.
 fn place_mm(asset: &PointSpreadAsset, lens: &Lens) -> Option<DVec2> {
     let stated = |[x, y]: [f64; 2]| DVec2::new(x, -y);
     match (asset.place_mm, asset.field) {
@@ -94,7 +94,7 @@ fn place_mm(asset: &PointSpreadAsset, lens: &Lens) -> Option<DVec2> {
     }
 }
 
-/// A direction at the field angles of x and y, which go by their tangents; of one alone by the angle.
+/// Direction with the field angles of x and y, which combine by their tangents; for a single one by the angle.
 fn towards(degrees: [f64; 2]) -> Option<DVec3> {
     let [x, y] = degrees.map(f64::to_radians);
     if x == 0.0 || y == 0.0 {
@@ -105,7 +105,7 @@ fn towards(degrees: [f64; 2]) -> Option<DVec3> {
     ahead.then(|| DVec3::new(tan(x), tan(y), 1.0))
 }
 
-/// The functions by wavelength and by distance from the axis, where every wavelength has the same fields.
+/// Functions by wavelength and by distance from the axis, if every wavelength has the same fields.
 fn wavelengths(listed: &[Listed<'_>], context: &mut Context<'_>) -> Option<Vec<TabledWavelength>> {
     let first = &listed[0];
     let is_broad = |one: &Listed<'_>| one.asset.wavelengths_nm[0] != one.asset.wavelengths_nm[1];
@@ -140,7 +140,7 @@ fn wavelengths(listed: &[Listed<'_>], context: &mut Context<'_>) -> Option<Vec<T
     Some(grid.into_iter().map(wavelength).collect())
 }
 
-/// No two files are of the same distance and wavelength.
+/// Checks that no two files have the same distance and wavelength.
 fn check_twice(grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> Option<()> {
     let mut pairs = grid.iter().flat_map(|(_, fields)| fields.windows(2));
     let alike = pairs.find(|pair| {
@@ -159,7 +159,7 @@ fn check_twice(grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> O
     None
 }
 
-/// Every wavelength has the fields of all.
+/// Checks that every wavelength has all fields.
 fn check_complete(listed: &[Listed<'_>], grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> Option<()> {
     let has = |fields: &[&Listed<'_>], wanted: FieldPoint| fields.iter().any(|one| one.asset.field == wanted);
     for one in listed {
@@ -221,7 +221,7 @@ fn field(field: FieldPoint) -> String {
 mod tests {
     use super::*;
 
-    /// tan of 20° and 40° by the tables of Abramowitz and Stegun, 4.3.
+    /// tan of 20° and 40° from the tables of Abramowitz and Stegun, 4.3.
     #[test]
     fn fields_of_two_angles_go_by_their_tangents() {
         let near = |found: Option<DVec3>, expected: DVec3| {

@@ -9,7 +9,7 @@ use etendue_tracer::media::Medium;
 use etendue_tracer::precipitation::{Crystals, Field, SizeLaw, SizeLawError};
 use glam::DVec3;
 
-/// What falls, with its medium added to the others.
+/// Precipitation, with its medium added to the others.
 pub(super) fn precipitation(
     record: Option<&Record>,
     media: &mut Vec<Medium>,

@@ -1,4 +1,4 @@
-//! `[output]`: what is delivered.
+//! `[output]`: products.
 
 use super::context::{Context, ErrorCode};
 use crate::plan::raw_colour::RawColour;
@@ -9,7 +9,7 @@ use etendue_scene::Placed;
 use etendue_scene::record::Output;
 use etendue_scene::record::output::DepthScale;
 
-/// What a camera delivers: what it asks for, and what its sensor makes possible where it is silent.
+/// Products of a camera: those that it requests, and by default those that its sensor permits.
 pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> Products {
     let electronics = body.sensor.is_some();
     let said = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |v| v.value);
@@ -78,7 +78,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
     products
 }
 
-/// Where depth along the axis means nothing, and what to take there.
+/// Notes where depth along the axis is undefined, and the alternative.
 fn remark_depth(products: &Products, body: &CameraBody, context: &mut Context<'_>) {
     let asked = products.ground_truth && !products.camera_space_position || products.depth_png_per_m.is_some();
     if asked && body.depth_has_gaps() {
@@ -90,7 +90,7 @@ fn remark_depth(products: &Products, body: &CameraBody, context: &mut Context<'_
     }
 }
 
-/// The scale of the undistorted twin, where one is asked for and can be.
+/// Scale of the rectified camera, if one is requested and possible.
 fn undistorted(output: &Output, products: &Products, body: &CameraBody, context: &mut Context<'_>) -> Option<f64> {
     let scale = &output.undistorted_scale;
     let Some(key) = output.undistorted.as_ref().filter(|key| key.value) else {
@@ -128,7 +128,7 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
     context.accept(&key.place, RectifiedCamera::of(body, scale)).map(|_| scale)
 }
 
-/// The raw's file format; what cannot hold it is refused.
+/// File format of the raw; refuses a format that cannot hold it.
 fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> RawFormat {
     let usual = usual_raw_format(body.sensor.as_ref());
     let Some(key) = &output.raw_format else { return usual };

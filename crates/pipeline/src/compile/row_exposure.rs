@@ -1,4 +1,4 @@
-//! When rows are exposed: from records to a camera's shutter.
+//! Exposure of rows: from records to a camera's shutter.
 
 use super::context::{Context, ErrorCode};
 use crate::plan::{CaptureTiming, RowExposure, RowSkipping};
@@ -10,7 +10,7 @@ use etendue_scene::record::sensor::hdr::Capture;
 use etendue_scene::record::sensor::shutter::{Direction, Rows};
 use etendue_sensor::Sensor;
 
-/// The exposures of a camera's rows.
+/// Exposures of a camera's rows.
 pub(super) fn row_exposure(
     record: &record::Sensor,
     sensor: Option<&Sensor>,
@@ -27,7 +27,7 @@ pub(super) fn row_exposure(
     refuse_idle_starts(further, context);
     let shutter = record.shutter.as_ref().map_or(Shutter::Global, shutter);
     let rows = rows.max(1);
-    // From the beginning of a row's exposure to its end, the last row's.
+    // Time from the start of a row's exposure to its end, for the last row.
     let length_s = |exposure_s: f64| match shutter {
         Shutter::GlobalReset(_) => shutter.length_s(rows, exposure_s),
         Shutter::Global | Shutter::Rolling(_) => exposure_s,
@@ -36,7 +36,7 @@ pub(super) fn row_exposure(
     RowExposure { shutter, first_row, rows, skipping, exposure_s, captures }
 }
 
-/// Rows of tiles that are skipped; a sensor's layout fits its picture, so that they come out even.
+/// Skipped rows of tiles; a sensor's layout fits its image, so that the division is exact.
 fn row_skipping(sensor: &Sensor) -> RowSkipping {
     let p = sensor.parameters();
     p.read_out.layout.skipping.filter(|skipping| skipping.rows > 1).map_or(RowSkipping::NONE, |skipping| {
@@ -67,7 +67,7 @@ fn exposure_s(sensor: &record::Sensor) -> f64 {
     electronics.or_else(shutter).unwrap_or(0.0)
 }
 
-/// The exposures of a frame. Those of one photodiode follow each other, as it can collect one charge at a time.
+/// Captures of a frame. Those of one photodiode follow each other, because it can collect only one charge at a time.
 fn captures(
     further: &[Capture],
     exposure_s: f64,
@@ -76,7 +76,7 @@ fn captures(
 ) -> Vec<CaptureTiming> {
     let or_1 = |ratio: &Option<Placed<f64>>| ratio.as_ref().map_or(1.0, |r| r.value);
     let mut captures = vec![CaptureTiming { start_s: 0.0, exposure_ratio: 1.0 }];
-    // When each photodiode, told by its sensitivity, has ended its last exposure.
+    // End of the last exposure of each photodiode, identified by its sensitivity.
     let mut ends = vec![(1.0, length_s(exposure_s))];
     for capture in further {
         if capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value) {
@@ -99,7 +99,7 @@ fn captures(
     captures
 }
 
-/// Charge that is read again has no beginning of its own.
+/// Refuses a start time for charge that is read again.
 fn refuse_idle_starts(further: &[Capture], context: &mut Context<'_>) {
     let again = |capture: &&Capture| capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value);
     for start in further.iter().filter(again).filter_map(|capture| capture.start_s.as_ref()) {

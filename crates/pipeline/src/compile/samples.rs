@@ -1,4 +1,4 @@
-//! Samples a pixel, and the replicates that tell their variance.
+//! Samples per pixel, and the replicates that give their variance.
 
 use super::choices::{self, Choices, Refinement};
 use super::context::{Context, ErrorCode};
@@ -8,26 +8,26 @@ use etendue_scene::record::samples::MAX_SPP as MAX_KEY_SPP;
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Placed, stated};
 
-/// Independent replicates where nobody says how many.
+/// Default number of independent replicates.
 const REPLICATES: u64 = 4;
 
-/// Samples that every pixel gets, and gets at most, where noise decides.
+/// Minimum and maximum samples of a pixel in noise-limited sampling.
 const MIN_SPP: u64 = 16;
 const MAX_SPP: u64 = 4096;
 
-/// How many samples pixels get.
+/// Sample counts of a camera's pixels.
 pub(super) struct Samples {
-    /// Of every pixel; the most where noise decides.
+    /// Samples of every pixel; with noise-limited sampling the maximum.
     pub(super) spp: u32,
-    /// Divide them.
+    /// Replicates; divide the samples.
     pub(super) replicates: u32,
-    /// Where noise decides.
+    /// Noise-limited sampling, if any.
     pub(super) adaptive: Option<AdaptiveSampling>,
-    /// Where they come in several passes, or a time decides them.
+    /// Passes, if there are several, or a given time determines them.
     pub(super) passes: Option<Passes>,
 }
 
-/// How many samples pixels get.
+/// Sample counts of a camera's pixels.
 pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> Samples {
     if choices.refinement == Refinement::Timed {
         return timed(render, context);
@@ -52,7 +52,7 @@ pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<
     Samples { spp, replicates, adaptive: None, passes }
 }
 
-/// By a time: one pass, the least, until it is known.
+/// For a given time: one pass, the smallest, until the time is known.
 fn timed(render: &Render, context: &mut Context<'_>) -> Samples {
     let noise = render.samples.noise_threshold.as_ref().map(|limit| ("noise_threshold", &limit.place));
     let passes = render.samples.passes.first().map(|pass| ("passes", &pass.place));
@@ -64,7 +64,7 @@ fn timed(render: &Render, context: &mut Context<'_>) -> Samples {
     Samples { spp: replicates, replicates, adaptive: None, passes: Some(Passes::new(vec![Pass::whole(replicates)])) }
 }
 
-/// By the passes that are stated.
+/// For stated passes.
 fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>) -> Samples {
     let divides = |r: &u64| numbers.iter().all(|n| n.value.fract() != 0.0 || (n.value as u64).is_multiple_of(*r));
     let most = || [REPLICATES, 2, 1].into_iter().find(divides).unwrap_or(1);
@@ -103,11 +103,11 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
     Samples { spp: passes.spp().max(replicates), replicates, adaptive: None, passes: Some(passes) }
 }
 
-/// Independent replicates, and the fewest, where noise decides: two or more decide of each, and none of two of each other.
+/// Default and minimum number of replicates in noise-limited sampling: two or more determine the samples of each, and no two determine each other's.
 const DECIDING_REPLICATES: u64 = 8;
 const LEAST_DECIDING: u64 = 5;
 
-/// By noise.
+/// For noise-limited sampling.
 fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>) -> Samples {
     let replicates = deciding(threshold, render, context);
     let keys = [("min_spp", &render.samples.min_spp), ("max_spp", &render.samples.max_spp)];
@@ -138,7 +138,7 @@ fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     Samples { spp: max as u32, replicates: replicates as u32, adaptive: Some(adaptive), passes: None }
 }
 
-/// Replicates that decide of each other.
+/// Replicates that determine each other's samples.
 fn deciding(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>) -> u64 {
     let Some(given) = &render.samples.replicates else { return DECIDING_REPLICATES };
     if given.value >= LEAST_DECIDING {
@@ -150,7 +150,7 @@ fn deciding(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     DECIDING_REPLICATES
 }
 
-/// Samples a pixel and replicates; the replicates divide the samples.
+/// Samples per pixel and replicates; the replicates divide the samples.
 fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, u32) {
     let by_quality = || choices::spp(choices.quality.unwrap_or(Quality::Standard));
     let spp = render.samples.spp.as_ref().map_or_else(by_quality, |s| s.value as u32);
@@ -176,7 +176,7 @@ fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, 
     (spp, most as u32)
 }
 
-/// Whether variance can be delivered where it is asked for: one replicate knows none.
+/// Returns true if a requested variance can be delivered: one replicate gives none.
 pub(super) fn has_variance(output: &Output, replicates: u32, render: &Render, context: &mut Context<'_>) -> bool {
     let Some(variance) = output.variance.as_ref().filter(|variance| variance.value && replicates < 2) else {
         return true;

@@ -1,4 +1,4 @@
-//! `[render]`: how the light is found.
+//! `[render]`: render settings.
 
 use super::camera::remark_margin;
 use super::choices::{Choices, max_bounces};
@@ -15,12 +15,12 @@ use etendue_scene::record::{Output, Render};
 use etendue_scene::{Place, Placed};
 use etendue_tracer::integrator::PathSettings;
 
-/// Wavelengths of radiance itself, nm.
+/// Default wavelength range of radiance, nm.
 const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
 const BAND_WIDTH_NM: f64 = 5.0;
 const TILE_PX: u64 = 32;
 
-/// How a camera's light is found.
+/// Render settings of a camera.
 pub(super) fn settings(
     render: &Render,
     body: &CameraBody,
@@ -49,7 +49,7 @@ pub(super) fn settings(
         paths,
         guiding: guiding(&paths, render, context),
         wavelengths: wavelengths(render, body, &route, context)?,
-        // Decided where all light is known.
+        // Chosen when all lights are known.
         wavelength_sampling: WavelengthSampling::Uniform,
         spectral_gain: None,
         route,
@@ -65,8 +65,7 @@ pub(super) fn settings(
     Some((settings, passes))
 }
 
-/// Wavelengths a path: one where the lens treats each differently, as a ray that was found for one wavelength says nothing
-/// of the others.
+/// Wavelengths per path: a single one if the lens treats each differently, because a ray traced for one wavelength does not apply to others.
 fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut Context<'_>) -> Option<u32> {
     let asked = render.wavelengths_per_path.as_ref();
     if !(body.disperses() && *route == Route::Lens) {
@@ -81,7 +80,7 @@ fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut 
     Some(1)
 }
 
-/// Which light paths are simulated. What only paths need is at its default where none are traced.
+/// Light paths that are simulated. Settings that only paths need have their defaults if none are traced.
 fn paths(render: &Render, choices: &Choices) -> PathSettings {
     let keys = &render.paths;
     let stated = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |flag| flag.value);
@@ -113,7 +112,7 @@ fn guiding(paths: &PathSettings, render: &Render, context: &mut Context<'_>) -> 
     asked && is_of_use
 }
 
-/// Pixels that share tails. They carry the same wavelengths: where these are drawn `by_colour`, they have one colour.
+/// Blocks of pixels that share path tails. They carry the same wavelengths: if these are sampled `by_colour`, the pixels have one colour.
 fn blocks(integrator: Integrator, render: &Render, body: &CameraBody, by_colour: bool) -> Blocks {
     if integrator != Integrator::Path {
         return Blocks::SINGLE;
@@ -124,10 +123,10 @@ fn blocks(integrator: Integrator, render: &Render, body: &CameraBody, by_colour:
     Blocks::new(render.paths.path_reuse_in_force() as u32, columns, rows)
 }
 
-/// The most that a film may take, bytes.
+/// Maximum bytes of a film.
 const MAX_FILM: f64 = 32.0 * 1024.0 * 1024.0 * 1024.0;
 
-/// A picture that no machine of today would hold is refused, and not tried.
+/// Refuses an image that exceeds the memory of any present machine.
 fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut Context<'_>) -> Option<()> {
     let (width, height) = match route {
         Route::Lens => (body.film().width(), body.film().height()),
@@ -147,7 +146,7 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
     None
 }
 
-/// What is asked for but cannot be had, or is made and not kept.
+/// Notes requests that cannot be fulfilled, and data that is computed but not stored.
 fn remark_losses(products: &Products, route: &Route, folded: bool, body: &CameraBody, context: &mut Context<'_>) {
     if products.variance && products.electrons && !folded {
         let remedy = if body.effects.is_idle() { "accumulate = \"auto\" through the lens" } else { "the irradiance" };
@@ -162,15 +161,14 @@ fn remark_losses(products: &Products, route: &Route, folded: bool, body: &Camera
     }
 }
 
-/// Bands whose width is stated but which nobody asked for. No fault: `--set output.radiance=false` must not need another
-/// change of the job.
+/// Notes a stated band width without requested bands. Not an error: `--set output.radiance=false` must not require another change of the job.
 fn remark_bands(render: &Render, cube: bool, context: &mut Context<'_>) {
     if let (Some(width), false) = (&render.band_width_nm, cube) {
         context.remark_on(&width.place, "no spectrum is kept, so the width of bands does not matter");
     }
 }
 
-/// How things out of focus are blurred; through the lens its rays do it.
+/// Method of blurring objects out of focus; through the lens its rays model it.
 pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut Context<'_>) -> Option<DepthOfField> {
     if render.route.as_ref().is_none_or(|r| r.value != render::Route::Pupil) {
         return Some(DepthOfField::None);
@@ -234,7 +232,7 @@ fn route(
     }
 }
 
-/// Whether a spectral cube is kept, and whether pixels fold electrons.
+/// Returns whether a spectral cube is stored, and whether pixels accumulate electrons.
 fn accumulation(
     render: &Render,
     body: &CameraBody,
@@ -276,7 +274,7 @@ fn accumulation(
     }
 }
 
-/// The wavelengths to sample, nm: what the sensor responds to, with the visible where radiance itself is wanted.
+/// Wavelengths to sample, nm: those to which the sensor responds, and the visible range if radiance itself is requested.
 fn range(render: &Render, body: &CameraBody, cube: bool) -> WavelengthRange {
     if let Some(range) = &render.wavelength_range_nm {
         return WavelengthRange::new(range.value[0], range.value[1]);

@@ -1,11 +1,11 @@
-//! Shapes that need no file, as meshes.
+//! Shapes without a file, as meshes.
 
 use core::f64::consts::TAU;
 use etendue_core::maths::f64::{sin, sin_cos};
 use etendue_tracer::geometry::{DroppedTriangles, Mesh, MeshError};
 use glam::{Vec2, Vec3};
 
-/// Corners of a shape's faces, four a face, counter-clockwise as seen from the front.
+/// Corners of a shape's faces, four per face, counter-clockwise as seen from the front.
 pub(super) struct Corners(Vec<[Vec3; 4]>);
 
 /// A rectangle in the plane z = 0, centred, its front towards +z; u along x, v along y.
@@ -24,7 +24,7 @@ pub(super) fn cuboid(size_m: [f64; 3]) -> Corners {
     Corners(faces.map(face).collect())
 }
 
-/// Sides of the polygon that stands for a disc.
+/// Number of sides of the polygon that approximates a disc.
 const DISC_SIDES: u32 = 256;
 
 /// A disc in the plane z = 0, centred, its front towards +z, as a regular polygon of the same area.
@@ -43,7 +43,7 @@ pub(super) fn disc(radius_m: f64) -> Result<(Mesh, DroppedTriangles), MeshError>
 }
 
 impl Corners {
-    /// The mesh: faces share no vertices, so each has its own texture coordinates, 0 to 1.
+    /// Mesh in which faces share no vertices, so that each has its own texture coordinates, 0 to 1.
     pub(super) fn into_mesh(self) -> Result<(Mesh, DroppedTriangles), MeshError> {
         let faces = self.0.len() as u32;
         let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y].repeat(self.0.len());

@@ -1,9 +1,9 @@
-//! Which cameras of a plan see the same light.
+//! Groups of cameras with the same light.
 //!
-//! The light of a camera depends on where the camera stands, on its lens and what stands before it, on its film, on how light is
-//! sampled and kept, and, where pixels fold electrons, on their response to a second of light. It does not depend on
-//! the exposure (but where something moves or flickers), noise (but where samples are adaptive), converter, effects behind the lens (but for the margin that they need, and a point spread that displaces samples) or processing. Cameras of equal
-//! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
+//! The light of a camera depends on its pose, its lens and the elements before it, its film, the sampling and storage of light, and, if pixels accumulate
+//! electrons, on their response to a second of light. It does not depend on the exposure (unless something moves or flickers), noise (unless samples are
+//! adaptive), ADC, effects behind the lens (except for the margin that they need, and a point spread that displaces samples) or processing. Cameras of equal
+//! light share one film: that of the first of them in the job, whose index is in the random addresses of all.
 
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Passes, Plan, Route, Settings, TimeDependence, Timing};
 use crate::sizes::spectrum_spread::SpectrumSpread;
@@ -15,21 +15,21 @@ use etendue_projection::Raster;
 use etendue_sensor::{Cfa, Sensor};
 use etendue_spectra::Spectrum;
 
-/// What, of a camera, its light depends on; the world is the plan's.
+/// Properties of a camera that determine its light; the world is the plan's.
 #[derive(Clone, Debug, PartialEq)]
 struct LightKey<'a> {
     path: &'a CameraPath,
-    /// Where light depends on time.
+    /// Timing, if light depends on time.
     timing: Option<&'a Timing>,
     optics: OpticsKey<'a>,
     sampling: SamplingKey,
     settings: Settings,
     response: Option<ResponseKey<'a>>,
-    /// Where noise decides the samples.
+    /// Tolerance of noise-limited sampling.
     tolerance: Option<Tolerance>,
 }
 
-/// How rays leave the camera.
+/// Optics that determine the camera's rays.
 #[derive(Clone, Debug, PartialEq)]
 enum OpticsKey<'a> {
     Lens(Box<LensKey<'a>>),
@@ -42,13 +42,13 @@ struct LensKey<'a> {
     front: Option<&'a Front>,
     film: Raster,
     aperture_px: f64,
-    /// The picture itself, over which the pitch of what a mirror shows is taken.
+    /// The image raster, over which the pitch of a mirror's view is computed.
     mirrored: Option<&'a Raster>,
-    /// What displaces samples, and the film's margin, with which it varies over the film.
+    /// Point spread that displaces samples, and the film's margin, because it varies over the film.
     displacing: Option<(&'a PointSpread, [usize; 2])>,
 }
 
-/// How many samples, of which seed, and whether wavelengths are spread for replicates that tell a variance.
+/// Number of samples, seed, and the spread of wavelengths for replicates that give a variance.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct SamplingKey {
     spp: u32,
@@ -58,7 +58,7 @@ struct SamplingKey {
     spread: SpectrumSpread,
 }
 
-/// Electrons that pixels make of a second of light.
+/// Electrons of pixels per second of light.
 #[derive(Clone, Debug, PartialEq)]
 struct ResponseKey<'a> {
     filter: &'a Cfa,
@@ -81,14 +81,14 @@ impl<'a> LightKey<'a> {
                 seed: s.seed,
                 spread: camera.spectrum_spread(),
             },
-            // What has its own place in the key, and the size of a tile, which does not change the light.
+            // Excludes settings with their own place in the key, and the size of a tile, which does not change the light.
             settings: Settings { tile_px: 0, spp: 0, replicates: 0, seed: 0, route: Route::Lens, ..*s },
             tolerance: camera.tolerance(),
             response: camera.body.sensor.as_ref().filter(|_| s.folded).map(ResponseKey::of),
         }
     }
 
-    /// In what two cameras differ that look at the same things by the same rays; `None` where they do not.
+    /// Differences between two cameras with the same view and rays; `None` if these differ.
     fn differences(&self, other: &Self) -> Option<Vec<&'static str>> {
         if (self.path, &self.optics) != (other.path, &other.optics) {
             return None;
@@ -143,7 +143,7 @@ impl<'a> ResponseKey<'a> {
     }
 }
 
-/// Gives every camera the light of the first that has the same.
+/// Gives every camera the light of the first one with equal light.
 pub(crate) fn share(cameras: &mut [CameraPlan]) {
     let owners: Vec<LightOwner> = {
         let mut firsts: Vec<(LightKey<'_>, LightOwner)> = Vec::new();
@@ -163,8 +163,8 @@ fn owner_of<'a>(camera: &'a CameraPlan, firsts: &mut Vec<(LightKey<'a>, LightOwn
     owner
 }
 
-/// Why a camera has a light of its own although another before it looks at the same things by the same rays: that camera's name
-/// and what differs. `None` where there is no such camera, or the light is shared.
+/// Explains a camera's own light although an earlier camera has the same view and rays: that camera's name and the differences. `None` if there is no such
+/// camera, or the light is shared.
 pub(crate) fn why_apart<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<(&'a str, Vec<&'static str>)> {
     let before = plan.cameras.iter().take_while(|other| other.index < camera.index);
     let owners = before.filter(|other| other.owns_light() && other.light != camera.light);

@@ -1,4 +1,4 @@
-//! The clear sky and the sun by the model of Hosek and Wilkie.
+//! Clear sky and sun by the model of Hosek and Wilkie.
 
 use super::context::{Context, ErrorCode};
 use crate::plan::SkyFacts;
@@ -11,23 +11,23 @@ use etendue_tracer::lights::sun_position::{CalendarDate, ClockTime, UtcTime, sun
 use etendue_tracer::lights::{SUN_ANGULAR_DIAMETER_DEG, SkyEnvironment, Sun};
 use glam::DVec3;
 
-/// Reflectance of the ground where a sky does not state it: grass and soil reflect about a fifth of the light.
+/// Default reflectance of the ground: grass and soil reflect about a fifth of the light.
 const GROUND_ALBEDO: f64 = 0.2;
 
-/// A sky, its sun where that is asked for and up, and what the plan says of them.
+/// A sky, its sun if requested and above the horizon, and the plan's facts of them.
 pub(super) struct MadeSky {
     pub(super) environment: SkyEnvironment,
     pub(super) sun: Option<Sun>,
     pub(super) facts: SkyFacts,
 }
 
-/// Where the sun stands in the world, rad: elevation, and azimuth from +x towards +y.
+/// Direction of the sun in the world, rad: elevation, and azimuth from +x towards +y.
 struct Sunward {
     elevation_rad: f64,
     azimuth_rad: f64,
 }
 
-/// The sky of a record; `None` with the faults noted.
+/// Sky of a record; `None` with the errors recorded.
 pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<MadeSky> {
     let place = record.sun_place();
     let sunward = sunward(record, context)?;
@@ -68,7 +68,7 @@ pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<MadeSky> {
     Some(MadeSky { environment, sun, facts })
 }
 
-/// Spectral irradiance by the sun through air of a turbidity, on a plane at right angles to the beam.
+/// Spectral irradiance by the sun through air of a given turbidity, on a plane perpendicular to the beam.
 pub(super) fn normal_irradiance(
     turbidity: &Placed<f64>,
     elevation_rad: f64,
@@ -85,7 +85,7 @@ fn sunward(record: &Sky, context: &mut Context<'_>) -> Option<Sunward> {
             azimuth_rad: angles.sun_azimuth_deg.value.to_radians(),
         }),
         (None, Some(moment)) => at(moment, context),
-        // A sky that was read says one of them.
+        // A sky in a loaded description states one of them.
         (None, None) => None,
     }
 }
@@ -97,7 +97,7 @@ fn at(moment: &SunMoment, context: &mut Context<'_>) -> Option<Sunward> {
     let utc = context.accept(&moment.date.place, UtcTime::new(date, time))?;
     let position = sun_position(utc, moment.latitude_deg.value, moment.longitude_deg.value);
     let position = context.accept(&moment.latitude_deg.place, position)?;
-    // North turns anticlockwise as seen from above, the sun's azimuth clockwise from it.
+    // North rotates anticlockwise as seen from above, the sun's azimuth clockwise from it.
     let north_rad = moment.north_azimuth_deg.as_ref().map_or(0.0, |n| n.value.to_radians());
     let turn = core::f64::consts::TAU;
     let azimuth_rad = (north_rad - position.azimuth_rad).rem_euclid(turn);
@@ -110,7 +110,7 @@ impl Sunward {
     }
 }
 
-/// The unit vector of an elevation and an azimuth.
+/// Unit vector of an elevation and an azimuth.
 pub(super) fn direction(elevation_rad: f64, azimuth_rad: f64) -> DVec3 {
     let ((sin_e, cos_e), (sin_a, cos_a)) = (sin_cos(elevation_rad), sin_cos(azimuth_rad));
     DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e)

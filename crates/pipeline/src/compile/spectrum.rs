@@ -9,7 +9,7 @@ use etendue_scene::{Place, Placed};
 use etendue_spectra::{Outside, Spectrum, illuminant, observer, upsample};
 use std::path::PathBuf;
 
-/// A quantity over the wavelength; `outside` says how a table continues beyond its ends.
+/// A quantity over wavelength; `outside` states how a table continues beyond its ends.
 pub(super) fn curve(curve: &Curve, outside: Outside, context: &mut Context<'_>) -> Option<Spectrum> {
     match curve {
         Curve::Constant(value) => Some(Spectrum::constant(value.value)),
@@ -29,7 +29,7 @@ pub(super) fn from_file(file: &Placed<PathBuf>, outside: Outside, context: &mut 
     context.accept(&file.place, Spectrum::from_points(&asset.points, outside))
 }
 
-/// The relative spectrum of a light's colour.
+/// Relative spectrum of a light's colour.
 pub(super) fn relative(colour: &LightColour, context: &mut Context<'_>) -> Option<Spectrum> {
     match colour {
         LightColour::Illuminant(name) => named_illuminant(name, context),
@@ -57,12 +57,12 @@ pub(super) fn named_illuminant(name: &Placed<String>, context: &mut Context<'_>)
     found
 }
 
-/// The radiance of a surface or of the sky, W·m⁻²·sr⁻¹·nm⁻¹; of a stated flux that of a surface of 1 m², one side of which
-/// glows (a flux Φ from an area A leaves with L = Φ / (π A)).
+/// Radiance of a surface or of the sky, W·m⁻²·sr⁻¹·nm⁻¹; for a stated flux that of a surface of 1 m² with one emissive side (a flux Φ from an area A leaves
+/// with L = Φ / (π A)).
 pub(super) fn emitted(emission: &Emission, context: &mut Context<'_>) -> Option<Spectrum> {
     let level = match &emission.level {
         Level::Radiance(radiance) => return curve(radiance, Outside::Zero, context),
-        // A level without a colour has been refused where it was read.
+        // A level without a colour was refused when it was read.
         Level::Luminance(level) | Level::LuminousFlux(level) | Level::RadiantFlux(level) => level,
     };
     let relative = relative(emission.colour.as_ref()?, context)?;

@@ -1,4 +1,4 @@
-//! Numbers of keys that may be left out, and those that all kinds of lenses state alike.
+//! Numbers of optional keys, and those that all kinds of lenses state in the same way.
 
 use etendue_scene::Placed;
 use etendue_scene::record::lens as description;
@@ -14,7 +14,7 @@ pub(super) fn focus_m(focus: &description::FocusDistance) -> f64 {
     }
 }
 
-/// A key's number, or what stands for its absence.
+/// Number of a key, or the default if it is absent.
 pub(super) fn or(key: Option<&Placed<f64>>, default: f64) -> f64 {
     key.map_or(default, |k| k.value)
 }

@@ -11,7 +11,7 @@ use etendue_tracer::accel::World;
 use etendue_tracer::integrator::Surroundings;
 use etendue_tracer::materials::MaterialTable;
 
-/// Says which cameras stand in a transparent solid, and where that cannot be told for sure.
+/// Reports cameras inside a transparent solid, and those for which this is uncertain.
 pub(super) fn remark(
     cameras: &[CameraPlan],
     world: &World,

@@ -1,4 +1,4 @@
-//! Descriptions compiled: presets, lamps, skies, and what is refused only here.
+//! Compiled descriptions: presets, lamps, skies, and errors that only compilation finds.
 
 mod modulation;
 
@@ -20,12 +20,12 @@ lens = { type = "pinhole", focal_length_mm = 6, f_number = 2.0 }
 sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6.0 }
 "#;
 
-/// The plan of a scene without assets, or its faults, one a line.
+/// Plan of a scene without assets, or its errors, one per line.
 fn plan(scene: &str) -> Result<Plan, String> {
     plan_with(scene, |_| ())
 }
 
-/// The same with assets.
+/// Plan of a scene with assets.
 fn plan_with(scene: &str, fill: impl FnOnce(&mut Assets)) -> Result<Plan, String> {
     let text = format!("{CAMERA}{scene}");
     let read = |_: &Path| Ok(text.clone());
@@ -90,7 +90,7 @@ fn lamps_have_the_flux_and_intensity_that_is_asked_for() {
     };
     let at = "position_m = [0, 0, 5]\nilluminant = \"LED-B3\"\n";
     let (cd, sr) = lamp(&format!("type = \"point\"\nluminous_flux_lm = 1000\n{at}"));
-    // Spectra are f32; the flux is the sum of some hundreds of them.
+    // Spectra are f32; the flux is a sum of several hundred values.
     assert!((cd * sr / 1000.0 - 1.0).abs() < 1e-5 && (sr / (4.0 * core::f64::consts::PI) - 1.0).abs() < 1e-12);
     let spot = format!("type = \"spot\"\nfield_angle_deg = 60\n{at}");
     let (cd, sr) = lamp(&format!("{spot}luminous_flux_lm = 1000"));
@@ -117,10 +117,10 @@ fn a_sky_brings_its_sun_by_time_and_place() {
     let sky = |keys: &str| plan(&format!("[scene.environment]\ntype = \"sky\"\nturbidity = 2\n{keys}"));
     let plan = sky("sun_elevation_deg = 60\nsun_azimuth_deg = 90").expect("no fault");
     let facts = plan.sky.expect("a sky");
-    // The issue's figure for a clear day: 85 to 110 klx.
+    // Expected range of a clear day: 85 to 110 klx.
     assert!((85e3..110e3).contains(&(facts.sky_lx + facts.sun_lx)), "{facts:?}");
     assert!((plan.sources.suns[0].direction().y - 0.5).abs() < 1e-6, "an azimuth of 90° is to the left");
-    // Noon of midsummer in Greenwich: the sun stands in the south at 90° − 51.48° + 23.44°, less the equation of time.
+    // Noon of midsummer in Greenwich: the sun is in the south at 90° − 51.48° + 23.44°, less the equation of time.
     let noon = "date = 2026-06-21\ntime_utc = 12:02:00\nlatitude_deg = 51.48\nlongitude_deg = 0\n";
     let facts = sky(noon).expect("no fault").sky.expect("a sky");
     assert!((facts.sun_elevation_deg - 61.96).abs() < 0.05 && (facts.sun_azimuth_deg - 180.0).abs() < 1.0, "{facts:?}");
@@ -168,14 +168,14 @@ fn mixes_name_materials_in_any_order_and_not_themselves() {
     assert!(circle.contains("job.toml:8:1: scene.materials.mix: ") && circle.contains("of itself"), "{circle}");
 }
 
-/// A camera that scatters light, with further keys of the effects and a section of rendering.
+/// A camera with scattered light, with further keys of the effects and a render section.
 fn scattering(effects: &str, render: &str) -> Result<Plan, String> {
     const THIN: &str = "type = \"thin\", focal_length_mm = 6, f_number = 2.0, focus_distance_m = \"infinity\", distortion = \
                         { k1 = -0.5, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }";
     behind(THIN, effects, render)
 }
 
-/// A camera of a lens and effects, with a section of rendering.
+/// A camera with a lens and effects, with a render section.
 fn behind(lens: &str, effects: &str, render: &str) -> Result<Plan, String> {
     behind_with(lens, effects, render, &Assets::default())
 }
@@ -237,7 +237,7 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     let said = fault("glare = { scatter = 0.7, core_um = 10, exponent = 3 }", "");
     assert!(said.contains("scatter") && said.contains("at most 0.5"), "{said}");
     assert!(fault("", "").contains("describes no effect"));
-    // The distortion folds beyond the picture, within a margin of its own width.
+    // The distortion folds outside the image, within a margin of its own width.
     let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
     assert!(plan.remarks.iter().any(|r| r.text.contains("some is missing")), "{:?}", plan.remarks);
 }
@@ -283,7 +283,7 @@ fn ghosts_are_of_a_lens_of_surfaces() {
     let camera = &plan.cameras[0];
     assert!(camera.settings.bands.is_some() && !camera.settings.folded && camera.products.ghosts);
     assert_eq!(camera.film_size(), (120, 90), "with light from a quarter of the picture beyond each edge");
-    // The lens is traced as far as the film reaches.
+    // The lens is traced to the edge of the film.
     let lit_sr = camera.body.lens.projected_solid_angle_sr(glam::DVec2::new(2.9, 2.2));
     assert!(lit_sr > 0.0, "lit beyond the picture's corner");
     let fault = |lens: &str, effects: &str, output: &str| behind(lens, effects, output).expect_err("a fault");
@@ -302,12 +302,12 @@ fn a_lenss_coating_is_that_of_its_surfaces_against_air() {
         plan.cameras[0].body.lens.transmittance()
     };
     let (bare, coated, share) = (of(""), of(", coating = { quarter_wave_nm = 550 }"), of(", coating = 0.99"));
-    // Eight surfaces against air; the cemented two keep what they have, which is next to nothing.
+    // Eight surfaces against air; the cemented two keep their reflectance, which is nearly zero.
     assert!(bare < 0.65 && coated > 0.9, "{bare} {coated}");
     assert!((share / [0.99_f64; 8].iter().product::<f64>() - 1.0).abs() < 1e-3, "{share}");
 }
 
-/// The response of micro-lenses over the angle needs the exit pupil: the lens has one.
+/// The angle response of micro-lenses needs the exit pupil, which the lens provides.
 #[test]
 fn chief_rays_come_from_the_lens() {
     let exit_mm = |lens: &str, more: &str| {

@@ -1,4 +1,4 @@
-//! When frames and rows are exposed: from records to a camera's timing.
+//! Exposure times of frames and rows: from records to a camera's timing.
 
 use super::context::{Context, ErrorCode};
 use crate::plan::{CameraBody, CameraPlan, Jitter, Route, TimeDependence, Timing};
@@ -9,10 +9,10 @@ use etendue_tracer::accel::World;
 use etendue_tracer::geometry::Mesh;
 use etendue_tracer::lights::Sources;
 
-/// Relative difference of a sequence's frame rate and a sensor's frame period that is taken for rounding.
+/// Relative difference of a sequence's frame rate and a sensor's frame period that is attributed to rounding.
 const RATE_TOLERANCE: f64 = 1e-6;
 
-/// Maximum age of drops that change, s: five million steps.
+/// Maximum age of changing drops, s: five million steps.
 const MAX_DROPS_AGE_S: f64 = 1e5;
 
 /// Returns the epoch from which the times of a job are counted.
@@ -20,7 +20,7 @@ pub(super) fn epoch(sequence: Option<&Sequence>) -> Epoch {
     sequence.and_then(|s| s.start_s.as_ref()).map_or(Epoch::default(), |start| Epoch::near(start.value))
 }
 
-/// The timing of a camera of a job.
+/// Timing of a camera of a job.
 pub(super) fn timing(
     index: u32,
     setup: &CameraSetup,
@@ -44,7 +44,7 @@ pub(super) fn timing(
     timing
 }
 
-/// Whether the light of each camera depends on time, and whether its route can show it.
+/// Determines the time dependence of each camera's light, and whether its route supports it.
 pub(super) fn depend(
     cameras: &mut [CameraPlan],
     world: &World,
@@ -91,7 +91,7 @@ pub(super) fn depend(
     }
 }
 
-/// Refuses drops that begin too early: they are simulated step by step from their beginning, in a time proportional to their age.
+/// Refuses drops that start too early: they are simulated step by step from their start, in a time proportional to their age.
 fn check_drops(camera: &CameraPlan, context: &mut Context<'_>) {
     let course = camera.body.front.as_ref().and_then(|front| front.course());
     let age_s = course.map_or(0.0, |course| camera.timing.frame_start_s(0) - course.start_s);
@@ -106,12 +106,12 @@ fn check_drops(camera: &CameraPlan, context: &mut Context<'_>) {
     }
 }
 
-/// Whether drops on the glass before a camera change.
+/// Returns true if drops on the glass before a camera change.
 fn has_changing_front(camera: &CameraPlan) -> bool {
     camera.body.front.as_ref().is_some_and(|front| front.course().is_some())
 }
 
-/// From frame to frame: as the sequence says, or the sensor.
+/// Frame period as stated by the sequence, or by the sensor.
 fn period_s(sequence: Option<&Sequence>, sensor: &record::Sensor, context: &mut Context<'_>) -> Option<f64> {
     let stated = sensor.electronics.as_ref().and_then(|e| e.frame_period_s.as_ref());
     let Some(rate) = sequence.map(|s| &s.frame_rate_hz) else { return stated.map(|s| s.value) };
@@ -132,7 +132,7 @@ fn period_s(sequence: Option<&Sequence>, sensor: &record::Sensor, context: &mut 
     Some(1.0 / rate.value)
 }
 
-/// A row cannot be exposed for the next frame before it has been read, and one frame is read after the other.
+/// Checks that a row is exposed for the next frame only after it has been read, and that frames are read one after the other.
 fn check(timing: &Timing, sensor: &record::Sensor, sequence: Option<&Sequence>, context: &mut Context<'_>) {
     let Some(period_s) = timing.period_s else { return };
     let jitter_s = timing.jitter.map_or(0.0, |jitter| 2.0 * jitter.half_width_s);

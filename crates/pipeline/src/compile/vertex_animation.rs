@@ -1,8 +1,7 @@
-//! Meshes whose vertices move: from the files of their frames to the tracer's mesh.
+//! Meshes with moving vertices: from the files of their frames to the tracer's mesh.
 //!
-//! Faces, texture coordinates and materials are those of the first file. A vertex of the mesh is what all corners share that name one vertex,
-//! one pair of texture coordinates, and in every file one normal: exporters write equal normals once, and normals that are equal in one
-//! file need not be so in the next.
+//! Faces, texture coordinates and materials are those of the first file. A vertex of the mesh represents all corners that share one vertex, one pair of
+//! texture coordinates, and in every file one normal: exporters write equal normals once, and normals that are equal in one file may differ in the next.
 
 use super::context::{Context, ErrorCode};
 use etendue_core::Epoch;
@@ -14,7 +13,7 @@ use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-/// The mesh; `None` with the faults noted. `asset` is the first file as a mesh.
+/// Mesh; `None` with the errors recorded. `asset` is the first file as a mesh.
 pub(super) fn mesh(
     record: &record::VertexAnimation,
     asset: &MeshAsset,
@@ -52,16 +51,16 @@ pub(super) fn mesh(
 /// A corner of a face.
 #[derive(Clone, Copy)]
 struct Corner {
-    /// The part of the mesh.
+    /// Index of the part of the mesh.
     part: usize,
-    /// The number of the corner in the part.
+    /// Index of the corner in the part.
     corner: usize,
 }
 
-/// What tells vertices apart: part, vertex, texture coordinates, and the normal in each file, or the triangle where a normal is missing.
+/// Identity of a vertex: part, vertex, texture coordinates, and the normal in each file, or the triangle if a normal is missing.
 type Key = (usize, u32, u32, Vec<u32>);
 
-/// The vertices of a mesh in all its files.
+/// Vertices of a mesh in all its files.
 struct Weld<'a> {
     files: &'a [&'a MeshFrameAsset],
     origin: DVec3,
@@ -104,7 +103,7 @@ impl<'a> Weld<'a> {
         self.triangles.push(vertices);
     }
 
-    /// The vertex of a corner; where a file gives it no usable normal, of this triangle alone, which faces `facing` in each file.
+    /// Vertex of a corner; if a file gives it no usable normal, of this triangle alone, which faces `facing` in each file.
     fn vertex(&mut self, place: Corner, uv: Option<Vec2>, facing: &[Vec3]) -> u32 {
         let Corner { part, corner } = place;
         let own = &self.files[0].parts[part];
@@ -154,7 +153,7 @@ impl<'a> Weld<'a> {
     }
 }
 
-/// The normal that a file gives a corner; `None` where it gives none, or one of no length.
+/// Normal that a file gives a corner; `None` if it gives none, or one of zero length.
 fn normal(file: &MeshFrameAsset, corner: Corner) -> Option<Vec3> {
     let Corner { part, corner } = corner;
     let part = &file.parts[part];
@@ -162,7 +161,7 @@ fn normal(file: &MeshFrameAsset, corner: Corner) -> Option<Vec3> {
     (normal != [0.0; 3]).then_some(Vec3::from(normal))
 }
 
-/// The unit normal of a triangle in a file; z without area.
+/// Unit normal of a triangle in a file; z for a triangle without area.
 fn facing(file: &MeshFrameAsset, corners: [Corner; 3]) -> Vec3 {
     let [a, b, c] = corners.map(|Corner { part, corner }| {
         let part = &file.parts[part];

@@ -1,11 +1,10 @@
-//! `[render] wavelength_density`: by what the wavelengths of pixels that sum electrons are drawn, and what the source's spectrum in the density
-//! will save.
+//! `[render] wavelength_density`: the density of the wavelengths of pixels that accumulate electrons, and the estimated gain of including the source's
+//! spectrum.
 //!
-//! A path's N wavelengths are rotations of one number u in the cumulative distribution of the density p. With the light f = R S ρ of a source S
-//! on a surface of reflectance ρ, the path's electrons are h(u) = Σ f(λᵢ)/(N p(λᵢ)), of mean square ∫h² du. The light of a pixel's samples
-//! also differs by the paths' ways, independently of u: with the relative variance v of that and q = ∫h²/(∫h)², the relative variance of a sample
-//! is (1 + v) q − 1. The ratio of q of two densities is what noisy pixels gain; where the light is even (v = 0), it is the
-//! ratio of q − 1, which is more.
+//! A path's N wavelengths are rotations of one number u in the cumulative distribution of the density p. With the light f = R S ρ of a source S on a surface
+//! of reflectance ρ, the path's electrons are h(u) = Σ f(λᵢ)/(N p(λᵢ)), with mean square ∫h² du. The light of a pixel's samples also varies between paths,
+//! independently of u: with the relative variance v of that and q = ∫h²/(∫h)², the relative variance of a sample is (1 + v) q − 1. The ratio of q of two
+//! densities is the gain of noisy pixels; in uniform light (v = 0), it is the ratio of q − 1, which is larger.
 
 use super::context::Context;
 use crate::plan::pixel_density::PixelDensity;
@@ -17,13 +16,13 @@ use etendue_scene::record::render;
 use etendue_sensor::Sensor;
 use etendue_spectra::{Spectrum, upsample};
 
-/// Numbers of a path's first wavelength times its wavelengths.
+/// Number of values of a path's first wavelength times its wavelengths.
 const NUMBERS: usize = 4096;
 
-/// Linear sRGB reflectances of surfaces: grey and three strong colours.
+/// Linear sRGB reflectances of surfaces: grey and three saturated colours.
 const SURFACES: [[f32; 3]; 4] = [[0.5, 0.5, 0.5], [0.6, 0.05, 0.05], [0.05, 0.6, 0.05], [0.05, 0.05, 0.6]];
 
-/// Decides it for all cameras, once all light is known.
+/// Chooses the density for all cameras, once all lights are known.
 pub(super) fn choose(
     cameras: &mut [CameraPlan],
     sources: &SourceSpectra,
@@ -57,7 +56,7 @@ pub(super) fn choose(
     }
 }
 
-/// The gain of a sensor's pixels by the source's spectrum in their density over that by the response alone; `None` where no source gives it anything.
+/// Gain of a sensor's pixels with the source's spectrum in their density relative to the response alone; `None` if no source contributes.
 fn spectral_gain(sensor: &Sensor, pixel_density: PixelDensity<'_>, wavelengths: u32) -> Option<SpectralGain> {
     let PixelDensity { sources, range, .. } = pixel_density;
     let surfaces = SURFACES.map(upsample::reflectance_spectrum);
@@ -83,7 +82,7 @@ fn spectral_gain(sensor: &Sensor, pixel_density: PixelDensity<'_>, wavelengths: 
     (sites > 0.0 && most > 0.0).then(|| SpectralGain { mean: exp(sum / sites), least, most })
 }
 
-/// Wavelengths by equal steps of the cumulative distribution, with their densities.
+/// Wavelengths at equal steps of the cumulative distribution, with their densities.
 struct Draws {
     drawn: Vec<(f32, f32)>,
     wavelengths: usize,
@@ -117,8 +116,8 @@ impl Draws {
 mod tests {
     use super::*;
 
-    /// Light in a quarter of the range, of an even density: one wavelength alone has a mean square of 4, four rotations
-    /// always hit it once, and of eight two do.
+    /// Light in a quarter of the range, of uniform density: a single wavelength has a mean square of 4, four rotations always hit it once, and eight hit it
+    /// twice.
     #[test]
     fn rotations_hit_a_quarter_of_the_range_once() {
         let even = WavelengthDensity::new(&[1.0], 400.0, 800.0).expect("a weight");

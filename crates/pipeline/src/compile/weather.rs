@@ -1,4 +1,4 @@
-//! Weather over stored radiance: from its record.
+//! Compiles weather over stored radiance from its record.
 
 use super::context::Context;
 use super::{medium, precipitation, spectrum};
@@ -10,10 +10,10 @@ use etendue_scene::record::weather::{self as record, Fog};
 use etendue_spectra::Spectrum;
 use etendue_tracer::media::{Medium, Phase};
 
-/// Up to which height the sky is averaged where nothing is said, degrees.
+/// Default elevation up to which the sky is averaged, degrees.
 const SKY_DEG: f64 = 10.0;
 
-/// What is laid over stored radiance.
+/// Weather to apply to stored radiance.
 ///
 /// # Errors
 /// All contradictions, with their places.
@@ -38,7 +38,7 @@ fn airlight(record: &record::Airlight, context: &mut Context<'_>) -> Option<Airl
     }
 }
 
-/// Only its extinction counts: albedo and phase function are any.
+/// Only the extinction of fog is used: albedo and phase function are arbitrary.
 fn fog(record: &Fog, context: &mut Context<'_>) -> Option<Medium> {
     let extinction = medium::extinction(&record.extinction, context)?;
     let to_world = Motion::still(record.transform.to_world());

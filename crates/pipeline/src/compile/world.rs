@@ -20,11 +20,10 @@ use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// What a material reflects whose library does not exist: the grey of a surface that nobody described.
+/// Reflectance of a material whose library does not exist: a neutral grey.
 const MISSING_GREY: f64 = 0.5;
 
-/// The world with the openings of lamps, the identities that its ground truth names, in the order of the instance ids from 1, and
-/// the lamps of the openings.
+/// World with the openings of lamps, the identities of its ground truth in the order of the instance ids from 1, and the lamps of the openings.
 pub(super) fn world(
     description: &Description,
     open_lamps: Vec<OpenLamp>,
@@ -51,7 +50,7 @@ pub(super) fn world(
     Some((context.accept(&place, built)?, identities, lamps))
 }
 
-/// All cameras see one world: the best of what they ask for.
+/// Highest requested quality: all cameras share one world.
 fn tree_quality(cameras: &[CameraSetup]) -> Accelerator {
     let asked = |camera: &CameraSetup| camera.render.accelerator.as_ref().map_or(Accelerator::Default, |key| key.value);
     cameras.iter().map(asked).max().unwrap_or_default()
@@ -63,13 +62,13 @@ struct Assembly {
     identities: Vec<Identity>,
 }
 
-/// What an object's instances share.
+/// Data shared by an object's instances.
 struct Prototype {
     shape: Shape,
     materials: Vec<MaterialId>,
-    /// From the shape's own frame to the object's.
+    /// Transform from the shape's own frame to the object's.
     to_object: DAffine3,
-    /// The rotation from the object's axes to the shape's.
+    /// Rotation from the object's axes to the shape's.
     axes: DMat3,
 }
 
@@ -140,7 +139,7 @@ impl Assembly {
         }
     }
 
-    /// Materials whose light is stated as a flux give it by the area that they have on this instance.
+    /// Replaces materials with a stated flux by variants for their area on this instance.
     fn share_flux(
         &self,
         instance: &mut Instance,
@@ -151,7 +150,7 @@ impl Assembly {
         let shared: Vec<_> = instance.materials.iter().copied().filter(|id| material_table.gives_flux(*id)).collect();
         for id in shared {
             match self.builder.area_m2(instance, id) {
-                // None of its surfaces has the material, or another slot of the same has been served.
+                // None of its surfaces has the material, or another slot with the same material was processed.
                 Some(0.0) => {}
                 Some(area_m2) => {
                     let like = material_table.of_area(id, area_m2);
@@ -230,7 +229,7 @@ impl Assembly {
     }
 }
 
-/// The light of an object's place goes up and down later by what that place says.
+/// Delays the modulated light of an object's instance as it states.
 fn delay_light(
     instance: &mut Instance,
     object: &Object,
@@ -266,7 +265,7 @@ fn class_of(object: &Object, scene: &Scene) -> u32 {
     object.class.as_ref().and_then(|class| number(&class.value)).unwrap_or(0)
 }
 
-/// The material of each slot: the object's, the one it names for the slot, or what the mesh's own file says.
+/// Material of each slot: the object's, the one that it names for the slot, or that of the mesh's own file.
 fn slot_materials(
     object: &Object,
     mesh: &record::Mesh,
@@ -299,13 +298,13 @@ fn slot_materials(
         .collect()
 }
 
-/// In the place of a material of a picture that no triangle has, and that is not read: black.
+/// Black placeholder for a material of an image that no triangle has and that is not read.
 fn unseen(slot: &SlotMaterial) -> SlotMaterial {
     let reflectance = SlotReflectance::LinearSrgb([0.0; 3]);
     SlotMaterial { name: slot.name.clone(), surface: Some(SlotSurface::Diffuse { reflectance }) }
 }
 
-/// A slot, or grey in its place where the library that would say what it is does not exist.
+/// A slot, or a grey placeholder if the library that defines it does not exist.
 fn known<'a>(
     slot: &'a SlotMaterial,
     mesh: &record::Mesh,
@@ -322,7 +321,7 @@ fn known<'a>(
     Cow::Owned(SlotMaterial { name: slot.name.clone(), surface: Some(SlotSurface::Diffuse { reflectance }) })
 }
 
-/// A texture on a mesh without texture coordinates would show one texel everywhere.
+/// Refuses a texture on a mesh without texture coordinates: it would show one texel everywhere.
 fn check_coordinates(
     mesh: &record::Mesh,
     asset: &MeshAsset,

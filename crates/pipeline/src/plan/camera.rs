@@ -17,51 +17,52 @@ use etendue_sensor::Sensor;
 pub struct CameraPlan {
     /// Its name, part of file names.
     pub name: String,
-    /// Its place in the job, part of the random addresses of its noise.
+    /// Index of the camera in the job, part of the random addresses of its noise.
     pub index: u32,
-    /// Whose light it sees: its own, or that of the first camera of the job whose light is equal.
+    /// Owner of its light: the camera itself, or the first camera of the job with equal light.
     pub light: LightOwner,
-    /// Where it stands, at every time.
+    /// Pose of the camera over time.
     pub path: CameraPath,
-    /// The frame that carries it, and where it is fixed there.
+    /// Frame that carries the camera, and its pose there.
     pub mount: Mount,
-    /// When its frames and rows are exposed.
+    /// Exposure times of its frames and rows.
     pub timing: Timing,
-    /// Whether its light depends on that.
+    /// Dependence of its light on time.
     pub time: TimeDependence,
-    /// Everything behind the scene.
+    /// Lens, sensor and processing.
     pub body: CameraBody,
-    /// How its light is found.
+    /// Render settings.
     pub settings: Settings,
-    /// The passes that its samples come in; `None`: all in one.
+    /// Passes of its samples; `None`: a single pass.
     pub passes: Option<Passes>,
-    /// How things out of focus are blurred at the pupil; none through the lens, whose rays do it.
+    /// Method of blurring objects out of focus, for the pupil route; none through the lens, whose rays model it.
     pub depth_of_field: DepthOfField,
-    /// What it delivers.
+    /// Products that it delivers.
     pub products: Products,
 }
 
 impl CameraPlan {
-    /// In how many passes its samples come.
+    /// Number of passes of its samples.
     #[must_use]
     pub fn pass_count(&self) -> usize {
         self.passes.as_ref().map_or(1, |passes| passes.list().len())
     }
 
-    /// One of these.
+    /// Pass of a given index.
     #[must_use]
     pub fn pass(&self, number: usize) -> PassAt {
         self.passes.as_ref().map_or(PassAt::only(self.settings.spp), |passes| passes.at(number))
     }
 
-    /// Where this camera and another are fixed in the frame that carries both; `None` where none does, so that they may come apart.
+    /// Poses of this camera and another in the frame that carries both rigidly; `None` if there is none, so that they may move apart.
     #[must_use]
     pub fn fixed_pair(&self, other: &Self) -> Option<[CameraPose; 2]> {
         let fixed = self.mount.pose.zip(other.mount.pose).filter(|_| self.mount.frame == other.mount.frame);
         fixed.map(|(own, others)| [own, others])
     }
 
-    /// The times, s, at which two cameras that nothing joins are compared: the middle of the first row's exposure in frame 0, and all their keys and half-way between.
+    /// Times, s, at which two independently moving cameras are compared: the middle of the first row's exposure in frame 0, and all their keys and the times
+    /// half-way between.
     #[must_use]
     pub fn times_beside_s(&self, other: &Self) -> Vec<f64> {
         let mut keys_s = self.path.key_times_s();
@@ -72,26 +73,26 @@ impl CameraPlan {
         [first_s].into_iter().chain(between_s).chain(keys_s.iter().copied()).collect()
     }
 
-    /// Whether each ray through the lens, or its weight, depends on its wavelength, so that a path carries one.
+    /// Returns true if the rays through the lens, or their weights, depend on wavelength, so that a path carries a single one.
     #[must_use]
     pub fn disperses(&self) -> bool {
         self.settings.route == Route::Lens && self.body.disperses()
     }
 
-    /// Whether no camera before it in the job has the same light.
+    /// Returns true if no earlier camera of the job has the same light.
     #[must_use]
     pub fn owns_light(&self) -> bool {
         self.light.index == self.index
     }
 
-    /// The sensor whose electrons its light is summed into, or watched for their noise.
+    /// Sensor for which the film accumulates electrons, or monitors their noise.
     #[must_use]
     pub fn summing_sensor(&self) -> Option<&Sensor> {
         let Settings { folded, adaptive, route, .. } = &self.settings;
         self.body.sensor.as_ref().filter(|_| *folded || adaptive.is_some() && *route == Route::Lens)
     }
 
-    /// Columns and rows of the film: of the picture with its margin, or of the stored radiance.
+    /// Columns and rows of the film: of the image with its margin, or of the stored radiance.
     #[must_use]
     pub fn film_size(&self) -> (u32, u32) {
         match &self.settings.route {
@@ -107,7 +108,7 @@ impl CameraPlan {
         Layout { bands, folded, watched: adaptive.is_some() }
     }
 
-    /// Returns over what the wavelengths of its samples are spread.
+    /// Returns the scheme that spreads the wavelengths of its samples.
     #[must_use]
     pub fn spectrum_spread(&self) -> SpectrumSpread {
         match (self.settings.bands, self.products.variance) {
@@ -118,7 +119,7 @@ impl CameraPlan {
         }
     }
 
-    /// Returns its tolerance; `None` unless noise decides its samples.
+    /// Returns its tolerance; `None` unless sampling is noise-limited.
     #[must_use]
     pub fn tolerance(&self) -> Option<Tolerance> {
         let limit = self.settings.adaptive?;
@@ -130,8 +131,8 @@ impl CameraPlan {
         Some(Tolerance::new(limit, noise))
     }
 
-    /// Whether nothing but a pixel's own number shows how bright it is beyond white: no effect spreads its light, no charge flows over, and
-    /// no spectrum is kept.
+    /// Returns true if light beyond white affects only the pixel's own number: no effect spreads it, no charge overflows to neighbours, and no spectrum is
+    /// stored.
     fn light_stays(&self, sensor: &Sensor) -> bool {
         self.body.effects.is_idle() && self.settings.bands.is_none() && !sensor.spills()
     }
@@ -140,18 +141,18 @@ impl CameraPlan {
 /// The frame that carries a camera, and its pose there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mount {
-    /// The frame of the scene; `None` is the world.
+    /// Frame of the scene; `None` is the world.
     pub frame: Option<String>,
-    /// From the camera frame (x right, y down, z forward; origin at the centre of the entrance pupil) to that frame, m; `None` where the
-    /// camera moves in it.
+    /// Transform from the camera frame (x right, y down, z forward; origin at the centre of the entrance pupil) to that frame, m; `None` if the camera moves
+    /// in it.
     pub pose: Option<CameraPose>,
 }
 
-/// The camera that a film is rendered for; others of equal light use it too.
+/// Camera for which a film is rendered; others of equal light share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LightOwner {
     /// Its name.
     pub camera: String,
-    /// Its place in the job, part of the random addresses of the light.
+    /// Index of the camera in the job, part of the random addresses of the light.
     pub index: u32,
 }

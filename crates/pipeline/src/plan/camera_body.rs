@@ -1,4 +1,4 @@
-//! A camera wherever it stands: its lens, sensor and processing, and the pixels around its picture that they need.
+//! A camera without its pose: lens, sensor and processing, and the margin of pixels around its image that they need.
 
 use super::products::{Development, PictureFormat};
 use super::row_exposure::RowExposure;
@@ -8,51 +8,50 @@ use etendue_scene::Place;
 use etendue_sensor::Sensor;
 use glam::DVec2;
 
-/// Distance of the nearest thing whose blur is followed from wholly outside of the picture, m.
+/// Distance of the nearest object whose blur from outside the image is included, m.
 const NEAREST_M: f64 = 1.0;
-/// The maximum margin, as a part of the picture's longer side.
+/// Maximum margin, as a fraction of the longer side of the image.
 const MAX_MARGIN: f64 = 0.25;
 
-/// A camera wherever it stands: lens, effects, sensor, processing.
+/// A camera without its pose: lens, effects, sensor, processing.
 #[derive(Clone, Debug)]
 pub struct CameraBody {
-    /// Where the description says how large the picture is.
+    /// Place in the description that states the image size.
     pub place: Place,
     /// The pixel grid.
     pub raster: Raster,
-    /// Number of pixels of the described sensor in a row and in a column of one pixel: 4 for the scale 1/4.
+    /// Number of pixels of the described sensor along each side of one pixel: 4 for the scale 1/4.
     pub scale: u64,
     /// The lens.
     pub lens: Lens,
-    /// What stands in front of it; `None` where nothing does.
+    /// Optics in front of the lens; `None` without any.
     pub front: Option<Front>,
-    /// What becomes of the irradiance behind the lens.
+    /// Effects on the irradiance behind the lens.
     pub effects: Effects,
     /// Side of the photosensitive area, in pixels.
     pub aperture_px: f64,
-    /// When its rows are exposed.
+    /// Exposure times of its rows.
     pub exposure: RowExposure,
-    /// The electronics; `None` where no electrons are wanted.
+    /// Electronics; `None` if no electrons are requested.
     pub sensor: Option<Sensor>,
-    /// How raw becomes a picture; `None` where none is wanted.
+    /// Processing from raw to image; `None` if no image is requested.
     pub development: Option<Development>,
 }
 
 impl CameraBody {
-    /// How its pictures are written.
+    /// File format of its images.
     #[must_use]
     pub fn picture_format(&self) -> PictureFormat {
         self.development.as_ref().map_or(PictureFormat::Png { bits: 8 }, |development| development.format)
     }
 
-    /// The pixels that are rendered: the picture's, and those beyond it that the effects need.
+    /// Raster that is rendered: the image, and the pixels around it that the effects need.
     #[must_use]
     pub fn film(&self) -> Raster {
         self.effects.film(&self.raster)
     }
 
-    /// The ray by which ground truth looks from a point of the picture (px), and whether it is off the pupil's centre;
-    /// `None` where no light comes.
+    /// Ray of the ground truth from an image point (px), and whether its origin is off the pupil's centre; `None` where no light arrives.
     #[must_use]
     pub fn truth_ray(&self, raster_px: DVec2) -> Option<(FrontRay, bool)> {
         let sensor_mm = self.raster.sensor_mm(raster_px);
@@ -62,14 +61,14 @@ impl CameraBody {
         }
     }
 
-    /// Whether a ray or its weight depends on the wavelength.
+    /// Returns true if a ray or its weight depends on wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         self.lens.disperses() || self.front.as_ref().is_some_and(Front::disperses)
     }
 
-    /// Whether some pixels look sideways, back or at a mirror, where depth along the axis means nothing: of a grid over the picture, its
-    /// edges included.
+    /// Returns true if some pixels look sideways, backwards or at a mirror, where depth along the axis is undefined. Tests a grid over the image, including
+    /// its edges.
     pub(crate) fn depth_has_gaps(&self) -> bool {
         const STEPS: usize = 16;
         let at = |i: usize, size: usize| (i * (size - 1)) as f64 / STEPS as f64 + 0.5;
@@ -80,7 +79,7 @@ impl CameraBody {
         rays.any(|front| !has_planar_depth(&front))
     }
 
-    /// Refuses what cannot be put on a stored radiance image: what bends rays in front of the lens.
+    /// Refuses optics in front of the lens that bend rays: they cannot be applied to a stored radiance image.
     pub(crate) fn check_front_on_picture(&self) -> Result<(), OpticsError> {
         match self.front.as_ref().and_then(|front| front.optic()) {
             None => Ok(()),
@@ -88,15 +87,14 @@ impl CameraBody {
         }
     }
 
-    /// Returns the pixels around the picture that its depth of field needs: as far as things at 1 m and farther blur, and a quarter of the
-    /// picture's longer side at most.
+    /// Returns the margin around the image for depth of field, px: the blur of objects at 1 m and farther, limited to a quarter of the image's longer side.
     #[must_use]
     pub fn blur_margin_px(&self, depth_of_field: &DepthOfField) -> usize {
         self.blur_reach_px(depth_of_field).min(self.max_blur_margin_px())
     }
 
-    /// Returns how far things at 1 m and farther blur, and the margin that is kept, px, where that is less: light from beyond it counts as the mean of
-    /// what is within.
+    /// Returns the blur of objects at 1 m and farther, and the margin, px, if the margin is smaller: light from beyond it counts as the mean of the light
+    /// within.
     #[must_use]
     pub fn short_blur_margin_px(&self, depth_of_field: &DepthOfField) -> Option<[usize; 2]> {
         let [reach, most] = [self.blur_reach_px(depth_of_field), self.max_blur_margin_px()];
@@ -111,14 +109,14 @@ impl CameraBody {
         (MAX_MARGIN * self.raster.width().max(self.raster.height()) as f64) as usize
     }
 
-    /// Returns the pixels around the picture, columns and rows: those of the effects behind the lens, and `blur_margin_px` for depth of field.
+    /// Returns the margin around the image, columns and rows: that of the effects behind the lens, plus `blur_margin_px` for depth of field.
     #[must_use]
     pub fn whole_margin_px(&self, blur_margin_px: usize) -> [usize; 2] {
         self.effects.margin_px().map(|of_effects| of_effects + blur_margin_px)
     }
 }
 
-/// Whether the depth of what a ray meets is one along the camera's axis.
+/// Returns true if the depth of a hit is measured along the camera's axis.
 pub(crate) fn has_planar_depth(front: &FrontRay) -> bool {
     front.ray.direction.z > 0.0 && front.mirror_m.is_none()
 }

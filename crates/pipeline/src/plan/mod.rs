@@ -1,4 +1,4 @@
-//! The plan: everything that a rendering needs, resolved and checked. Immutable.
+//! The plan: all data of a render, resolved and checked. Immutable.
 
 mod camera;
 pub(crate) mod camera_body;
@@ -42,68 +42,68 @@ pub use timing::{Jitter, TimeDependence, Timing};
 pub use wavelength_sampling::{SpectralGain, WavelengthSampling};
 pub use weather::{Airlight, Falling, Precipitation, Weather};
 
-/// What a rendering does, for all cameras of a job.
+/// Data of a render, for all cameras of a job.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Meshes and instances.
     pub world: Arc<World>,
     /// Materials and textures.
     pub material_table: Arc<MaterialTable>,
-    /// What shines but is no surface.
+    /// Light sources that are not surfaces.
     pub sources: Sources,
-    /// The spectra of all light.
+    /// Spectra of all light sources.
     pub source_spectra: SourceSpectra,
-    /// What scatters light between surfaces.
+    /// Participating media.
     pub media: Vec<Medium>,
-    /// Rain or snow, whose medium is one of these.
+    /// Rain or snow; its medium is one of `media`.
     pub precipitation: Option<Precipitation>,
-    /// What is said of the sky, where the surroundings are one.
+    /// Facts of the sky, if the surroundings are one.
     pub sky: Option<SkyFacts>,
     /// The cameras.
     pub cameras: Vec<CameraPlan>,
-    /// What the instance ids of the ground truth stand for, from id 1.
+    /// Meaning of the instance ids in the ground truth, from id 1.
     pub identities: Vec<Identity>,
-    /// Names of the materials; the ground truth's material id is the place in this list, from 1.
+    /// Names of the materials; a material id in the ground truth is the position in this list, from 1.
     pub materials: Vec<String>,
     /// Semantic classes: name and id.
     pub classes: Vec<(String, u32)>,
-    /// What was read and not used, what was dropped, where tables end.
+    /// Notes and warnings: inputs that were read but not used, values that were dropped, ends of tables.
     pub remarks: Vec<Remark>,
-    /// Which keys of the files the command line makes meaningless, in sentences.
+    /// Keys of the files that the command line overrides, as sentences.
     pub notices: Vec<String>,
-    /// How much memory the bands of a film may take; `None`: any.
+    /// Memory limit of film bands; `None`: unlimited.
     pub film_limit: Option<FilmLimit>,
-    /// Hash of all that decides the result: description, assets by content, version.
+    /// Hash of everything that determines the result: description, assets by content, version.
     pub hash: [u8; 32],
-    /// The same without the passes of cameras that have some.
+    /// The same hash without the passes of cameras that have any.
     pub(crate) described: [u8; 32],
-    /// The replicates and passes of all cameras of the job, those included that are not rendered.
+    /// Replicates and passes of all cameras of the job, including those that are not rendered.
     pub(crate) passes: Vec<CameraPasses>,
 }
 
-/// A clear sky in figures, for people.
+/// Parameters of a clear sky, for reports.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyFacts {
     /// Turbidity.
     pub turbidity: f64,
-    /// Height of the sun's centre, degrees.
+    /// Elevation of the sun's centre, degrees.
     pub sun_elevation_deg: f64,
     /// Azimuth of the sun's centre from +x towards +y, degrees.
     pub sun_azimuth_deg: f64,
-    /// Illuminance of level ground by the sky, lx.
+    /// Illuminance of horizontal ground by the sky, lx.
     pub sky_lx: f64,
-    /// Illuminance of level ground by the sky's own sun, lx; 0 where it is left out or down.
+    /// Illuminance of horizontal ground by the sky's sun, lx; 0 if the sun is disabled or below the horizon.
     pub sun_lx: f64,
 }
 
-/// What an instance id stands for.
+/// Meaning of an instance id.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Identity {
     /// The instance's name.
     pub name: String,
     /// Its semantic class.
     pub class: Option<String>,
-    /// The rotation from the object's axes (x forward, y left, z up) to those of its shape: of a mesh those of its file.
+    /// Rotation from the object's axes (x forward, y left, z up) to those of its shape; for a mesh those of its file.
     #[serde(skip_serializing_if = "is_identity")]
     pub axes: DMat3,
 }
@@ -113,25 +113,25 @@ fn is_identity(axes: &DMat3) -> bool {
 }
 
 impl Plan {
-    /// The object of an identity in the ground truth; `None` of 0, the background.
+    /// Object of an id in the ground truth; `None` for 0, the background.
     #[must_use]
     pub fn identity(&self, id: u32) -> Option<&Identity> {
         self.identities.get((id as usize).checked_sub(1)?)
     }
 
-    /// The camera of a name.
+    /// Finds a camera by name.
     #[must_use]
     pub fn camera(&self, name: &str) -> Option<&CameraPlan> {
         self.cameras.iter().find(|camera| camera.name == name)
     }
 
-    /// Whether the strength of any light changes over time.
+    /// Returns true if the strength of any light varies over time.
     #[must_use]
     pub fn is_modulated(&self) -> bool {
         self.sources.is_modulated() || self.material_table.is_modulated()
     }
 
-    /// The same with these passes of all cameras, where a time decides them; in `replicates` replicates, where the command line does not say how many.
+    /// Returns the plan with these passes for all cameras, for a run of a given time; with `replicates` replicates unless the command line states them.
     #[must_use]
     pub fn with_passes(&self, passes: &Passes, replicates: Option<u32>) -> Self {
         let mut plan = self.clone();
@@ -148,7 +148,7 @@ impl Plan {
         plan
     }
 
-    /// The cameras by their light, each group in the order of the job: one film serves a group.
+    /// Cameras grouped by light, each group in the order of the job: one film serves a group.
     #[must_use]
     pub fn by_light(&self) -> Vec<Vec<&CameraPlan>> {
         let mut groups: Vec<Vec<&CameraPlan>> = Vec::new();
@@ -161,7 +161,7 @@ impl Plan {
         groups
     }
 
-    /// Where the bands of a camera's film are kept that do not fit into memory; `None` where they do, and where no limit is set.
+    /// Storage of the bands of a camera's film that exceed memory; `None` if they do not, or without a limit.
     #[must_use]
     pub fn scratch(&self, camera: &CameraPlan) -> Option<&Arc<dyn ScratchStore>> {
         let limit = self.film_limit.as_ref()?;
@@ -175,14 +175,14 @@ impl Plan {
         self.passes.iter().map(|camera| camera.replicates)
     }
 
-    /// The replicates that all cameras of the job have, where the command line does not say how many: a time may allow fewer.
+    /// Replicates common to all cameras of the job, if the command line does not state them: a given time may allow fewer.
     #[must_use]
     pub fn open_replicates(&self) -> Option<u32> {
         let first = self.passes.first()?.replicates;
         self.passes.iter().all(|camera| camera.is_open && camera.replicates == first).then_some(first)
     }
 
-    /// The hash in hexadecimal.
+    /// Hash in hexadecimal.
     #[must_use]
     pub fn hash_text(&self) -> String {
         self.hash.iter().map(|byte| format!("{byte:02x}")).collect()

@@ -1,37 +1,35 @@
-//! The passes whose weighted mean is a camera's light.
+//! Passes, whose weighted mean is a camera's light.
 //!
-//! A pass is a rendering by itself: its replicates have numbers of their own (those of pass p are R·p … R·p + R − 1), so that
-//! passes are independent, each stratified by itself. A pass of part of the pixels takes those whose place in a sequence that is even over the
-//! plane (R2, by the powers of 1/ρ, ρ³ = ρ + 1; M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018) falls in
-//! the part; the next such pass goes on where it ended.
+//! A pass is an independent render: its replicates have their own numbers (those of pass p are R·p … R·p + R − 1), so that passes are independent, each
+//! stratified by itself. A pass over part of the pixels takes those whose position in a low-discrepancy sequence over the plane falls in the part (R2, with
+//! the powers of 1/ρ, ρ³ = ρ + 1; M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018). The next such pass continues where it ended.
 
 use etendue_core::random::Pixel;
 use sha2::{Digest, Sha256};
 
-/// Parts of the pixels are counted in these: 256ths.
+/// Unit in which parts of the pixels are counted: 256ths.
 pub const PARTS: u32 = 256;
 
-/// The most passes of a film.
+/// Maximum number of passes of a film.
 pub const MAX_PASSES: usize = 64;
 
-/// A pass: so many samples of all pixels, or of some.
+/// A pass: a number of samples of all pixels, or of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pass {
-    /// Samples of each pixel that it takes, over all replicates.
+    /// Samples of each of its pixels, over all replicates.
     pub samples: u32,
-    /// How many 256ths of the pixels it takes.
+    /// Part of the pixels, in 256ths.
     pub part: u32,
 }
 
 impl Pass {
-    /// Of all pixels.
+    /// A pass over all pixels.
     #[must_use]
     pub fn whole(samples: u32) -> Self {
         Self { samples, part: PARTS }
     }
 
-    /// From its number in a list of passes: samples a pixel, a multiple of `replicates` or, on average, fewer than these. `None` where it
-    /// is neither.
+    /// Converts an entry of a list of passes: samples per pixel, a multiple of `replicates` or, on average, fewer than these. `None` if it is neither.
     #[must_use]
     pub fn of_number(number: f64, replicates: u32) -> Option<Self> {
         let most = f64::from(replicates);
@@ -43,32 +41,32 @@ impl Pass {
         is_multiple.then(|| Self::whole(number as u32))
     }
 
-    /// Its number in a list of passes.
+    /// Entry in a list of passes.
     #[must_use]
     pub fn number(self) -> f64 {
         f64::from(self.samples) * f64::from(self.part) / f64::from(PARTS)
     }
 
-    /// Whether it takes all pixels.
+    /// Returns true if it takes all pixels.
     #[must_use]
     pub fn is_whole(self) -> bool {
         self.part == PARTS
     }
 }
 
-/// The passes of a film, in their order.
+/// Passes of a film, in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Passes(Vec<Pass>);
 
 impl Passes {
-    /// These.
+    /// Passes in this order.
     #[must_use]
     pub fn new(list: Vec<Pass>) -> Self {
         Self(list)
     }
 
-    /// Passes that refine a picture of `spp` samples: two samples of each replicate, then as many as there are so far, until the rest,
-    /// which is not less than half of that.
+    /// Passes that refine an image of `spp` samples: two samples of each replicate, then as many as all so far, up to the remainder, which is at least half
+    /// of that.
     #[must_use]
     pub fn doubling(spp: u32, replicates: u32) -> Self {
         let (mut list, mut done) = (Vec::new(), 0);
@@ -82,30 +80,30 @@ impl Passes {
         Self(list)
     }
 
-    /// Each of them.
+    /// The passes as a slice.
     #[must_use]
     pub fn list(&self) -> &[Pass] {
         &self.0
     }
 
-    /// Adds one.
+    /// Appends a pass.
     pub fn push(&mut self, pass: Pass) {
         self.0.push(pass);
     }
 
-    /// Samples that every pixel gets at least.
+    /// Minimum samples of a pixel.
     #[must_use]
     pub fn spp(&self) -> u32 {
         self.0.iter().filter(|pass| pass.is_whole()).map(|pass| pass.samples).sum()
     }
 
-    /// Mean samples of a pixel.
+    /// Mean samples per pixel.
     #[must_use]
     pub fn mean_spp(&self) -> f64 {
         self.0.iter().map(|pass| pass.number()).sum()
     }
 
-    /// A pass and what is before it.
+    /// Pass of a given index, with the passes before it.
     #[must_use]
     pub fn at(&self, number: usize) -> PassAt {
         let before = &self.0[..number];
@@ -118,14 +116,14 @@ impl Passes {
         }
     }
 
-    /// As a list in TOML.
+    /// The list in TOML.
     #[must_use]
     pub fn text(&self) -> String {
         let numbers: Vec<String> = self.0.iter().map(|pass| pass.number().to_string()).collect();
         format!("[{}]", numbers.join(", "))
     }
 
-    /// The passes of [`Passes::text`]; `None` where it is not that of passes.
+    /// Parses the text of [`Passes::text`]; `None` if it is no valid list of passes.
     #[must_use]
     pub fn of_text(text: &str, replicates: u32) -> Option<Self> {
         let numbers = text.strip_prefix('[')?.strip_suffix(']')?;
@@ -137,18 +135,18 @@ impl Passes {
     }
 }
 
-/// How the samples of a camera of a job come.
+/// Passes of the samples of a camera of a job.
 #[derive(Clone, Debug)]
 pub(crate) struct CameraPasses {
     /// Replicates of each pass.
     pub(crate) replicates: u32,
-    /// Whether the command line does not say how many.
+    /// True if the command line does not state the replicates.
     pub(crate) is_open: bool,
-    /// Its passes; `None`: all samples in one.
+    /// Passes; `None`: all samples in one.
     pub(crate) passes: Option<Passes>,
 }
 
-/// The hash of a plan whose description, without what decides the samples of cameras that have passes, has the hash `described`.
+/// Hash of a plan from `described`, the hash without the sample settings of cameras that have passes.
 pub(crate) fn hash_with_passes(described: &[u8; 32], cameras: &[CameraPasses]) -> [u8; 32] {
     if cameras.iter().all(|camera| camera.passes.is_none()) {
         return *described;
@@ -169,33 +167,33 @@ pub(crate) fn hash_with_passes(described: &[u8; 32], cameras: &[CameraPasses]) -
     hash.finalize().into()
 }
 
-/// A pass in its place among the others.
+/// A pass at its position among the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PassAt {
     /// The pass.
     pub pass: Pass,
-    /// How many are before it.
+    /// Number of passes before it.
     pub number: u32,
-    /// Samples that every pixel has before it.
+    /// Samples of every pixel before it.
     pub before_spp: u32,
-    /// Where its part of the pixels begins, in 256ths.
+    /// Start of its part of the pixels, in 256ths.
     pub first_part: u32,
 }
 
 impl PassAt {
-    /// The only one.
+    /// A single pass.
     #[must_use]
     pub fn only(samples: u32) -> Self {
         Self { pass: Pass::whole(samples), number: 0, before_spp: 0, first_part: 0 }
     }
 
-    /// Whether it takes the block of pixels whose first this is.
+    /// Returns true if it takes the block of pixels that starts with `first`.
     #[must_use]
     pub fn takes(self, first: Pixel) -> bool {
         if self.pass.is_whole() {
             return true;
         }
-        // The fractional parts of 1/ρ and 1/ρ², in 2³²nds.
+        // The fractional parts of 1/ρ and 1/ρ², in units of 2⁻³².
         let place = first.x.wrapping_mul(3_242_174_889).wrapping_add(first.y.wrapping_mul(2_447_445_414));
         let part = place >> 24;
         (part + PARTS - self.first_part) % PARTS < self.pass.part
@@ -236,7 +234,7 @@ mod tests {
         assert!([6.0, 4.5].iter().all(|n| Pass::of_number(*n, 4).is_none()));
     }
 
-    /// Each pixel is in one of three parts that make the whole, and every square of 16 × 16 has its share.
+    /// Each pixel is in exactly one of three parts that cover the whole, and every square of 16 × 16 has its proportion.
     #[test]
     fn parts_follow_one_another_and_are_even() {
         let part = |part| Pass { samples: 4, part };
@@ -247,7 +245,7 @@ mod tests {
             assert!(square().all(|(x, y)| (1..4).filter(|number| taken(*number, x, y)).count() == 1));
             for (number, share) in [(1, 100), (2, 56)] {
                 let count = square().filter(|(x, y)| taken(number, *x, *y)).count();
-                // The star discrepancy of 256 points of such a sequence is some hundredths.
+                // The star discrepancy of 256 points of such a sequence is a few hundredths.
                 assert!(count.abs_diff(share) <= 8, "{count} of {share}");
             }
         }

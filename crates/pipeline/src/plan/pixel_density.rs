@@ -1,47 +1,46 @@
-//! The density by which a pixel that sums electrons draws its wavelengths.
+//! Probability density of the wavelengths of a pixel that accumulates electrons.
 //!
-//! - [`WavelengthSampling::Response`]: p₀ = u U + (1 − u) R/∫R, the responsivity R in steps of 5 nm and the uniform density U; u is 5 % where
-//!   only electrons are summed, 50 % where a spectral cube is kept too.
-//! - [`WavelengthSampling::ResponseAndSource`]: the part that follows R is shared, ε of it as before and 1 − ε to
-//!   Σ w_k R S_k/∫R S_k in steps of 1 nm, over the groups k of the light's sources (`SourceSpectra::lit`); where only electrons are summed, ε
-//!   of the uniform part stays.
+//! - [`WavelengthSampling::Response`]: p₀ = u U + (1 − u) R/∫R, the responsivity R in steps of 5 nm and the uniform density U; u is 5 % if
+//!   only electrons are accumulated, 50 % if a spectral cube is stored too.
+//! - [`WavelengthSampling::ResponseAndSource`]: the part that follows R is divided, ε of it as before and 1 − ε to
+//!   Σ w_k R S_k/∫R S_k in steps of 1 nm, over the groups k of the light's sources (`SourceSpectra::lit`); if only electrons are accumulated, ε
+//!   of the uniform part remains.
 //!
-//! p ≥ ε p₀ everywhere, so that for any light f = R L the mean square of a sample, ∫f²/p, is at most 1/ε of that by the response alone:
-//! what reflects the light, and how, need not be known. A pixel lit by the group k alone has ∫f²/p ≤ 1/((1 − ε) w_k) times the squared mean (surfaces
-//! that reflect evenly; twice 1 − u of it where bands are kept).
+//! p ≥ ε p₀ everywhere, so that for any light f = R L the mean square of a sample, ∫f²/p, is at most 1/ε of that with the response alone:
+//! the reflections of the light need not be known. A pixel lit by the group k alone has ∫f²/p ≤ 1/((1 − ε) w_k) times the squared mean (for surfaces
+//! of uniform reflectance; 1/(1 − u) times that if bands are stored).
 
 use crate::plan::{SourceSpectra, WavelengthSampling};
 use etendue_core::{WavelengthDensity, WavelengthRange};
 use etendue_spectra::Spectrum;
 
-/// Width of the response's steps, nm, at most.
+/// Maximum width of the response's steps, nm.
 const STEP_NM: f64 = 5.0;
 /// Steps of the source's spectrum in one of the response's: the grid of spectra.
 const FINE_STEPS: usize = 5;
-/// Share of the uniform density where only electrons are summed: it guards against a step whose mean is far below its
-/// peak.
+/// Fraction of the uniform density if only electrons are accumulated: guards against a step whose mean is far below its peak.
 const UNIFORM_SHARE: f64 = 0.05;
-/// The same where spectral bands are kept too.
+/// Fraction of the uniform density if spectral bands are stored too.
 pub(crate) const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
-/// ε: share of the density by the response alone where the source's spectrum is in the density.
+/// ε: fraction of the density by the response alone, if the density includes the source's spectrum.
 pub(crate) const DEFENSIVE_SHARE: f64 = 0.2;
 
-/// How the wavelengths of a camera's pixels are drawn.
+/// Wavelength sampling of a camera's pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelDensity<'a> {
-    /// By what.
+    /// Method.
     pub sampling: WavelengthSampling,
     /// The light's sources.
     pub sources: &'a SourceSpectra,
-    /// Shortest and longest wavelength, nm.
+    /// Range of wavelengths, nm.
     pub range: WavelengthRange,
-    /// Whether a spectral cube is kept beside electrons.
+    /// True if a spectral cube is stored in addition to electrons.
     pub keeps_bands: bool,
 }
 
 impl PixelDensity<'_> {
-    /// The density for a pixel of a responsivity. One that gets nothing from any source draws by its response; one that responds to nothing,
-    /// evenly.
+    /// Density for a pixel of a given responsivity. A pixel that receives nothing from any source samples by its response; one that responds to nothing
+    /// samples uniformly.
     #[must_use]
     pub fn of(&self, responsivity: &Spectrum) -> WavelengthDensity {
         let weights = match self.sampling {
@@ -65,7 +64,7 @@ impl PixelDensity<'_> {
         (self.range.width_nm() / STEP_NM).ceil().max(1.0) as usize
     }
 
-    /// Weights of the response's steps, 1 in the mean.
+    /// Weights of the response's steps, with mean 1.
     fn by_response(&self, responsivity: &Spectrum) -> Vec<f64> {
         let uniform_share = self.uniform_share();
         match Means::of(responsivity, self.range, self.steps()) {
@@ -76,7 +75,7 @@ impl PixelDensity<'_> {
         }
     }
 
-    /// Weights of the fine steps, 1 in the mean; `None` where no source gives the pixel anything.
+    /// Weights of the fine steps, with mean 1; `None` if the pixel receives nothing from any source.
     fn by_source(&self, responsivity: &Spectrum) -> Option<Vec<f64>> {
         let lit = self.sources.lit(responsivity, self.range);
         let response = Means::of(responsivity, self.range, self.steps()).filter(|_| !lit.is_empty())?;
@@ -95,14 +94,14 @@ impl PixelDensity<'_> {
     }
 }
 
-/// Means of a spectrum over equal steps of a range, and over all of it.
+/// Means of a spectrum over equal steps of a range, and over the whole range.
 struct Means {
     steps: Vec<f64>,
     mean: f64,
 }
 
 impl Means {
-    /// `None` where the spectrum is nothing there.
+    /// `None` if the spectrum is zero in the range.
     fn of(spectrum: &Spectrum, range: WavelengthRange, count: usize) -> Option<Self> {
         let WavelengthRange { low_nm, high_nm } = range;
         let count_f = count as f64;
@@ -137,7 +136,7 @@ mod tests {
     fn wavelengths_are_asked_where_a_pixel_responds_and_a_little_everywhere() {
         let density = of(WavelengthSampling::Response, true, &[], &between(500.0, 600.0));
         let (inside, outside) = (300.0 * density.pdf(550.0), 300.0 * density.pdf(430.0));
-        // A third of the range holds half of the density beside a half spread evenly.
+        // A third of the range has half of the density, in addition to a uniform half.
         assert!((inside - (0.5 + 0.5 * 3.0)).abs() < 0.05 && (outside - 0.5).abs() < 0.01, "{inside} {outside}");
     }
 
@@ -151,7 +150,7 @@ mod tests {
         }
     }
 
-    /// The bound that the module's words derive.
+    /// The bound that the module's documentation derives.
     #[test]
     fn the_density_with_the_source_is_nowhere_below_its_share_of_the_one_without() {
         let lamp = [between(589.0, 590.0), between(430.0, 470.0).scaled(1e-3)];
@@ -161,12 +160,12 @@ mod tests {
             let mut sum = 0.0;
             for i in 0..3000 {
                 let nm = 400.05 + 0.1 * i as f32;
-                // Shares are rounded to 2⁻²⁴; of a step of 1 nm with a share of 3e-5 that is 1e-3.
+                // Fractions are rounded to 2⁻²⁴; for a step of 1 nm with a fraction of 3e-5 that is 1e-3.
                 assert!(with.pdf(nm) >= 0.997 * DEFENSIVE_SHARE as f32 * without.pdf(nm), "{nm}");
                 sum += 0.1 * f64::from(with.pdf(nm));
             }
             assert!((sum - 1.0).abs() < 1e-3, "{sum}");
-            // Most of the draws go where the lamp's line is.
+            // Most samples are at the lamp's line.
             let line: f32 = (0..30).map(|i| 0.1 * with.pdf(588.05 + 0.1 * i as f32)).sum();
             assert!(line > if keeps_bands { 0.3 } else { 0.6 }, "{line}");
         }

@@ -4,7 +4,7 @@ use etendue_core::RawFormat;
 use etendue_isp::{Mosaic, Processing};
 use etendue_sensor::Sensor;
 
-/// The file format that a sensor's numbers have unless another is asked for.
+/// File format of a sensor's digital numbers unless another is requested.
 #[must_use]
 pub fn usual_raw_format(sensor: Option<&Sensor>) -> RawFormat {
     if sensor.is_some_and(|sensor| sensor.delivered_bits() > 16) { RawFormat::Tiff } else { RawFormat::Png }
@@ -20,18 +20,18 @@ pub fn raw_extension(format: RawFormat) -> &'static str {
     }
 }
 
-/// What a camera delivers; nothing by default.
+/// Products of a camera; none by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Products {
     /// Spectral radiance.
     pub radiance: bool,
     /// Spectral irradiance on the sensor.
     pub irradiance: bool,
-    /// The part of the irradiance that is ghosts.
+    /// Ghosts, as part of the irradiance.
     pub ghosts: bool,
-    /// Variances of what is estimated.
+    /// Variances of estimated quantities.
     pub variance: bool,
-    /// Samples of each pixel, and the variance that they leave beside the sensor's.
+    /// Samples of each pixel, and the resulting variance relative to the sensor's.
     pub sampling: bool,
     /// Expected electrons.
     pub electrons: bool,
@@ -39,68 +39,68 @@ pub struct Products {
     pub raw: bool,
     /// Their file format.
     pub raw_format: RawFormat,
-    /// What each pixel's digital number is made of.
+    /// Components of each pixel's digital number.
     pub signal_breakdown: bool,
-    /// The picture.
+    /// The image.
     pub picture: bool,
-    /// The pictures of all frames as a video.
+    /// The images of all frames as a video.
     pub video: bool,
     /// Depth, normals, positions, identities.
     pub ground_truth: bool,
-    /// Positions in the camera's frame with it.
+    /// Adds positions in the camera's frame to the ground truth.
     pub camera_space_position: bool,
-    /// What weather does to each pixel.
+    /// Effect of weather on each pixel.
     pub weather: bool,
-    /// Among it the share of each pixel that near drops or flakes cover: where something falls.
+    /// Adds the fraction of each pixel that near drops or flakes cover, if there is precipitation.
     pub cover: bool,
-    /// Depth as 16-bit PNG, by its numbers a metre.
+    /// Depth as 16-bit PNG, in digital numbers per metre.
     pub depth_png_per_m: Option<f64>,
     /// Origin and direction of each pixel's ray.
     pub rays: bool,
-    /// Ground truth, rays and picture of the undistorted twin as well, by its focal length over the camera's.
+    /// Ground truth, rays and image of the rectified camera as well, by its focal length over the camera's.
     pub undistorted: Option<f64>,
     /// Flow, disparity and boxes.
     pub annotations: Annotations,
-    /// Pose and projection in the files of other programs.
+    /// Pose and projection in the formats of other programs.
     pub calibration_files: bool,
 }
 
-/// A product as plans list it.
+/// A product in the list of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ListedProduct {
-    /// The key that asks for it.
+    /// Key that requests it.
     pub key: &'static str,
     /// Its name among the effects of a camera.
     pub name: &'static str,
-    /// Its name in the list of what is delivered; `None` where another product's has it.
+    /// Name in the list of delivered products; `None` if it is included in another product's.
     pub text: Option<&'static str>,
-    /// Whether it is delivered.
+    /// True if it is delivered.
     pub is_delivered: bool,
-    /// Whether it is a result by itself, of which a camera delivers one at least.
+    /// True if it is a result by itself; a camera delivers at least one.
     pub is_result: bool,
-    /// Whether its key is true or false.
+    /// True if its key is boolean.
     pub is_flag: bool,
 }
 
 impl ListedProduct {
-    /// A result that a key set to true asks for.
+    /// A result that a boolean key requests.
     const fn flag(key: &'static str, name: &'static str, is_delivered: bool, text: &'static str) -> Self {
         Self { key, name, text: Some(text), is_delivered, is_result: true, is_flag: true }
     }
 
-    /// A result that a key names.
+    /// A result whose key has a value other than true or false.
     const fn named(key: &'static str, name: &'static str, is_delivered: bool, text: &'static str) -> Self {
         Self { is_flag: false, ..Self::flag(key, name, is_delivered, text) }
     }
 
-    /// What changes other results, or is made of them.
+    /// Marks a product that modifies other results, or derives from them.
     const fn beside(self) -> Self {
         Self { is_result: false, ..self }
     }
 }
 
 impl Products {
-    /// All products, in the order of a plan.
+    /// All products, in a plan's order.
     #[must_use]
     pub fn listed(&self) -> Vec<ListedProduct> {
         let (flag, named) = (ListedProduct::flag, ListedProduct::named);
@@ -147,45 +147,45 @@ impl Products {
         ]
     }
 
-    /// Whether the spectral radiance is found: it is delivered, or a product is made of it.
+    /// Returns true if the spectral radiance is computed: it is delivered, or a product derives from it.
     #[must_use]
     pub fn needs_radiance(&self) -> bool {
         self.radiance
     }
 
-    /// Whether nothing is delivered.
+    /// Returns true if nothing is delivered.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.is_empty_without("")
     }
 
-    /// Whether nothing would be delivered without the result of a key.
+    /// Returns true if nothing would be delivered without the result of a key.
     #[must_use]
     pub fn is_empty_without(&self, key: &str) -> bool {
         !self.listed().iter().any(|product| product.is_delivered && product.is_result && product.key != key)
     }
 }
 
-/// How raw becomes a picture.
+/// Processing from raw to image.
 #[derive(Clone, Debug)]
 pub struct Development {
-    /// Which pixel measures which colour.
+    /// Colour of each pixel of the filter array.
     pub mosaic: Mosaic,
-    /// Every step.
+    /// All steps.
     pub processing: Processing,
-    /// How the picture is written.
+    /// File format of the image.
     pub format: PictureFormat,
 }
 
-/// How a picture is written.
+/// File format of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureFormat {
-    /// Without loss.
+    /// Lossless.
     Png {
         /// Bits of a channel: 8, or 10 to 16 in a file of 16.
         bits: u32,
     },
-    /// With loss, 8 bits.
+    /// Lossy, 8 bits.
     Jpeg {
         /// 1 to 100.
         quality: u8,
@@ -193,7 +193,7 @@ pub enum PictureFormat {
 }
 
 impl PictureFormat {
-    /// The extension of its files.
+    /// File extension.
     #[must_use]
     pub fn extension(self) -> &'static str {
         match self {
@@ -202,7 +202,7 @@ impl PictureFormat {
         }
     }
 
-    /// Bits of a channel.
+    /// Bits per channel.
     #[must_use]
     pub fn bits(self) -> u32 {
         match self {
@@ -212,7 +212,7 @@ impl PictureFormat {
     }
 }
 
-/// The file that flow or disparity is written to beside the EXR.
+/// File of flow or disparity in addition to the EXR.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CorrespondenceFormat {
     /// None: the EXR holds it.
@@ -226,13 +226,13 @@ pub enum CorrespondenceFormat {
 /// Disparity to another camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DisparityProduct {
-    /// The other camera's place in the job.
+    /// Index of the right camera in the job.
     pub right: u32,
-    /// The file beside the EXR.
+    /// File in addition to the EXR.
     pub format: CorrespondenceFormat,
 }
 
-/// What a camera delivers of the ground truth between frames, between cameras and of objects.
+/// Ground truth between frames, between cameras and of objects that a camera delivers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Annotations {
     /// Optical flow to the next frame and the one before, with visibility and image velocity.
@@ -243,20 +243,20 @@ pub struct Annotations {
     pub disparity: Option<DisparityProduct>,
     /// Boxes of objects.
     pub boxes: bool,
-    /// The boxes of all frames in one file.
+    /// Boxes of all frames in one file.
     pub tracks: bool,
     /// The coverage of objects and materials.
     pub cryptomatte: bool,
 }
 
 impl Annotations {
-    /// Whether nothing is delivered.
+    /// Returns true if nothing is delivered.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Whether other frames of the camera are looked at.
+    /// Returns true if other frames of the camera are needed.
     #[must_use]
     pub fn needs_neighbours(&self) -> bool {
         self.optical_flow.is_some() || self.scene_flow

@@ -1,26 +1,25 @@
-//! What a raw reader has to know of a sensor's colours.
+//! Colour metadata of a sensor for raw converters.
 //!
-//! The matrix from XYZ to the camera's colours is the least-squares fit C ≈ M X over the patches of the colour chart under D65, C
-//! the camera's responses and X the tristimulus values; the camera's colours of neutral are its responses to D65, the
-//! largest 1. Raw readers scale M themselves so that neutral is neutral.
+//! The matrix from XYZ to the camera's colours is the least-squares fit C ≈ M X over the patches of the colour chart under D65, C the camera's responses and
+//! X the tristimulus values. The camera's neutral is its responses to D65, with maximum 1. Raw converters scale M themselves so that neutral is neutral.
 
 use etendue_sensor::Sensor;
 use etendue_spectra::{Spectrum, illuminant, observer, reflectance};
 use glam::{DMat3, DVec3};
 
-/// Colours of a raw.
+/// Colour metadata of a raw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawColour {
-    /// Columns of the tile, and its colours row by row: 0 red, 1 green, 2 blue; `None` for a mono sensor.
+    /// Columns of the filter tile, and its colours row by row: 0 red, 1 green, 2 blue; `None` for a monochrome sensor.
     pub tile: Option<(usize, Vec<usize>)>,
-    /// From XYZ to the camera's colours, by rows.
+    /// Matrix from XYZ to the camera's colours, by rows.
     pub xyz_to_camera: [[f64; 3]; 3],
-    /// The camera's colours of neutral under D65, the largest 1.
+    /// Camera colours of neutral under D65, with maximum 1.
     pub neutral: [f64; 3],
 }
 
 impl RawColour {
-    /// Those of a sensor of one channel, or of red, green and blue; `None` for others.
+    /// Metadata of a sensor of one channel, or of red, green and blue; `None` for others.
     #[must_use]
     pub fn of(sensor: &Sensor) -> Option<Self> {
         let p = sensor.parameters();
@@ -58,7 +57,7 @@ fn fitted(channels: [&Spectrum; 3], scale: f64) -> Option<[[f64; 3]; 3]> {
     matrix.is_finite().then(|| matrix.transpose().to_cols_array_2d())
 }
 
-/// Response to D65, by itself or off a reflector.
+/// Response to D65, directly or reflected.
 fn response(channel: &Spectrum, reflectance: Option<&Spectrum>) -> f64 {
     let light = channel.product(illuminant::d65());
     reflectance.map_or(light.clone(), |r| light.product(r)).integral(300.0, 1100.0)

@@ -1,13 +1,11 @@
-//! Undistorted twins: the rectilinear camera with the same pose and the same centre of the entrance pupil.
+//! Rectified cameras (undistorted twins): the rectilinear camera with the same pose and the same centre of the entrance pupil.
 //!
-//! A twin has a camera matrix K without skew, the picture's size, and rays from the pupil's centre through K; its ground truth
-//! and ray table are traced along them and are exact. K keeps the principal point and the focal lengths on the axis
-//! (of a projection whose unit is not the tangent of the angle: times dr/dθ there), times a stated scale; a scale below 1
-//! shows more of a picture that barrels.
+//! A rectified camera has a camera matrix K without skew, the image size of the original, and rays from the pupil's centre through K. Its ground truth and
+//! ray table are traced along these rays and are exact. K keeps the principal point and the focal lengths on the axis (of a projection whose unit is not the
+//! tangent of the angle: times dr/dθ there), times a stated scale. A scale below 1 shows more of an image with barrel distortion.
 //!
-//! Left out: a twin of a telecentric camera, whose rays do not meet, and of fields beyond 85° from the axis, where tangents grow
-//! without end. A prescription's twin looks from the centre of the paraxial entrance pupil, which real pupils leave with the
-//! field.
+//! Not supported: telecentric cameras, whose rays do not meet, and fields beyond 85° from the axis, where tangents diverge. Of a lens prescription the centre
+//! of the paraxial entrance pupil is used; the real pupil moves with the field.
 
 use crate::plan::{CameraBody, CameraPlan};
 use etendue_optics::lens::PinholeParameters;
@@ -16,10 +14,10 @@ use etendue_projection::model::Perspective;
 use etendue_projection::{Calibration, CalibrationError, CameraMatrix, Model, Raster, RasterError};
 use glam::{DVec2, DVec3};
 
-/// The largest angle from the axis that a camera with a twin may see, degrees: a tangent of 11.4.
+/// Maximum angle from the axis in the field of a rectified camera, degrees: a tangent of 11.4.
 const WIDEST_DEG: f64 = 85.0;
 
-/// Why a camera has no undistorted twin.
+/// Reasons for which a camera cannot be rectified.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RectifiedCameraError {
     /// Rays that do not meet.
@@ -27,40 +25,40 @@ pub enum RectifiedCameraError {
         "a telecentric camera has no undistorted twin: its rays do not meet, and are straight as they are; remove the key"
     )]
     Telecentric,
-    /// A field that no plane holds.
+    /// A field too wide for a plane.
     #[error(
         "the camera sees as far as {angle_deg:.1}° from its axis, and a rectilinear picture ends before 90°: an undistorted twin is \
          made of cameras that see less than {WIDEST_DEG}°; remove the key, or narrow the field (greatest_angle_deg, a crop)"
     )]
     Field {
-        /// The largest angle seen, degrees.
+        /// Largest angle in the field, degrees.
         angle_deg: f64,
     },
-    /// A camera that sees nothing at its principal point.
+    /// A camera without light at its principal point.
     #[error(
         "the camera sees nothing at its principal point, so that its undistorted twin has no focal length; remove the key"
     )]
     Blind,
-    /// Rays that something before the lens bends.
+    /// Rays that an element before the lens bends.
     #[error(
         "behind a {what} no camera matrix gives the rays: a camera with one has no undistorted twin; remove the key"
     )]
     Front {
-        /// What stands before the lens.
+        /// The element before the lens.
         what: &'static str,
     },
-    /// A lens that cannot be.
+    /// An invalid lens.
     #[error(transparent)]
     Lens(#[from] OpticsError),
-    /// A calibration that cannot be.
+    /// An invalid calibration.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
-    /// A raster that cannot be.
+    /// An invalid raster.
     #[error(transparent)]
     Raster(#[from] RasterError),
 }
 
-/// The rectilinear twin of a camera.
+/// The rectified version of a camera.
 #[derive(Clone, Debug)]
 pub struct RectifiedCamera {
     /// Its camera matrix, in raster coordinates.
@@ -70,7 +68,7 @@ pub struct RectifiedCamera {
 }
 
 impl RectifiedCamera {
-    /// The twin of a camera, its focal lengths `scale` times the camera's own.
+    /// Rectifies a camera, with focal lengths of `scale` times the camera's own.
     ///
     /// # Errors
     /// [`RectifiedCameraError`].
@@ -90,19 +88,19 @@ impl RectifiedCamera {
         Ok(Self { matrix, body: CameraBody { lens, raster, ..camera.clone() } })
     }
 
-    /// The twin as a camera.
+    /// The rectified camera as a camera body.
     #[must_use]
     pub fn body(&self) -> &CameraBody {
         &self.body
     }
 
-    /// The plan of the twin, for its ground truth.
+    /// Plan of the rectified camera, for its ground truth.
     #[must_use]
     pub fn plan(&self, camera: &CameraPlan) -> CameraPlan {
         CameraPlan { body: self.body.clone(), ..camera.clone() }
     }
 
-    /// Where in the picture of `camera` (raster coordinates) a point of the twin's is; `None` where the camera does not see it.
+    /// Position, in the image of `camera` (raster coordinates), of a point of the rectified image; `None` where the camera does not see it.
     #[must_use]
     pub fn source(&self, camera: &CameraBody, raster_px: DVec2) -> Option<DVec2> {
         let direction = self.body.lens.direction(self.body.raster.sensor_mm(raster_px))?;
@@ -110,7 +108,7 @@ impl RectifiedCamera {
     }
 }
 
-/// The camera's own matrix, as one of tangents.
+/// Camera matrix of the camera, in units of tangents.
 fn own_matrix(camera: &CameraBody) -> Result<CameraMatrix, RectifiedCameraError> {
     match &camera.lens {
         Lens::Telecentric(_) => Err(RectifiedCameraError::Telecentric),
@@ -119,7 +117,7 @@ fn own_matrix(camera: &CameraBody) -> Result<CameraMatrix, RectifiedCameraError>
     }
 }
 
-/// A calibration's matrix for tangents: near the axis every model is a multiple of the tangent.
+/// Camera matrix of a calibration, in units of tangents: near the axis every model is a multiple of the tangent.
 fn of_tangents(calibration: &Calibration) -> Result<CameraMatrix, RectifiedCameraError> {
     let matrix = CameraMatrix { skew: 0.0, ..calibration.matrix() };
     if matches!(calibration.model(), Model::Perspective(_) | Model::Radial(_)) {
@@ -137,7 +135,7 @@ fn enlarged(matrix: CameraMatrix, ratio: f64) -> CameraMatrix {
     CameraMatrix { fx: matrix.fx * ratio, fy: matrix.fy * ratio, ..matrix }
 }
 
-/// The lens of the twin: of a paraxial lens a pinhole at its principal distance, else a projection by the matrix.
+/// Lens of the rectified camera: for a paraxial lens a pinhole at its principal distance, otherwise a projection by the matrix.
 fn rectilinear(lens: &Lens, matrix: CameraMatrix, raster: &Raster, scale: f64) -> Result<Lens, RectifiedCameraError> {
     let (f_number, transmittance) = (lens.f_number(), lens.transmittance());
     if matches!(lens, Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_)) {
@@ -156,7 +154,7 @@ fn rectilinear(lens: &Lens, matrix: CameraMatrix, raster: &Raster, scale: f64) -
     })?)
 }
 
-/// The largest angle from the axis that a grid of points over the picture sees, degrees.
+/// Largest angle from the axis over a grid of image points, degrees.
 fn widest_deg(camera: &CameraBody) -> f64 {
     const STEPS: u32 = 16;
     let size = DVec2::new(camera.raster.width() as f64, camera.raster.height() as f64);

@@ -1,53 +1,53 @@
-//! What compiling found that is no fault but worth saying.
+//! Notes and warnings of compilation.
 
 use std::fmt::{self, Display, Formatter};
 
-/// How much a remark matters.
+/// Severity of a remark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weight {
-    /// How something was read or continued. The plan says it.
+    /// States how an input was read or extrapolated. The plan reports it.
     Note,
-    /// The picture is not what the description might be taken to ask for. The plan says it, and a rendering repeats it.
+    /// The image may differ from what the user expects of the description. The plan reports it, and a render repeats it.
     Warning,
 }
 
-/// A remark on a plan.
+/// A note or warning on a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
-    /// The file, the place or the thing that it concerns; `None` where the text names it or it concerns the whole.
+    /// File, place or object that it concerns; `None` if the text names it or it concerns the whole job.
     pub about: Option<String>,
-    /// The remark, without a full stop.
+    /// Text, without a full stop.
     pub text: String,
-    /// How much it matters.
+    /// Severity.
     pub weight: Weight,
-    /// How often it was made, 1 or more.
+    /// Number of occurrences, 1 or more.
     pub count: usize,
 }
 
-/// Remarks of one text, told once with all that they concern.
+/// Remarks of one text, reported once with everything that they concern.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grouped<'a> {
     about: Vec<&'a str>,
     text: &'a str,
     count: usize,
-    /// How much they matter.
+    /// Severity.
     pub weight: Weight,
 }
 
 impl<'a> Grouped<'a> {
-    /// The files, places or things that they concern; empty where the text names them.
+    /// Files, places or objects that they concern; empty if the text names them.
     #[must_use]
     pub fn about(&self) -> &[&'a str] {
         &self.about
     }
 
-    /// The remark, without a full stop.
+    /// Text, without a full stop.
     #[must_use]
     pub fn text(&self) -> &'a str {
         self.text
     }
 
-    /// How often they were made, 1 or more.
+    /// Number of occurrences, 1 or more.
     #[must_use]
     pub fn count(&self) -> usize {
         self.count
@@ -64,7 +64,7 @@ impl Display for Grouped<'_> {
     }
 }
 
-/// Remarks by their text, in the order in which each was first made.
+/// Groups remarks by text, in the order of first occurrence.
 #[must_use]
 pub fn grouped(remarks: &[Remark]) -> Vec<Grouped<'_>> {
     let mut groups: Vec<Grouped<'_>> = Vec::new();

@@ -1,39 +1,39 @@
-//! When the rows of a camera's captures are exposed, counted from the beginning of a frame.
+//! Exposure times of the rows of a camera's captures, relative to the start of a frame.
 
 use etendue_core::{Shutter, TimeInterval};
 
-/// When the rows of a camera's captures are exposed, counted from the beginning of a frame.
+/// Exposure times of the rows of a camera's captures, relative to the start of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowExposure {
     /// The order of rows.
     pub shutter: Shutter,
-    /// The first row of the sensor that is read.
+    /// First row of the sensor that is read.
     pub first_row: usize,
-    /// Rows that are read, at least 1.
+    /// Number of rows that are read, at least 1.
     pub rows: usize,
-    /// Rows between them that are not.
+    /// Rows between them that are skipped.
     pub skipping: RowSkipping,
-    /// Exposure time, s; 0 for a camera that sees one moment.
+    /// Exposure time, s; 0 for an instantaneous camera.
     pub exposure_s: f64,
-    /// The exposures of a frame, the first one at 0 s.
+    /// Captures of a frame, the first one at 0 s.
     pub captures: Vec<CaptureTiming>,
 }
 
-/// When a capture of a frame is exposed.
+/// Exposure of a capture of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CaptureTiming {
-    /// Its beginning, s after that of the first.
+    /// Start, s after that of the first.
     pub start_s: f64,
-    /// Its exposure time over that of the first.
+    /// Exposure time over that of the first.
     pub exposure_ratio: f64,
 }
 
-/// Which rows are read, counted from the first that is: the first few of every so many.
+/// Row skipping: of every `pitch` rows the first `together` are read, counted from the first row that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RowSkipping {
-    /// Rows that are read together with no other between: those of a tile of the colour filter array; at least 1.
+    /// Number of adjacent rows that are read: those of a tile of the colour filter array; at least 1.
     pub together: usize,
-    /// From the first of them to the first of the next, rows; no less than `together`.
+    /// Distance from the first of them to the first of the next, rows; at least `together`.
     pub pitch: usize,
 }
 
@@ -41,23 +41,23 @@ impl RowSkipping {
     /// All rows are read.
     pub const NONE: Self = Self { together: 1, pitch: 1 };
 
-    /// Whether a row is left out.
+    /// Returns true if a row is skipped.
     #[must_use]
     pub fn skips(&self) -> bool {
         self.pitch > self.together
     }
 
-    /// Where the row stands that is the `rank`-th of those that are read.
+    /// Position of the `rank`-th of the rows that are read.
     fn row_of(&self, rank: usize) -> usize {
         rank / self.together * self.pitch + rank % self.together
     }
 
-    /// How many rows that are read stand above `row`, if it is one of them; else above the next one before it.
+    /// Number of rows that are read above `row`, if it is one of them; otherwise above the next one before it.
     fn rank_below(&self, row: usize) -> usize {
         row / self.pitch * self.together + (row % self.pitch).min(self.together - 1)
     }
 
-    /// The rank, of `rows`, of the row that is read nearest to `row`; of two the upper one's.
+    /// Rank, among `rows`, of the row that is read nearest to `row`; of two the upper one.
     fn nearest_rank(&self, row: usize, rows: usize) -> usize {
         let upper = self.rank_below(row).min(rows - 1);
         let lower = (upper + 1).min(rows - 1);
@@ -67,21 +67,21 @@ impl RowSkipping {
 }
 
 impl RowExposure {
-    /// All rows together, once.
+    /// All rows simultaneously, in a single capture.
     #[must_use]
     pub fn global(rows: usize, exposure_s: f64) -> Self {
         let captures = vec![CaptureTiming { start_s: 0.0, exposure_ratio: 1.0 }];
         Self { shutter: Shutter::Global, first_row: 0, rows, skipping: RowSkipping::NONE, exposure_s, captures }
     }
 
-    /// The exposure of a row of the sensor in a capture; rows that are not read have that of the nearest that is.
+    /// Exposure of a row of the sensor in a capture; a skipped row has that of the nearest row that is read.
     #[must_use]
     pub fn row(&self, capture: usize, row: usize) -> TimeInterval {
         let CaptureTiming { start_s, exposure_ratio } = self.captures[capture];
         self.shutter.exposure(self.rank(row), self.rows, self.exposure_s * exposure_ratio).later(start_s)
     }
 
-    /// From the first row's beginning to the last one's end in a capture.
+    /// Interval from the start of the first row to the end of the last in a capture.
     #[must_use]
     pub fn capture(&self, capture: usize) -> TimeInterval {
         let CaptureTiming { start_s, exposure_ratio } = self.captures[capture];
@@ -89,7 +89,7 @@ impl RowExposure {
         TimeInterval::new(start_s, start_s + length_s).expect("times of a camera are finite")
     }
 
-    /// From the beginning of a row's first exposure to the end of its last, of the row that takes longest, s.
+    /// Time from the start of a row's first exposure to the end of its last, for the row with the longest, s.
     #[must_use]
     pub fn longest_row_s(&self) -> f64 {
         let end = |capture: usize| {
@@ -100,45 +100,45 @@ impl RowExposure {
         (0..self.captures.len()).map(end).fold(0.0, f64::max)
     }
 
-    /// How long it takes to read all rows one after the other, s; 0 where all end together.
+    /// Readout time of all rows one after the other, s; 0 if all end simultaneously.
     #[must_use]
     pub fn reading_s(&self) -> f64 {
         self.shutter.row_timing().map_or(0.0, |rows| rows.row_time_s * self.rows as f64)
     }
 
-    /// Light of a row over that of the stated exposure time: 1 but for global reset.
+    /// Light of a row relative to the stated exposure time: 1 except for global reset.
     #[must_use]
     pub fn exposure_ratio(&self, capture: usize, row: usize) -> f64 {
         let exposure_s = self.exposure_s * self.captures[capture].exposure_ratio;
         if exposure_s > 0.0 { self.shutter.exposure_ratio(self.rank(row), self.rows, exposure_s) } else { 1.0 }
     }
 
-    /// The captures whose exposure differs from that of every capture before them, in their order; the first is among them.
+    /// Captures whose exposure differs from that of every earlier capture, in order; includes the first.
     #[must_use]
     pub fn distinct_captures(&self) -> Vec<usize> {
         let is_new = |capture: &usize| !self.captures[..*capture].contains(&self.captures[*capture]);
         (0..self.captures.len()).filter(is_new).collect()
     }
 
-    /// Whether all rows begin and end together.
+    /// Returns true if all rows start and end simultaneously.
     #[must_use]
     pub fn is_global(&self) -> bool {
         self.shutter.row_timing().is_none_or(|rows| rows.row_time_s == 0.0)
     }
 
-    /// Whether all rows are exposed as long.
+    /// Returns true if all rows have the same exposure time.
     #[must_use]
     pub fn is_even(&self) -> bool {
         !matches!(self.shutter, Shutter::GlobalReset(_)) || self.is_global()
     }
 
-    /// How many rows stand above `row`, of those that are read: the place of the nearest one where it is none of them.
+    /// Number of rows that are read above `row`; for a skipped row, the rank of the nearest row that is read.
     fn rank(&self, row: usize) -> usize {
         self.skipping.nearest_rank(row.saturating_sub(self.first_row), self.rows)
     }
 
-    /// The two neighbouring rows of one field between whose middles, or beyond both of which, the height `y_px` (raster) lies, and where it lies: 0 at the
-    /// first, 1 at the second. The field is that of `row`; `None` where it has one row alone.
+    /// The two neighbouring rows of one field that are used to interpolate or extrapolate at the height `y_px` (raster), and the position between them: 0 at
+    /// the first, 1 at the second. The field is that of `row`; `None` if it has a single row.
     #[must_use]
     pub fn neighbours(&self, y_px: f64, row: usize) -> Option<([usize; 2], f64)> {
         let fields = self.shutter.row_timing().map_or(1, |timing| timing.fields.max(1) as usize);
@@ -167,7 +167,7 @@ mod tests {
         RowExposure { shutter, first_row: 2, skipping, ..RowExposure::global(6, 0.5) }
     }
 
-    /// Of every six rows two are read: 2, 3, 8, 9, 14, 15 of the sensor are the six of the picture.
+    /// Two of every six rows are read: 2, 3, 8, 9, 14, 15 of the sensor are the six of the image.
     #[test]
     fn rows_that_are_skipped_take_no_time() {
         let pairs = RowSkipping { together: 2, pitch: 6 };
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(starts(&rolling(pairs, 1, false), &read), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
         assert_eq!(starts(&rolling(pairs, 1, true), &read), [5.0, 4.0, 3.0, 2.0, 1.0, 0.0]);
         assert_eq!(starts(&rolling(pairs, 2, false), &read), [0.0, 3.0, 1.0, 4.0, 2.0, 5.0]);
-        // Those between are seen when the nearest is, those beyond with the outermost.
+        // Skipped rows have the exposure of the nearest row, those outside that of the outermost.
         assert_eq!(
             starts(&rolling(pairs, 1, false), &[0, 4, 5, 6, 7, 13, 16, 99]),
             [0.0, 1.0, 1.0, 2.0, 2.0, 4.0, 5.0, 5.0]

@@ -1,4 +1,4 @@
-//! How the light of a camera is found.
+//! Render settings of a camera.
 
 use super::wavelength_sampling::{SpectralGain, WavelengthSampling};
 use crate::sizes::block::Blocks;
@@ -8,61 +8,61 @@ use etendue_optics::PupilProjection;
 use etendue_tracer::integrator::PathSettings;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
-/// The way to the sensor plane.
+/// Route to the sensor plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "there is one a camera, and settings that hold it stay Copy")]
 pub enum Route {
-    /// Every sample goes through the lens.
+    /// Each sample passes through the lens.
     Lens,
-    /// Radiance at the centre of the entrance pupil in this geometry, then the lens on the picture.
+    /// Radiance at the centre of the entrance pupil in this projection; the lens is then applied to the image.
     Pupil(PupilProjection),
 }
 
-/// How the light of a camera is found.
+/// Render settings of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Samples a pixel; the most that a pixel gets where noise decides.
+    /// Samples per pixel; with noise-limited sampling the maximum.
     pub spp: u32,
-    /// Where noise decides how many samples a pixel gets.
+    /// Limits of noise-limited sampling; `None` without it.
     pub adaptive: Option<AdaptiveSampling>,
     /// Independent replicates; divides `spp`.
     pub replicates: u32,
-    /// Which light paths are simulated; what belongs to one pass of a render is at its default.
+    /// Light paths that are simulated; settings of a single pass of a render have their defaults.
     pub paths: PathSettings,
-    /// Whether matt surfaces draw directions by what paths before the picture have found; of paths only.
+    /// If true, directions at diffuse surfaces are sampled by the results of paths before the image (path guiding); only for paths.
     pub guiding: bool,
-    /// Wavelengths a path: 1, 4 or 8.
+    /// Wavelengths per path: 1, 4 or 8.
     pub wavelengths: u32,
-    /// The density by which they are drawn; evenly where no electrons are summed.
+    /// Density of their sampling; uniform if no electrons are accumulated.
     pub wavelength_sampling: WavelengthSampling,
-    /// What the spectra of the light's sources in the density of wavelengths are estimated to save; `None` where no electrons are summed or
-    /// no source gives any.
+    /// Estimated gain of including the spectra of the light's sources in the density of wavelengths; `None` if no electrons are accumulated or no source
+    /// contributes.
     pub spectral_gain: Option<SpectralGain>,
-    /// The way to the sensor plane.
+    /// Route to the sensor plane.
     pub route: Route,
     /// Wavelengths sampled.
     pub range: WavelengthRange,
-    /// Spectral bands, where a cube is kept.
+    /// Spectral bands, if a cube is stored.
     pub bands: Option<Bands>,
-    /// Whether pixels fold their responsivity into electrons.
+    /// True if pixels weight radiance by their responsivity and accumulate electrons.
     pub folded: bool,
     /// Side of a tile, px.
     pub tile_px: u32,
-    /// Pixels whose paths share their tails.
+    /// Blocks of pixels whose paths share their tails.
     pub blocks: Blocks,
-    /// Seed of every random number.
+    /// Seed of all random numbers.
     pub seed: u64,
 }
 
 impl Settings {
-    /// Whether paths are traced.
+    /// Returns true if paths are traced.
     #[must_use]
     pub fn traces_paths(&self) -> bool {
         self.paths.integrator == Integrator::Path
     }
 }
 
-/// A map of the settings by their keys in a description, and of what follows from them: the one list that reports and side-cars are made of.
+/// Serialises the settings by their keys in a description, with derived values: the single list for reports and side-cars.
 impl Serialize for Settings {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
@@ -89,7 +89,7 @@ impl Serialize for Settings {
 }
 
 impl Route {
-    /// The word of the key `route`.
+    /// Value of the key `route`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {

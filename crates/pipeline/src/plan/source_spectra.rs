@@ -1,13 +1,13 @@
-//! The spectra of the sources of a scene's light, those of one shape taken together.
+//! Spectra of a scene's light sources, grouped by shape.
 
 use etendue_core::WavelengthRange;
 use etendue_spectra::Spectrum;
 
-/// Cosine of the angle between two spectra, as vectors of their values, from which on they count as one.
+/// Minimum cosine of the angle between two spectra, as vectors of their values, for one group.
 const SAME_SHAPE: f64 = 0.9995;
-/// Groups at most; what comes after joins the one that is most alike.
+/// Maximum number of groups; further sources join the most similar one.
 const MAX_GROUPS: usize = 16;
-/// Sources below this part of what a pixel gets of all are left out.
+/// Minimum fraction of a pixel's total response; sources below it are omitted.
 const LEAST_SHARE: f64 = 1e-6;
 
 /// Spectral fluxes of groups of sources, W·nm⁻¹.
@@ -16,10 +16,10 @@ pub struct SourceSpectra {
     fluxes: Vec<Spectrum>,
 }
 
-/// What a pixel gets of a group of sources.
+/// Response of a pixel to a group of sources.
 #[derive(Clone, Debug)]
 pub(crate) struct LitResponse {
-    /// Part of the draws that the group is worth; those of all groups are 1 together.
+    /// Fraction of the samples for the group; those of all groups add up to 1.
     pub(crate) weight: f64,
     /// Responsivity times spectrum.
     pub(crate) product: Spectrum,
@@ -28,7 +28,7 @@ pub(crate) struct LitResponse {
 }
 
 impl SourceSpectra {
-    /// Of the fluxes of all sources, W·nm⁻¹.
+    /// Groups the fluxes of all sources, W·nm⁻¹.
     #[must_use]
     pub fn of(fluxes: Vec<Spectrum>) -> Self {
         let mut groups: Vec<Spectrum> = Vec::new();
@@ -43,17 +43,17 @@ impl SourceSpectra {
         Self { fluxes: groups }
     }
 
-    /// Whether nothing shines.
+    /// Returns true if there is no light.
     #[must_use]
     pub fn is_dark(&self) -> bool {
         self.fluxes.is_empty()
     }
 
-    /// What a pixel of a responsivity gets of each group over a range, nm.
+    /// Responses of a pixel of a given responsivity to each group over a range, nm.
     ///
-    /// The draws are shared by the roots of what the groups give. A pixel that a group lights alone has, where spectra do not
-    /// overlap, a mean square of 1/w in units of the squared mean, w being the group's share of the draws; if pixels are lit by one group each, so many by
-    /// each as it gives light (c), the sum of c/w is least for w ∝ √c.
+    /// Samples are divided in proportion to the square root of the responses. If a group is the only light of a pixel, and spectra do not overlap, the mean
+    /// square is 1/w in units of the squared mean, with w the group's fraction of the samples. If every pixel is lit by one group, with as many pixels per
+    /// group as its light (c), the sum of c/w is minimal for w ∝ √c.
     pub(crate) fn lit(&self, responsivity: &Spectrum, range: WavelengthRange) -> Vec<LitResponse> {
         let WavelengthRange { low_nm, high_nm } = range;
         let given = |flux: &Spectrum| {
@@ -82,7 +82,7 @@ fn cosine(a: &Spectrum, b: &Spectrum) -> f64 {
     dot(a, b) / (dot(a, a) * dot(b, b)).sqrt()
 }
 
-/// With the greatest value 1, so that no square leaves the range of numbers.
+/// The spectrum with maximum 1, so that no square overflows.
 fn unit(spectrum: &Spectrum) -> Spectrum {
     spectrum.scaled(1.0 / f64::from(spectrum.max_value()))
 }
@@ -101,7 +101,7 @@ mod tests {
         let spectra = SourceSpectra::of(fluxes);
         let lit = spectra.lit(&Spectrum::constant(2.0), WavelengthRange::new(400.0, 700.0));
         let weights: Vec<f64> = lit.iter().map(|group| group.weight).collect();
-        // 4 and 16 parts of light: a third and two thirds of the draws.
+        // 4 and 16 parts of light: a third and two thirds of the samples.
         assert_eq!(weights.len(), 2);
         assert!((weights[0] - 1.0 / 3.0).abs() < 1e-9 && (weights[1] - 2.0 / 3.0).abs() < 1e-9, "{weights:?}");
         let blind = spectra.lit(&line(450.0, 1.0), WavelengthRange::new(400.0, 700.0));
@@ -114,7 +114,7 @@ mod tests {
         let spectra = SourceSpectra::of(fluxes);
         assert_eq!(spectra.fluxes.len(), MAX_GROUPS);
         let lit = spectra.lit(&Spectrum::constant(1.0), WavelengthRange::new(300.0, 1100.0));
-        // Nothing of 60 lines of 9 nm is lost.
+        // 60 lines of 9 nm are all included.
         let sum: f64 = lit.iter().map(|group| group.integral).sum();
         assert!((sum / (60.0 * 9.0 * 1e-30) - 1.0).abs() < 1e-5, "{sum}");
     }

@@ -1,44 +1,44 @@
-//! When a camera's frames, captures and rows are exposed.
+//! Exposure times of a camera's frames, captures and rows.
 
 use super::row_exposure::RowExposure;
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use etendue_core::{Epoch, ExactTime, TimeInterval};
 
-/// Whether, and how, a camera's light depends on time.
+/// Dependence of a camera's light on time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TimeDependence {
-    /// Nothing moves and all lights are steady: one light serves all frames.
+    /// Nothing moves and all lights are constant: one light serves all frames.
     #[default]
     None,
-    /// Nothing moves, but lights change: each row sees their mean over its exposure.
+    /// Nothing moves, but lights vary: each row sees their mean over its exposure.
     Lights,
-    /// Something moves, the camera or drops on the glass before it perhaps: each sample has a moment of its row's exposure.
+    /// Something moves (possibly the camera, or drops on the glass before it): each sample has a time within its row's exposure.
     Motion,
 }
 
-/// When a camera's frames, captures and rows are exposed, in simulated time since an epoch.
+/// Exposure times of a camera's frames, captures and rows, in simulated time since an epoch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timing {
-    /// The time from which the other times are counted.
+    /// Origin of the other times.
     pub epoch: Epoch,
     /// Start of frame 0 without its jitter, s since the epoch.
     pub start_s: f64,
-    /// From frame to frame, s; `None` where no rate is stated: only frame 0 has a time of its own.
+    /// Frame period, s; `None` if no rate is stated: only frame 0 then has a time.
     pub period_s: Option<f64>,
-    /// How frames are moved at random.
+    /// Random deviation of the start of frames.
     pub jitter: Option<Jitter>,
-    /// The rows of a frame.
+    /// Exposure of the rows of a frame.
     pub exposure: RowExposure,
 }
 
-/// A random deviation of the beginning of frames.
+/// Random deviation of the start of frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jitter {
-    /// Greatest deviation to either side, s.
+    /// Maximum deviation to either side, s.
     pub half_width_s: f64,
     /// The job's seed.
     pub seed: u64,
-    /// The camera's place in the job.
+    /// Index of the camera in the job.
     pub camera: u32,
 }
 
@@ -62,13 +62,13 @@ impl Timing {
         self.epoch.time(self.capture(frame, 0).middle_s())
     }
 
-    /// The exposure of a row of the sensor in a capture of a frame; rows that are not read have that of the nearest.
+    /// Exposure of a row of the sensor in a capture of a frame; a skipped row has that of the nearest row that is read.
     #[must_use]
     pub fn row(&self, frame: u32, capture: usize, row: usize) -> TimeInterval {
         self.exposure.row(capture, row).later(self.frame_start_s(frame))
     }
 
-    /// From the first row's beginning to the last one's end in a capture of a frame.
+    /// Interval from the start of the first row to the end of the last in a capture of a frame.
     #[must_use]
     pub fn capture(&self, frame: u32, capture: usize) -> TimeInterval {
         self.exposure.capture(capture).later(self.frame_start_s(frame))
@@ -120,7 +120,7 @@ mod tests {
         let n = deviations.len() as f64;
         let mean = deviations.iter().sum::<f64>() / n;
         let square = deviations.iter().map(|d| d * d).sum::<f64>() / n;
-        // Even over ±a: variance a²/3; of its estimate 4 a⁴/(45 n). Four standard deviations.
+        // Uniform over ±a: variance a²/3; of its estimate 4 a⁴/(45 n). Four standard deviations.
         let variance = 0.002_f64 * 0.002 / 3.0;
         assert!(mean.abs() < 4.0 * (variance / n).sqrt());
         assert!((square - variance).abs() < 4.0 * 0.002_f64 * 0.002 * (4.0 / (45.0 * n)).sqrt());

@@ -1,18 +1,18 @@
-//! By which density the wavelengths of pixels that sum electrons are drawn, and what that is foretold to save.
+//! Density of the wavelengths of pixels that accumulate electrons, and its estimated gain.
 
-/// By which density wavelengths are drawn.
+/// Density of wavelength sampling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WavelengthSampling {
-    /// Evenly over the range.
+    /// Uniform over the range.
     Uniform,
-    /// By the pixel's response.
+    /// Proportional to the pixel's response.
     Response,
-    /// By the pixel's response times the spectra of the light's sources.
+    /// Proportional to the pixel's response times the spectra of the light's sources.
     ResponseAndSource,
 }
 
 impl WavelengthSampling {
-    /// The word for it in descriptions and reports.
+    /// Its name in descriptions and reports.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -23,33 +23,33 @@ impl WavelengthSampling {
     }
 }
 
-/// What the source's spectrum in the density is foretold to do: mean squares of a sample's electrons by the response alone over those with
-/// the source's spectrum. Where the samples of a pixel differ much by where their paths go, the variances of its mean have this ratio.
+/// Estimated gain of including the sources' spectra in the density: mean squares of a sample's electrons with the response alone over those with the spectra.
+/// If the samples of a pixel differ much between paths, the variances of its mean have this ratio.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct SpectralGain {
-    /// Geometric mean over the pixels of the colour filter's tile, the groups of sources by their shares of the draws, and four surfaces (grey, red,
-    /// green, blue).
+    /// Geometric mean over the pixels of the colour filter's tile, the groups of sources weighted by their fractions of the samples, and four surfaces (grey,
+    /// red, green, blue).
     pub mean: f64,
-    /// The least of them.
+    /// Minimum.
     pub least: f64,
-    /// The greatest of them.
+    /// Maximum.
     pub most: f64,
 }
 
-/// Least mean gain for which the density follows the source.
+/// Minimum mean gain for which the density includes the sources.
 const WORTHWHILE: f64 = 1.02;
 
 impl SpectralGain {
-    /// Whether it pays: samples are worth more in the mean, and nowhere lose more than the square of that.
+    /// Returns true if the density should include the sources: there is a mean gain, and the maximum loss is at most its square.
     ///
-    /// On the street at night with low-pressure sodium lamps beside head lamps of LEDs, 1.5 in the mean and 0.6 at the least, the
-    /// median variance fell to a half, and that of blue pixels, which the head lamps light, did not rise.
+    /// In the street scene at night with low-pressure sodium lamps and LED headlamps, with a mean of 1.5 and a minimum of 0.6, the median variance fell to a
+    /// half. That of blue pixels, which the headlamps light, did not rise.
     #[must_use]
     pub fn pays(&self) -> bool {
         self.is_felt() && self.mean * self.mean * self.least >= 1.0
     }
 
-    /// Whether samples are worth more in the mean, whatever they may lose somewhere.
+    /// Returns true if there is a mean gain, whatever the maximum loss.
     #[must_use]
     pub fn is_felt(&self) -> bool {
         self.mean >= WORTHWHILE

@@ -1,4 +1,4 @@
-//! Rain or snow of a plan, and the weather that is laid over a stored radiance image.
+//! Precipitation of a plan, and the weather applied to a stored radiance image.
 
 use etendue_spectra::Spectrum;
 use etendue_tracer::media::Medium;
@@ -9,18 +9,18 @@ use etendue_tracer::precipitation::{Field, Resolution};
 pub struct Precipitation {
     /// All drops or flakes.
     pub field: Field,
-    /// The place of its medium among the plan's media.
+    /// Index of its medium in the plan's media.
     pub medium: usize,
-    /// Distance from a camera within which nothing falls, m.
+    /// Distance from a camera within which there are no drops or flakes, m.
     pub clear_m: f64,
-    /// Part of a pixel's width from which on a drop or flake is modelled by itself.
+    /// Minimum size of an individually modelled drop or flake, as a fraction of a pixel's width.
     pub smallest_px: f64,
-    /// How many are modelled at most.
+    /// Maximum number of individually modelled drops or flakes.
     pub most: u64,
 }
 
 impl Precipitation {
-    /// What a camera resolves whose pixels are `pixel_rad` wide in an exposure of `exposure_s`.
+    /// Resolution of a camera with pixels of `pixel_rad` in an exposure of `exposure_s`.
     #[must_use]
     pub fn resolution(&self, pixel_rad: f64, exposure_s: f64) -> Resolution {
         let Self { smallest_px, clear_m, .. } = *self;
@@ -28,34 +28,34 @@ impl Precipitation {
     }
 }
 
-/// The radiance of fog without end.
+/// Radiance of infinitely deep fog.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Airlight {
-    /// The same everywhere, W·m⁻²·sr⁻¹·nm⁻¹.
+    /// Constant, W·m⁻²·sr⁻¹·nm⁻¹.
     Uniform(Spectrum),
-    /// The mean of what the image shows of the sky, from the horizon up to a height, rad.
+    /// Mean of the image's sky from the horizon up to an elevation, rad.
     Sky {
-        /// The height.
+        /// The elevation.
         elevation_rad: f64,
     },
 }
 
-/// Weather over an image.
+/// Weather applied to an image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weather {
-    /// The radiance of fog without end.
+    /// Radiance of infinitely deep fog.
     pub airlight: Airlight,
-    /// Fog, of which only the extinction counts, and the medium of what falls.
+    /// Fog, for which only the extinction is used, and the medium of the precipitation.
     pub media: Vec<Medium>,
     /// Rain or snow.
     pub falling: Option<Falling>,
 }
 
-/// Rain or snow over a moment's image.
+/// Rain or snow over an instantaneous image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Falling {
-    /// What falls.
+    /// The precipitation.
     pub precipitation: Precipitation,
-    /// How long it is exposed, s.
+    /// Exposure time, s.
     pub exposure_s: f64,
 }

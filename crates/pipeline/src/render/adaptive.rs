@@ -1,14 +1,14 @@
-//! How many samples a pixel gets, where noise decides.
+//! Number of samples of a pixel in noise-limited sampling.
 //!
-//! Every pixel gets the pilot's samples in each of its R replicates. Then replicate r goes on to as many as the pilots of the *next*
-//! ⌊(R − 1)/2⌋ replicates ask for, counted round: what is summed has no say in how long it is summed, so that the mean of each
-//! replicate has no bias (a pixel that stops when it looks right is wrong on average). Nor do any two replicates decide of each other, so
-//! that their errors are not correlated: the mean of all, each of weight 1/R whatever its samples, has the variance that their scatter tells.
-//! (Of two halves that decide of each other, each is unbiased, but where bright light is rare both err to the same side.)
+//! Every pixel receives the pilot's samples in each of its R replicates. Replicate r then continues to the number that the pilots of the *next* ⌊(R − 1)/2⌋
+//! replicates, cyclically, require. The samples of a replicate do not determine its own number of samples, so that the mean of each replicate is unbiased (a
+//! pixel that stops when its estimate looks good is wrong on average). No two replicates determine each other's number, so that their errors are
+//! uncorrelated: the mean of all, each of weight 1/R whatever its samples, has the variance that their scatter gives. (If two halves determine each other's
+//! number, each is unbiased, but where bright light is rare both err to the same side.)
 //!
-//! A pilot asks for n = n₀ v/(R T): v the variance of the mean of one replicate of n₀ samples, T the variance that is tolerated. v and the
-//! mean by which T is told are means of the pixel's own and of those of all pixels of its colour in its cell, as few replicates
-//! know them badly. Errors of stratified samples fall faster than 1/n: then the limit is kept with something to spare.
+//! A pilot requires n = n₀ v/(R T) samples: v is the variance of the mean of one replicate of n₀ samples, T the permitted variance. v and the mean from which
+//! T follows are averages of the pixel's own and of those of all pixels of its colour in its cell, because few replicates estimate them poorly. Errors of
+//! stratified samples decrease faster than 1/n; the limit is then met with a margin.
 
 use crate::render::gather::{Gather, PixelLight, Sums};
 use crate::render::light::{Asked, RenderJob};
@@ -19,13 +19,13 @@ use crate::sizes::tolerance::Tolerance;
 use etendue_core::RadianceField;
 use etendue_core::random::Pixel;
 
-/// The samples of a block so far: sums of each replicate and pixel.
+/// Samples of a block so far: sums of each replicate and pixel.
 struct Sampled {
     block: Vec<Pixel>,
     replicates: Vec<Vec<Sums>>,
 }
 
-/// What the pilots of some replicates say of one pixel: its mean, and the variance of the mean of one replicate.
+/// Pilot estimate of one pixel from some replicates: its mean, and the variance of the mean of one replicate.
 #[derive(Clone, Copy)]
 struct Pilot {
     mean: f64,
@@ -43,7 +43,7 @@ impl Pilot {
 }
 
 impl Sampled {
-    /// What the replicates that decide of `replicate` say of each pixel after `samples` samples each.
+    /// Pilot estimates, for each pixel after `samples` samples, from the replicates that determine the samples of `replicate`.
     fn pilots(&self, replicate: usize, samples: u32) -> impl Iterator<Item = Pilot> {
         let all = self.replicates.len();
         let deciding = (all - 1) / 2;
@@ -57,7 +57,7 @@ impl Sampled {
         })
     }
 
-    /// The light of each pixel, whose replicates had so many samples.
+    /// Light of each pixel; its replicates have the given numbers of samples.
     fn light(mut self, layout: &Layout, samples: &[u32]) -> Vec<(Pixel, PixelLight)> {
         let mut of = |pixel: usize| {
             let mut gather = Gather::new(layout);
@@ -73,7 +73,7 @@ impl Sampled {
 }
 
 impl RenderJob<'_> {
-    /// Gathers the pixels of a tile that cuts no cell, each to the tolerance.
+    /// Samples the pixels of a tile, which splits no cell, each to the tolerance.
     pub(super) fn gather_to_tolerance<const N: usize>(
         &self,
         field: &dyn RadianceField<N>,
@@ -107,7 +107,7 @@ impl RenderJob<'_> {
         cell.into_iter().enumerate().flat_map(go_on).collect()
     }
 
-    /// Adds samples to the replicates of a block: each has `from`, and goes on to its own number.
+    /// Adds samples to the replicates of a block: each has `from`, and continues to its own number.
     fn add<const N: usize>(
         &self,
         field: &dyn RadianceField<N>,
@@ -121,7 +121,7 @@ impl RenderJob<'_> {
         }
     }
 
-    /// How many samples a replicate of each block of a cell needs, as those that decide of it see it.
+    /// Number of samples of a replicate for each block of a cell, from the pilots of the replicates that determine it.
     fn needs(&self, cell: &[Sampled], replicate: usize, tolerance: &Tolerance) -> Vec<u32> {
         let replicates = self.sampling.replicates;
         let pilot = tolerance.min_spp() / replicates;
@@ -169,14 +169,14 @@ mod tests {
         }
     }
 
-    /// Radiance 1 on average: even light in columns below 32, in the others `strength` with the chance of 1/`strength`, else none.
+    /// Radiance with mean 1: uniform light in columns below 32; in the others `strength` with probability 1/`strength`, otherwise none.
     struct Sparks {
         strength: f32,
     }
 
     impl RadianceField<1> for Sparks {
         fn radiance(&self, asked: &FieldRay, _: &Wavelengths<1>) -> Spectral<1> {
-            // Far digits of a stratified number are not stratified.
+            // The low-order digits of a stratified number are not stratified.
             let u = (f64::from(asked.stream.two(Draw::Pupil, 0).x) * 9973.0).fract() as f32;
             let lit = asked.ray.origin.x < 32.0;
             Spectral::splat(if lit {
@@ -202,7 +202,7 @@ mod tests {
     /// Rows of the film.
     const ROWS: usize = 384;
 
-    /// Means, variances and samples of the columns from `first` to the 32nd after it.
+    /// Means, variances and samples of 32 columns from `first` on.
     fn columns(film: &Film, first: usize) -> Vec<(f64, f64, u32)> {
         let watched = film.watched.as_ref().expect("watched");
         let of = |x: usize, y: usize| {
@@ -216,7 +216,7 @@ mod tests {
         values.sum::<f64>() / n
     }
 
-    /// Two pilots of three see no spark, and would have stopped at 0 by their own word.
+    /// Two of three pilots see no spark, and would stop at 0 by their own estimate.
     #[test]
     fn rare_bright_light_has_no_bias_and_an_honest_variance() {
         let pixels = columns(&film(&Sparks { strength: 40.0 }, 0.3, 16), 32);
@@ -225,7 +225,7 @@ mod tests {
         let error = (variance / pixels.len() as f64).sqrt();
         assert!((light - 1.0).abs() < 4.0 * error, "{light} ± {error}");
         let scatter = mean(pixels.iter().map(|p| (p.0 - 1.0) * (p.0 - 1.0)));
-        // Of some 12 000 pixels; a pixel's square has at most some five times its mean as deviation.
+        // Over about 12 000 pixels; the standard deviation of a pixel's square is at most about five times its mean.
         assert!(
             (scatter / variance - 1.0).abs() < 4.0 * 5.0 / (pixels.len() as f64).sqrt(),
             "{scatter} for {variance}"
@@ -240,7 +240,7 @@ mod tests {
                 (light - 1.0).abs() < 1e-6 && *variance < 1e-12 && *samples == 16
             })
         );
-        // A sample has the variance 2, so that 200 make 0.1; 64 pixels of 3 replicates know that to a tenth.
+        // A sample has the variance 2, so that 200 give 0.1; with 64 pixels of 3 replicates the uncertainty is a tenth.
         let noisy = columns(&film, 32);
         let error = mean(noisy.iter().map(|p| (p.0 - 1.0) * (p.0 - 1.0))).sqrt();
         let samples = mean(noisy.iter().map(|p| f64::from(p.2)));

@@ -1,4 +1,4 @@
-//! Bands that are read through others: in another quantity, or without a margin.
+//! Views of bands: in another quantity, or without a margin.
 
 use etendue_core::Plane;
 use etendue_core::quantity::SolidAngle;
@@ -6,14 +6,14 @@ use etendue_core::storage::BandReader;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Bands over the pupil's weight: radiance of irradiance; 0 where no light passes the lens.
+/// Bands divided by the pupil's weight: radiance from irradiance; 0 where no light passes the lens.
 #[derive(Debug)]
 pub(crate) struct OverWeight {
-    /// Of the size of the weight.
+    /// The bands, of the size of the weight.
     pub(crate) of: Arc<dyn BandReader>,
     /// Mean weight of the pupil.
     pub(crate) weight: Arc<Plane<SolidAngle>>,
-    /// What they are divided by.
+    /// Divisor as a function of the weight.
     pub(crate) divisor: fn(f32) -> f32,
 }
 

@@ -1,4 +1,4 @@
-//! Rendering a camera's light.
+//! Renders a camera's light.
 
 use crate::plan::pixel_density::PixelDensity;
 use crate::plan::{CameraBody, CameraPlan, PassAt, Plan, Precipitation, Route, Settings};
@@ -24,25 +24,25 @@ use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 
-/// What a rendering is asked for.
+/// Parameters of a render.
 #[derive(Clone, Copy, Debug)]
 pub struct Request {
-    /// Which picture; the first for a camera whose light does not depend on time.
+    /// Frame and capture; the first for a camera whose light does not depend on time.
     pub shot: Shot,
-    /// Which tiles.
+    /// Tiles to render.
     pub shard: Shard,
-    /// Which instruction set the accelerator may use. It does not change the result.
+    /// Instruction set for the accelerator. It does not change the result.
     pub simd: Simd,
-    /// Where the bands are kept. It does not change the result.
+    /// Storage of the bands. It does not change the result.
     pub keeping: FilmKeeping,
 }
 
-/// Where the bands of a film are kept.
+/// Storage of a film's bands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FilmKeeping {
-    /// In memory, or on the disk where they are larger than the plan allows them.
+    /// In memory, or on disk if they exceed the plan's limit.
     Planned,
-    /// In memory, whatever they take.
+    /// In memory, whatever their size.
     Memory,
 }
 
@@ -52,11 +52,11 @@ impl Default for Request {
     }
 }
 
-/// Renders the light of one camera on the caller's thread pool: irradiance and electrons through the lens, or (on the
-/// route at the pupil) radiance, for which every weight is 1.
+/// Renders the light of one camera on the caller's thread pool: irradiance and electrons through the lens, or (on the pupil route) radiance, for which every
+/// weight is 1.
 ///
 /// # Errors
-/// Where the observer asked to stop, or bands cannot be kept on the disk.
+/// The observer cancels, or bands cannot be stored on disk.
 pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, GatherError> {
     let mut film = pass(plan, camera, request, camera.pass(0), None, observer)?;
     for number in 1..camera.pass_count() {
@@ -65,10 +65,10 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
     Ok(film)
 }
 
-/// One pass of it, joined with what the passes before it gathered.
+/// Renders one pass of it and adds it to the light of the passes before.
 ///
 /// # Errors
-/// Where the observer asked to stop, or bands cannot be kept on the disk.
+/// The observer cancels, or bands cannot be stored on disk.
 pub fn pass(
     plan: &Plan,
     camera: &CameraPlan,
@@ -80,16 +80,16 @@ pub fn pass(
     with_source(camera, request.shot, LightJob { plan, camera, request, pass, before, observer })
 }
 
-/// What is done with a camera's rays, whatever they come through.
+/// A task on a camera's rays, independent of their source.
 pub(super) trait SourceJob {
-    /// What comes of it.
+    /// Result of the task.
     type Output;
 
-    /// Does it.
+    /// Runs the task.
     fn run(self, source: &dyn RaySource) -> Self::Output;
 }
 
-/// Does a job with the rays of a camera's picture.
+/// Runs a task with the rays of a camera's image.
 pub(super) fn with_source<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J) -> J::Output {
     match &camera.settings.route {
         Route::Lens => with_lens(camera, shot, job),
@@ -97,7 +97,7 @@ pub(super) fn with_source<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J)
     }
 }
 
-/// Does a job with the rays through a camera's lens and what stands before it, whatever its light's route is.
+/// Runs a task with the rays through a camera's lens and the elements before it, whatever its light's route.
 pub(super) fn with_lens<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J) -> J::Output {
     match &camera.body.front {
         None => job.run(&LensSource::of(camera)),
@@ -125,7 +125,7 @@ impl SourceJob for LightJob<'_> {
     }
 }
 
-/// Which lights a camera's paths ask.
+/// Number of lights that a camera's paths sample.
 #[must_use]
 pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
     let exposure = FilmExposure::of(camera, Shot::default());
@@ -165,7 +165,7 @@ fn through(job: &LightJob<'_>, source: &dyn RaySource) -> Result<Film, GatherErr
     }
 }
 
-/// The light of a job, with a guide where the settings ask for one.
+/// Renders the light of a job, with path guiding if the settings request it.
 fn gathered<const N: usize>(
     job: &RenderJob<'_>,
     tracer: PathTracer<'_>,
@@ -181,20 +181,20 @@ where
     job.gather::<N>(&tracer.with_guide(guide.as_ref()), before, observer)
 }
 
-/// What displaces a camera's samples on its film.
+/// Spread of a camera's samples on its film.
 fn sample_spread(camera: &CameraPlan) -> Option<SampleSpread> {
     let CameraPlan { body, settings, .. } = camera;
     let through_lens = settings.route == Route::Lens;
     through_lens.then(|| body.effects.sample_spread(&body.raster, settings.range)).flatten()
 }
 
-/// How the wavelengths of a camera's pixels are drawn.
+/// Wavelength sampling of a camera's pixels.
 fn pixel_density<'a>(plan: &'a Plan, camera: &CameraPlan) -> PixelDensity<'a> {
     let Settings { wavelength_sampling: sampling, range, bands, .. } = camera.settings;
     PixelDensity { sampling, sources: &plan.source_spectra, range, keeps_bands: bands.is_some() }
 }
 
-/// Up to which distances drops or flakes are modelled one by one for the first picture of a camera; `None` where none fall.
+/// Distances up to which drops or flakes are modelled individually for the first image of a camera; `None` without precipitation.
 #[must_use]
 pub fn change_over(plan: &Plan, camera: &CameraPlan) -> Option<ChangeOver> {
     let rows = FilmExposure::of(camera, Shot::default());
@@ -210,7 +210,7 @@ pub fn change_over(plan: &Plan, camera: &CameraPlan) -> Option<ChangeOver> {
     of.map(|(.., change_over)| change_over)
 }
 
-/// Columns and rows of a camera's film before its picture.
+/// Columns and rows of a camera's film before its image.
 fn margin_px(camera: &CameraPlan) -> [usize; 2] {
     match camera.settings.route {
         Route::Lens => camera.body.effects.margin_px(),
@@ -268,7 +268,7 @@ pub(super) fn render_job<'a>(
     }
 }
 
-/// Angle of a pixel in the middle of the picture, rad, by its tangent.
+/// Angle of a pixel at the centre of the image, rad, given by its tangent.
 fn pitch_tan(camera: &CameraPlan) -> f64 {
     match &camera.settings.route {
         Route::Lens => front_pitch(&camera.body)
@@ -280,9 +280,9 @@ fn pitch_tan(camera: &CameraPlan) -> f64 {
 pub(super) fn path_settings(camera: &CameraPlan, pass: PassAt) -> PathSettings {
     let Settings { replicates, adaptive, .. } = camera.settings;
     let spp = pass.pass.samples;
-    // The pixel is covered by the samples of all passes so far.
+    // The samples of all passes so far cover the pixel together.
     let covering = pass.before_spp + spp;
-    // Where noise decides, runs of samples are as long as all pixels have.
+    // With noise-limited sampling, runs of samples have the length common to all pixels.
     let samples = adaptive.map_or(spp, |limit| limit.min_spp) / replicates;
     PathSettings {
         samples,
@@ -291,7 +291,7 @@ pub(super) fn path_settings(camera: &CameraPlan, pass: PassAt) -> PathSettings {
     }
 }
 
-/// Angle between what neighbouring pixels see in a mirror, which widens the view: the median over the picture.
+/// Angle between the views of neighbouring pixels in a mirror, which widens the field: the median over the image.
 fn front_pitch(body: &CameraBody) -> Option<f64> {
     const SIDE: u32 = 24;
     body.front.as_ref()?;
@@ -308,8 +308,8 @@ fn front_pitch(body: &CameraBody) -> Option<f64> {
     angles.get(angles.len() / 2).copied()
 }
 
-/// Share of a pixel's width that one of its samples stands for: together they cover the pixel once, so that textures are
-/// not averaged over the pixel twice. Not less than an eighth, to read textures in fewer places.
+/// Width of a sample as a fraction of a pixel's width: the samples together cover the pixel once, so that textures are not averaged over the pixel twice. At
+/// least an eighth, to reduce texture reads.
 fn sample_width(samples: u32) -> f32 {
     (1.0 / (samples.max(1) as f32).sqrt()).max(0.125)
 }
@@ -332,8 +332,7 @@ impl RaySource for LensSource {
     }
 }
 
-/// What stands in front of a camera as it is in the middle of an exposure, of all rows together. Drops slide by gravity as it is where
-/// the camera stands when they begin.
+/// The elements before a camera at the middle of an exposure, the same for all rows. Drops slide by the gravity of the camera's orientation when they start.
 fn front_at<'a>(front: &'a Front, camera: &CameraPlan, shot: Shot) -> Cow<'a, Front> {
     let Some(course) = front.course() else { return Cow::Borrowed(front) };
     let pose = camera.path.at(course.start_s);
@@ -341,7 +340,7 @@ fn front_at<'a>(front: &'a Front, camera: &CameraPlan, shot: Shot) -> Cow<'a, Fr
     Cow::Owned(front.at(middle_s, pose.rotation.transpose() * DVec3::NEG_Z))
 }
 
-/// Rays through a lens and what stands in front of it.
+/// Rays through a lens and the elements before it.
 struct FrontSource<'a> {
     lens: LensSource,
     front: &'a Front,
@@ -354,8 +353,7 @@ impl RaySource for FrontSource<'_> {
     }
 }
 
-/// Rays from the centre of the entrance pupil; their weight is 1, so that irradiance reads as radiance. Pixels between the
-/// views of a cube have none.
+/// Rays from the centre of the entrance pupil, with weight 1, so that irradiance equals radiance. Pixels between the views of a cube have none.
 impl RaySource for PupilProjection {
     fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
         let direction = self.direction(raster_px)?;

@@ -1,4 +1,4 @@
-//! Films whose bands are in scratch files, against films in memory.
+//! Films with bands in scratch files, compared with films in memory.
 
 use super::film::Film;
 use super::light::{GatherError, RaySource, RenderJob};
@@ -15,7 +15,7 @@ use std::sync::{Arc, Mutex};
 
 const SIZE: [u32; 2] = [37, 23];
 
-/// Room in memory, for tests; `Full` has none.
+/// Storage in memory, for tests; `Full` has no capacity.
 #[derive(Debug)]
 enum Room {
     Memory,
@@ -68,7 +68,7 @@ impl RaySource for Ahead {
     }
 }
 
-/// Light that differs from sample to sample.
+/// Light that varies from sample to sample.
 struct Uneven;
 
 impl RadianceField<4> for Uneven {
@@ -89,7 +89,7 @@ fn gathered(
     RenderJob { shard, scratch: store.as_ref(), ..job }.gather::<4>(&Uneven, before, &Unobserved)
 }
 
-/// Bits of all bands, rows asked for in strips that fit no tile.
+/// Bits of all bands, with rows requested in strips that match no tile.
 fn bits(film: &Film) -> Vec<u32> {
     let (bands, readers) = film.bands().expect("bands");
     let [width, height] = SIZE.map(|side| side as usize);

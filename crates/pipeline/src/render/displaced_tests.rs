@@ -1,4 +1,4 @@
-//! Samples that the point spread displaces, on the film of a pattern of light.
+//! Samples displaced by the point spread, on the film of a pattern of light.
 
 use super::film::Film;
 use super::light::{RaySource, RenderJob};
@@ -19,7 +19,7 @@ use glam::{DVec2, DVec3};
 const SIDE: u32 = 32;
 const PITCH_MM: f64 = 0.004;
 
-/// The place on the film is where the ray begins.
+/// The film position is the origin of the ray.
 struct Place;
 
 impl RaySource for Place {
@@ -28,7 +28,7 @@ impl RaySource for Place {
     }
 }
 
-/// Bars across the columns of so many cycles a pixel, about 1.
+/// Bars across the columns with the given frequency, cycles per pixel, and mean 1.
 struct Bars(f64);
 
 impl RadianceField<4> for Bars {
@@ -37,7 +37,7 @@ impl RadianceField<4> for Bars {
     }
 }
 
-/// Four bands, of which each of the four wavelengths of a sample is in one of its own.
+/// Four bands, one for each of the four wavelengths of a sample.
 fn film(field: &Bars, spread: Option<&SampleSpread>, spp: u32) -> Film {
     let layout = Layout { bands: Bands::covering(400.0, 700.0, 75.0), folded: false, watched: false };
     let job = still_job(&Place, [SIDE, SIDE], layout, sampling(PassAt::only(spp), 4));
@@ -70,7 +70,7 @@ fn gaussian(sigma_px: f64) -> PointSpread {
     PointSpread::Image(SpreadImage::new(image, &raster()).expect("a picture"))
 }
 
-/// A kernel on whole pixels has 0.08 too little at 0.4 px and a quarter of a cycle.
+/// A kernel sampled at whole pixels has 0.08 too little at 0.4 px and a quarter of a cycle.
 #[test]
 fn bars_behind_a_narrow_gaussian_keep_their_contrast() {
     for (sigma_px, cycles) in [(0.2, 0.25), (0.4, 0.25), (0.4, 0.125)] {
@@ -79,12 +79,12 @@ fn bars_behind_a_narrow_gaussian_keep_their_contrast() {
         let contrast = found.iter().enumerate().map(wave).sum::<f64>() / found.len() as f64;
         let pixel = sin(PI * cycles) / (PI * cycles);
         let expected = pixel * exp(-2.0 * (PI * sigma_px * cycles) * (PI * sigma_px * cycles));
-        // 262 144 samples of a wave whose scatter is below 1 (0.002 each way at 95 %), and 0.001 of the cells.
+        // 262 144 samples of a wave with a standard deviation below 1 (0.002 each way at 95 %), and 0.001 of the cells.
         assert!((contrast - expected).abs() < 0.003, "{sigma_px} at {cycles}: {contrast} for {expected}");
     }
 }
 
-/// The weights of the wavelengths of a path cost noise where their functions are of different width.
+/// The weights of a path's wavelengths add noise where their functions differ in width.
 #[test]
 fn even_light_stays_even_but_for_the_noise_of_wavelengths() {
     let scatter = |psf: PointSpread, spp: u32| {
@@ -109,6 +109,6 @@ fn even_light_stays_even_but_for_the_noise_of_wavelengths() {
     let diffraction = Psf::new(round, &Lens::thin(lens).expect("a lens"), &raster()).expect("legal");
     let (mean, noise) = scatter(PointSpread::Aperture(diffraction), 64);
     assert!((mean - 1.0).abs() < 4.0 * noise / f64::from(2 * SIDE), "{mean} {noise}");
-    // As measured, 0.042.
+    // Measured: 0.042.
     assert!(noise < 0.37 / 8.0, "{noise}");
 }

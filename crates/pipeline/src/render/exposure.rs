@@ -1,10 +1,10 @@
-//! When, and from where, each row of a film is exposed.
+//! Exposure time and camera pose of each row of a film.
 
 use crate::plan::{CameraPlan, Route, TimeDependence};
 use etendue_core::{CameraPath, CameraPose, PupilRay, Ray, TimeInterval};
 use glam::DVec3;
 
-/// Which picture of a camera: where the world depends on time, each has a light of its own.
+/// An image of a camera: where the world depends on time, each has its own light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shot {
     /// The frame, from 0.
@@ -13,21 +13,21 @@ pub struct Shot {
     pub capture: u32,
 }
 
-/// When, and from where, the rows of a film are exposed, about the origin of a view of the world.
+/// Exposure times and camera poses of the rows of a film, relative to the origin of a view of the world.
 #[derive(Clone, Debug)]
 pub struct FilmExposure<'a> {
     path: &'a CameraPath,
     time: TimeDependence,
-    /// Of all rows together: that of the view.
+    /// Interval of all rows together: that of the view.
     interval: TimeInterval,
-    /// Of each row of the film.
+    /// Interval of each row of the film.
     rows: Vec<TimeInterval>,
     /// The origin of the render frame in the world, m.
     origin_m: DVec3,
 }
 
 impl<'a> FilmExposure<'a> {
-    /// The exposure of a camera's film.
+    /// Exposure of a camera's film.
     #[must_use]
     pub fn of(camera: &'a CameraPlan, shot: Shot) -> Self {
         let Shot { frame, capture } = shot;
@@ -47,7 +47,7 @@ impl<'a> FilmExposure<'a> {
         Self { path: &camera.path, time: camera.time, interval, rows, origin_m }
     }
 
-    /// All rows at one moment, from a camera that stands still.
+    /// All rows at one time, from a static camera.
     #[must_use]
     pub fn still(path: &'a CameraPath) -> Self {
         let interval = TimeInterval::default();
@@ -55,8 +55,7 @@ impl<'a> FilmExposure<'a> {
         Self { path, time: TimeDependence::None, interval, rows: Vec::new(), origin_m }
     }
 
-    /// The time from the beginning of the first row's exposure to the end of the last one's; a single moment where nothing depends
-    /// on time.
+    /// Interval from the start of the first row's exposure to the end of the last row's; zero length if nothing depends on time.
     #[must_use]
     pub fn interval(&self) -> TimeInterval {
         match self.time {
@@ -65,20 +64,20 @@ impl<'a> FilmExposure<'a> {
         }
     }
 
-    /// The origin of the render frame in the world, m: where the camera is half-way.
+    /// Origin of the render frame in the world, m: the camera's position at the middle of the interval.
     #[must_use]
     pub fn origin_m(&self) -> DVec3 {
         self.origin_m
     }
 
-    /// Whether samples have moments of their own.
+    /// Returns true if samples have individual times.
     #[must_use]
     pub fn has_moments(&self) -> bool {
         self.time == TimeDependence::Motion
     }
 
-    /// The moment of a sample of a row, s of simulated time, for a number `u` in [0, 1) that samples of neighbouring rows may share: each
-    /// row's moments are spread evenly over its exposure, and equal in rows whose exposures overlap as far as they do.
+    /// Time of a sample of a row, s of simulated time, from a number `u` in [0, 1) that samples of neighbouring rows may share. The times of each row are
+    /// uniform over its exposure, and equal, as far as possible, in rows with overlapping exposures.
     #[must_use]
     pub fn moment_s(&self, row: u32, u: f32) -> f64 {
         if self.time != TimeDependence::Motion {
@@ -94,8 +93,8 @@ impl<'a> FilmExposure<'a> {
         (sample_s + turns * length_s).clamp(row.start_s(), row.end_s())
     }
 
-    /// Over what time the level of a light that changes is averaged for a sample of a row: over the row's exposure where nothing
-    /// moves, else at the sample's moment, as its ray has it.
+    /// Interval over which the level of a varying light is averaged for a sample of a row: the row's exposure if nothing moves, otherwise the sample's time,
+    /// as of its ray.
     #[must_use]
     pub fn lit(&self, row: u32, moment_s: f64) -> TimeInterval {
         match self.time {
@@ -105,13 +104,13 @@ impl<'a> FilmExposure<'a> {
         }
     }
 
-    /// The pose at a moment, s.
+    /// Pose at a time, s.
     #[must_use]
     pub fn pose(&self, moment_s: f64) -> CameraPose {
         self.path.at(moment_s)
     }
 
-    /// A ray of the camera frame at a moment, s, in the render frame.
+    /// Converts a ray of the camera frame at a time, s, to the render frame.
     #[must_use]
     pub fn to_render(&self, ray: &PupilRay, moment_s: f64) -> Ray {
         let pose = self.pose(moment_s);
@@ -120,7 +119,7 @@ impl<'a> FilmExposure<'a> {
         Ray::new(origin.as_vec3(), direction, self.time_s(moment_s))
     }
 
-    /// A moment as the time of a ray. Moments of rows that differ by rounding alone are one time.
+    /// Ray time of a simulated time. Times of rows that differ only by rounding are equal.
     fn time_s(&self, moment_s: f64) -> f32 {
         (moment_s - self.interval().start_s()) as f32
     }
@@ -131,7 +130,7 @@ mod tests {
     use super::*;
     use glam::DMat3;
 
-    /// Rows of 8 ms that begin 1 ms after each other.
+    /// Rows of 8 ms that start 1 ms after each other.
     fn rolling(path: &CameraPath) -> FilmExposure<'_> {
         let row = |i: u32| TimeInterval::new(5.0 + 1e-3 * f64::from(i), 5.008 + 1e-3 * f64::from(i)).expect("in order");
         let interval = row(0).union(&row(15));
@@ -150,12 +149,12 @@ mod tests {
                 (0..n).map(|i| exposure.moment_s(row, (f32::from(i) + 0.5) / f32::from(n))).collect();
             moments.sort_by(f64::total_cmp);
             for (i, moment_s) in moments.iter().enumerate() {
-                // One in each of 1024 equal parts, but for rounding at their ends.
+                // One in each of 1024 equal parts, except for rounding at their ends.
                 let even_s = own.start_s() + own.length_s() * (i as f64 + 0.5) / f64::from(n);
                 assert!((moment_s - even_s).abs() < 0.5 * own.length_s() / f64::from(n) + 1e-12, "{row} {i}");
             }
         }
-        // Rows 3 and 5 have 6 of their 8 ms in common.
+        // Rows 3 and 5 share 6 of their 8 ms.
         let same = (0..n).filter(|i| {
             let u = (f32::from(*i) + 0.5) / f32::from(n);
             exposure.moment_s(3, u).to_bits() == exposure.moment_s(5, u).to_bits()

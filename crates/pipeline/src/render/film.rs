@@ -1,4 +1,4 @@
-//! The light of a whole frame: f32 means and variances, filled tile by tile by one owner each.
+//! Light of a whole frame: f32 means and variances; each tile is filled by one owner.
 
 use crate::render::band_views::over;
 use crate::render::gather::{PixelLight, stored_variance};
@@ -13,7 +13,7 @@ use etendue_core::random::Pixel;
 use etendue_core::storage::BandReader;
 use etendue_core::{Bands, Plane, SpectralCube};
 
-/// A plane of means and, where replicates know it, the variance of each.
+/// A plane of means and, if the replicates give it, the variance of each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate<Q: Quantity> {
     /// Means.
@@ -29,7 +29,7 @@ impl<Q: Quantity> Estimate<Q> {
 }
 
 impl Estimate<ElectronRate> {
-    /// Electrons of an exposure, s, and the variance of their mean.
+    /// Electrons over an exposure, s, and the variance of their mean.
     #[must_use]
     pub fn exposed(&self, exposure_s: f64) -> Estimate<MeanElectrons> {
         Estimate {
@@ -39,7 +39,7 @@ impl Estimate<ElectronRate> {
     }
 }
 
-/// Numbers of a second, in their own memory, by a factor of the exposure.
+/// Scales values per second by a factor of the exposure, in place.
 pub(crate) fn exposed<Q, R>(plane: Plane<Q>, by: f64) -> Plane<R>
 where
     Q: Quantity<Sample = f32>,
@@ -60,7 +60,7 @@ pub struct CubeEstimate<Q: Quantity> {
     pub variance: SpectralCube<Variance>,
 }
 
-/// The bands of a film, in memory or on the disk.
+/// Bands of a film, in memory or on disk.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FilmCube {
     /// In memory.
@@ -70,7 +70,7 @@ pub enum FilmCube {
 }
 
 impl FilmCube {
-    /// The bands, where they are in memory.
+    /// Returns the bands if they are in memory.
     #[must_use]
     pub fn into_memory(self) -> Option<CubeEstimate<Irradiance>> {
         match self {
@@ -80,21 +80,20 @@ impl FilmCube {
     }
 }
 
-/// The light that one camera gathered.
+/// Light of one camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
-    /// Spectral irradiance on the sensor plane (through the lens) where a cube is kept. At the pupil, where every
-    /// weight is 1, the same numbers are radiance.
+    /// Spectral irradiance on the sensor plane (through the lens), if a cube is stored. At the pupil, where every weight is 1, the values are radiance.
     pub cube: Option<FilmCube>,
     /// Mean weight of the pupil.
     pub weight: Plane<SolidAngle>,
-    /// Folded electrons of a second of light.
+    /// Electrons per second of light.
     pub electron_rate: Option<Estimate<ElectronRate>>,
-    /// What a limit of noise watches; `None` where there is no limit.
+    /// Signal monitored by a noise limit; `None` without a limit.
     pub watched: Option<Estimate<WatchedSignal>>,
-    /// Samples of each pixel.
+    /// Number of samples of each pixel.
     pub samples: Plane<Identity>,
-    /// Samples that were not finite.
+    /// Number of samples that were not finite.
     pub not_finite: Plane<Identity>,
     /// Replicates behind each variance.
     pub replicates: u32,
@@ -111,14 +110,14 @@ impl Film {
         Self::with(layout.bands.map(cube).map(FilmCube::Memory), width, height, layout, replicates)
     }
 
-    /// An empty film whose bands are on the disk.
+    /// An empty film with bands on disk.
     #[must_use]
     pub fn on_disk(cube: TiledCube, layout: &Layout, replicates: u32) -> Self {
         let (width, height) = cube.size();
         Self::with(Some(FilmCube::Disk(cube)), width, height, layout, replicates)
     }
 
-    /// The same film, but for its bands, which are those of `cube`.
+    /// Copies the film with other bands, those of `cube`.
     pub(super) fn planes_beside(&self, cube: TiledCube) -> Self {
         Self {
             cube: Some(FilmCube::Disk(cube)),
@@ -143,7 +142,7 @@ impl Film {
         }
     }
 
-    /// The bands, where they are in memory.
+    /// Returns the bands if they are in memory.
     #[must_use]
     pub fn cube(&self) -> Option<&CubeEstimate<Irradiance>> {
         match &self.cube {
@@ -152,7 +151,7 @@ impl Film {
         }
     }
 
-    /// The same, to be filled.
+    /// Returns the bands to fill if they are in memory.
     pub fn cube_mut(&mut self) -> Option<&mut CubeEstimate<Irradiance>> {
         match &mut self.cube {
             Some(FilmCube::Memory(cube)) => Some(cube),
@@ -160,7 +159,7 @@ impl Film {
         }
     }
 
-    /// The bands, where they are on the disk.
+    /// Returns the bands if they are on disk.
     #[must_use]
     pub fn disk(&self) -> Option<&TiledCube> {
         match &self.cube {
@@ -169,7 +168,7 @@ impl Film {
         }
     }
 
-    /// The wavelength bands, and their means and variances, wherever they are.
+    /// Wavelength bands, with readers of their means and variances, in memory or on disk.
     #[must_use]
     pub fn bands(&self) -> Option<(Bands, [&dyn BandReader; 2])> {
         match self.cube.as_ref()? {
@@ -178,10 +177,10 @@ impl Film {
         }
     }
 
-    /// The bands of a tile of the film's grid, `None` where the film has none.
+    /// Bands of a tile of the film's grid; `None` for a film without bands.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// They cannot be read.
     pub fn tile_bands(&self, tile: Tile) -> Result<Option<TileBands>, String> {
         match &self.cube {
             None => Ok(None),
@@ -190,7 +189,7 @@ impl Film {
         }
     }
 
-    /// Stores the light of one pixel, of which it keeps what it has planes for in memory.
+    /// Stores the light of one pixel in the planes that are in memory.
     pub fn store(&mut self, pixel: Pixel, light: &PixelLight) {
         let (x, y) = (pixel.x as usize, pixel.y as usize);
         if let Some(FilmCube::Memory(cube)) = &mut self.cube {
@@ -214,13 +213,13 @@ impl Film {
         let means = light.bands().iter().copied().chain(light.electrons().map(|(mean, _)| mean));
         let is_lost = means.into_iter().any(|mean| !(mean as f32).is_finite());
         let not_finite = light.not_finite().max(u32::from(is_lost));
-        // Memory that nobody writes to is not taken.
+        // Unwritten memory is not allocated by the system.
         if not_finite != self.not_finite.at(x, y) {
             self.not_finite.set(x, y, not_finite);
         }
     }
 
-    /// The light of one pixel, as it is stored; `layout` is the film's, `bands` are those of its tile.
+    /// Light of one pixel, as stored; `layout` is the film's, `bands` are those of its tile.
     #[must_use]
     pub fn light(&self, pixel: Pixel, layout: &Layout, bands: Option<&TileBands>) -> PixelLight {
         let (x, y) = (pixel.x as usize, pixel.y as usize);
@@ -240,7 +239,7 @@ impl Film {
         PixelLight::of(layout, means, variances, self.samples.at(x, y), self.not_finite.at(x, y))
     }
 
-    /// Copies `tile` from a film of the same size and layout; bands from memory to memory.
+    /// Copies `tile` from a film of the same size and layout; bands only from memory to memory.
     pub fn copy_tile(&mut self, tile: Tile, from: &Self) {
         if let (Some(to), Some(from)) = (self.cube_mut(), from.cube()) {
             copy_planes(to.mean.planes_mut(), from.mean.planes(), tile);
@@ -259,8 +258,8 @@ impl Film {
         copy_plane(&mut self.not_finite, &from.not_finite, tile);
     }
 
-    /// The radiance that each pixel sees, mean over its pupil: irradiance over the pupil's weight; 0 where no light
-    /// passes the lens. The weight is taken as exact in the variance. `None` where no bands are in memory.
+    /// Radiance seen by each pixel, mean over its pupil: irradiance over the pupil's weight; 0 where no light passes the lens. The variance treats the weight
+    /// as exact. `None` if no bands are in memory.
     #[must_use]
     pub fn radiance(&self) -> Option<CubeEstimate<Radiance>> {
         let cube = self.cube()?;
@@ -269,7 +268,7 @@ impl Film {
         Some(CubeEstimate { mean, variance })
     }
 
-    /// Samples of the whole film that were not finite.
+    /// Number of samples of the whole film that were not finite.
     #[must_use]
     pub fn not_finite_samples(&self) -> u64 {
         self.not_finite.samples().iter().map(|n| u64::from(*n)).sum()

@@ -1,4 +1,4 @@
-//! A frame of a camera as its ground truth knows it: where it stands when, and when its rows are exposed (in the first of several captures).
+//! A frame of a camera for ground truth: its pose over time, and the exposure of its rows (in the first of several captures).
 
 use crate::plan::{CameraBody, CameraPlan};
 use etendue_core::{CameraPose, TimeInterval};
@@ -18,25 +18,25 @@ impl<'a> FrameView<'a> {
         &self.camera.body
     }
 
-    /// Where the camera stands at a simulated time, s.
+    /// Pose of the camera at a simulated time, s.
     pub(crate) fn pose_at(&self, time_s: f64) -> CameraPose {
         self.camera.path.at(time_s)
     }
 
-    /// From the beginning of the first row's exposure to the end of the last one's.
+    /// Interval from the start of the first row's exposure to the end of the last row's.
     #[must_use]
     pub fn interval(&self) -> TimeInterval {
         self.camera.timing.capture(self.frame, 0)
     }
 
-    /// The simulated time, s, at the middle of the exposure of a row of the picture.
+    /// Simulated time, s, of the middle of the exposure of a row of the image.
     #[must_use]
     pub fn row_middle_s(&self, row: usize) -> f64 {
         self.camera.timing.row(self.frame, 0, row).middle_s()
     }
 
-    /// The simulated time, s, at which a place at the height `y_px` (raster) is seen: between the middles of rows on a straight line, beyond those
-    /// that are read on that of the outermost. Of an interlaced picture the rows are those of the field of `row`.
+    /// Simulated time, s, at which the height `y_px` (raster) is seen: interpolated linearly between the middles of rows, and extrapolated beyond the
+    /// outermost. In an interlaced image the rows are those of the field of `row`.
     #[must_use]
     pub fn middle_at_s(&self, y_px: f64, row: usize) -> f64 {
         let exposure = &self.camera.timing.exposure;

@@ -1,14 +1,14 @@
-//! One pixel's samples gathered into means, with an honest variance.
+//! Accumulates one pixel's samples into means with an unbiased variance.
 //!
-//! Samples of one replicate are summed in sample order in f64 ([`Sums`]). The replicates of a pixel are scrambled independently,
-//! so the scatter of their means is a fair estimate of the variance of the whole; the scatter of the samples is not
-//! (it overstates the variance of a stratified mean by ten to thousands of times).
+//! Samples of one replicate are summed in sample order in f64 ([`Sums`]). The replicates of a pixel are scrambled independently, so that the scatter of their
+//! means is an unbiased estimate of the total variance. The scatter of the samples is not: it overstates the variance of a stratified mean by factors of ten
+//! to thousands.
 
 use crate::sizes::film::Layout;
 use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 
-/// The running sums of a pixel over the samples of one replicate.
+/// Running sums of a pixel over the samples of one replicate.
 #[derive(Clone, Debug)]
 pub struct Sums {
     layout: Layout,
@@ -23,8 +23,8 @@ impl Sums {
         Self { slots: vec![0.0; layout.slots()], layout, not_finite: 0 }
     }
 
-    /// Adds one sample: `radiance` (W·m⁻²·sr⁻¹·nm⁻¹, not divided by the wavelengths' density) through a pupil of
-    /// weight `weight_sr`, at a pixel of `responsivity` (e⁻ per W·m⁻²; unused where nothing is folded).
+    /// Adds one sample: `radiance` (W·m⁻²·sr⁻¹·nm⁻¹, not divided by the wavelengths' density) through a pupil of weight `weight_sr`, at a pixel of
+    /// `responsivity` (e⁻ per W·m⁻²; unused if no electrons are accumulated).
     pub fn add<const N: usize>(
         &mut self,
         weight_sr: f64,
@@ -52,20 +52,20 @@ impl Sums {
         }
     }
 
-    /// The sum of what a limit of noise watches, where one does.
+    /// Sum of the signal monitored by a noise limit, if any.
     #[must_use]
     pub fn watched(&self) -> f64 {
         self.slots[self.layout.watched_slot()]
     }
 
-    /// How many samples were not finite. They stay in the sums, which are then not finite either.
+    /// Number of samples that were not finite. They remain in the sums, which are then not finite either.
     #[must_use]
     pub fn not_finite(&self) -> u32 {
         self.not_finite
     }
 }
 
-/// The running moments of one pixel over replicates.
+/// Running moments of one pixel over replicates.
 #[derive(Clone, Debug)]
 pub struct Gather {
     mean: Vec<f64>,
@@ -74,14 +74,14 @@ pub struct Gather {
 }
 
 impl Gather {
-    /// No replicate yet.
+    /// Moments of no replicates.
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
         let slots = layout.slots();
         Self { mean: vec![0.0; slots], squares: vec![0.0; slots], replicates: 0 }
     }
 
-    /// Takes over the sums of a replicate of `samples` samples (those that the lens stopped included), and empties them.
+    /// Adds the sums of a replicate of `samples` samples (including those that the lens blocked), and resets them.
     pub fn end_replicate(&mut self, sums: &mut Sums, samples: u32) {
         self.replicates += 1;
         let n = f64::from(self.replicates);
@@ -94,14 +94,14 @@ impl Gather {
         }
     }
 
-    /// The pixel's light of all replicates, which had `samples` samples together, `not_finite` of them no finite number.
+    /// Light of the pixel over all replicates with `samples` samples together, of which `not_finite` were not finite.
     #[must_use]
     pub fn light(self, layout: &Layout, samples: u32, not_finite: u32) -> PixelLight {
         let variances = (0..self.mean.len()).map(|slot| self.variance(slot)).collect();
         PixelLight { layout: *layout, means: self.mean, variances, samples, not_finite }
     }
 
-    /// Variance of a mean, from the scatter of the replicates; NaN for a single replicate, which knows none.
+    /// Variance of a mean, from the scatter of the replicates; NaN for a single replicate.
     fn variance(&self, slot: usize) -> f64 {
         if self.replicates < 2 {
             return f64::NAN;
@@ -116,7 +116,7 @@ pub(crate) fn stored_variance(value: f64) -> f32 {
     if value > f64::from(f32::MAX) { f32::MAX } else { value as f32 }
 }
 
-/// The light of one pixel: means and their variances.
+/// Light of one pixel: means and their variances.
 #[derive(Clone, Debug)]
 pub struct PixelLight {
     layout: Layout,
@@ -127,13 +127,12 @@ pub struct PixelLight {
 }
 
 impl PixelLight {
-    /// Of these means and variances of [`Layout::slots`] numbers.
+    /// Light from means and variances of [`Layout::slots`] values.
     pub(super) fn of(layout: &Layout, means: Vec<f64>, variances: Vec<f64>, samples: u32, not_finite: u32) -> Self {
         Self { layout: *layout, means, variances, samples, not_finite }
     }
 
-    /// The light of these samples and, independent of them, those of `before`: means weighted by samples, m = (n a + k b)/(n + k), whose
-    /// variance is (n² v + k² w)/(n + k)².
+    /// Combines the light with the independent light of `before`: means weighted by samples, m = (n a + k b)/(n + k), with variance (n² v + k² w)/(n + k)².
     #[must_use]
     pub fn joined(mut self, before: &Self) -> Self {
         if before.samples == 0 {
@@ -152,7 +151,7 @@ impl PixelLight {
         self
     }
 
-    /// Mean band irradiances, W·m⁻²·nm⁻¹ (empty where no cube is kept).
+    /// Mean band irradiances, W·m⁻²·nm⁻¹ (empty if no cube is stored).
     #[must_use]
     pub fn bands(&self) -> &[f64] {
         &self.means[..self.layout.band_count()]
@@ -170,27 +169,27 @@ impl PixelLight {
         self.means[self.layout.band_count()]
     }
 
-    /// Mean electrons and the variance of that mean; `None` where nothing is folded.
+    /// Mean electrons and the variance of that mean; `None` if no electrons are accumulated.
     #[must_use]
     pub fn electrons(&self) -> Option<(f64, f64)> {
         let slot = self.layout.watched_slot();
         self.layout.folded.then(|| (self.means[slot], self.variances[slot]))
     }
 
-    /// Mean of what a limit of noise watches, and the variance of that mean; `None` where none does.
+    /// Mean of the signal monitored by a noise limit, and the variance of that mean; `None` without a limit.
     #[must_use]
     pub fn watched(&self) -> Option<(f64, f64)> {
         let slot = self.layout.watched_slot();
         self.layout.watched.then(|| (self.means[slot], self.variances[slot]))
     }
 
-    /// Samples behind the means.
+    /// Number of samples.
     #[must_use]
     pub fn samples(&self) -> u32 {
         self.samples
     }
 
-    /// How many samples were not finite. They stay in the means, which are then not finite either.
+    /// Number of samples that were not finite. They remain in the means, which are then not finite either.
     #[must_use]
     pub fn not_finite(&self) -> u32 {
         self.not_finite

@@ -1,34 +1,33 @@
-//! The numbers from which the wavelengths of a replicate's samples are drawn.
+//! Random numbers for the wavelengths of a replicate's samples.
 
 use crate::sizes::spectrum_spread::SpectrumSpread;
 use etendue_core::random::{Draw, GoldenSequence, PathStream, PixelAddress, ShiftedLattice};
 
-/// The numbers of a replicate's wavelengths.
+/// Random numbers for a replicate's wavelengths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Heroes {
     order: Order,
 }
 
-/// The random numbers of a replicate of a block.
+/// Random numbers of a replicate of a block.
 pub(super) struct ReplicateNumbers {
-    /// Of each pixel, those of its first sample.
+    /// For each pixel, those of its first sample.
     pub(super) streams: Vec<PathStream>,
     /// Those of the wavelengths.
     pub(super) heroes: Heroes,
 }
 
-/// How the numbers of a replicate follow each other.
+/// Sequence of a replicate's numbers.
 #[derive(Clone, Copy, Debug)]
 enum Order {
     Drawn,
-    /// From a place on among those that are spread together.
+    /// From a position on in the lattice of the samples that are spread together.
     Lattice(ShiftedLattice, u32),
     Golden(GoldenSequence),
 }
 
 impl Heroes {
-    /// Those of the replicate of `address`, which has `samples` samples, of a pass whose first replicate is `first`
-    /// and which has `replicates`.
+    /// Numbers of the replicate of `address`, which has `samples` samples, in a pass that starts at replicate `first` and has `replicates`.
     pub(crate) fn new(
         spread: SpectrumSpread,
         address: &PixelAddress,
@@ -48,7 +47,7 @@ impl Heroes {
         Self { order }
     }
 
-    /// The number from which a sample's `wavelengths` wavelengths are drawn, in [0, 1).
+    /// Number for the sampling of a sample's `wavelengths` wavelengths, in [0, 1).
     pub(crate) fn number(&self, stream: &PathStream, wavelengths: usize) -> f32 {
         let drawn = stream.one(Draw::Wavelength, 0);
         let even = match &self.order {

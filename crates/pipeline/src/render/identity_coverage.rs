@@ -1,9 +1,9 @@
-//! Which objects and which materials a pixel sees, and how much of it each covers.
+//! Coverage of each pixel by objects and by materials.
 //!
-//! Ground truth has the identity at the pixel's centre. Here a pixel's samples go through the lens as those of its light do, at points of its photosensitive
-//! area, of the pupil and of its row's exposure, so that edges, blur and motion have the shares that they have in the picture. The coverage of an identity is the
-//! mean weight of the rays that meet it over that of all rays; what is left to 1 is the background. Surfaces that are cut out by their opacity are there where at
-//! least half of them is; panes hide what is behind them; weather is not seen; what effects behind the lens spread stays where it came from.
+//! Ground truth has the identity at the pixel's centre. Here a pixel's samples pass through the lens like those of its light, at points of its photosensitive
+//! area, of the pupil and of its row's exposure, so that edges, blur and motion have the same coverage as in the image. The coverage of an identity is the
+//! mean weight of the rays that hit it over that of all rays; the remainder to 1 is the background. Surfaces with opacity are present where it is at least
+//! one half; panes hide what is behind them; weather is ignored; light spread by effects behind the lens is counted at its origin.
 
 use crate::plan::{CameraPlan, PassAt, Plan};
 use crate::render::camera_light::{Request, SourceJob, render_job, with_lens};
@@ -18,39 +18,39 @@ use etendue_tracer::accel::Simd;
 use etendue_tracer::render_space::Truth;
 use rayon::prelude::*;
 
-/// Samples a pixel, at most: shares are then known to some hundredths.
+/// Maximum samples per pixel: the uncertainty of fractions is then a few hundredths.
 const MAX_SPP: u32 = 64;
 
 /// An identity in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
-    /// As in the ground truth; never 0.
+    /// Id as in the ground truth; never 0.
     pub id: u32,
-    /// The part of the pixel's light that comes from it, above 0 and at most 1.
+    /// Fraction of the pixel's light from it, above 0 and at most 1.
     pub coverage: f32,
 }
 
-/// What the pixels of a picture see, row by row from the top left; of each pixel the largest shares first, equal ones by their ids.
+/// Coverage of the pixels of an image, row by row from the top left; for each pixel in order of decreasing coverage, equal ones by id.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IdentityCoverage {
-    /// Columns of the picture.
+    /// Columns of the image.
     pub width: usize,
-    /// Rows of the picture.
+    /// Rows of the image.
     pub height: usize,
     /// By instance.
     pub instances: Vec<Vec<Share>>,
-    /// By material: places in the plan's list, from 1.
+    /// By material: positions in the plan's list, from 1.
     pub materials: Vec<Vec<Share>>,
 }
 
-/// The coverage of a frame of a camera, by as many samples as its light has, 64 at most, or one of each replicate where these are more; on the caller's pool.
+/// Coverage of a frame of a camera, with as many samples as its light has, at most 64, or one of each replicate if these are more. Runs on the caller's pool.
 #[must_use]
 pub fn identity_coverage(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> IdentityCoverage {
     let shot = Shot { frame, capture: 0 };
     with_lens(camera, shot, CoverageJob { plan, camera, request: Request { shot, simd, ..Request::default() } })
 }
 
-/// Samples a pixel.
+/// Samples per pixel.
 pub(crate) fn spp(camera: &CameraPlan) -> u32 {
     let replicates = camera.settings.replicates;
     weather_layers::spp(camera).min((MAX_SPP / replicates * replicates).max(replicates))
@@ -78,7 +78,7 @@ impl SourceJob for CoverageJob<'_> {
         let sampling = Sampling { pass: PassAt::only(spp(camera)), ..job.sampling };
         let job = RenderJob { sampling, aperture_px: camera.body.aperture_px, ..job };
         let (width, height) = (camera.body.raster.width(), camera.body.raster.height());
-        // The film of rays through the lens has a margin before the picture.
+        // The film of rays through the lens has a margin before the image.
         let margin = camera.body.effects.margin_px();
         let pixel = |i: usize| Pixel { x: (i % width + margin[0]) as u32, y: (i / width + margin[1]) as u32 };
         let shares = |i: usize| {
@@ -98,7 +98,7 @@ impl SourceJob for CoverageJob<'_> {
 }
 
 impl RenderJob<'_> {
-    /// Hands over the rays of a pixel's samples with their weights, those that the lens stops left out.
+    /// Passes the rays of a pixel's samples with their weights to `take`; rays blocked by the lens are omitted.
     fn each_ray(&self, pixel: Pixel, mut take: impl FnMut(&FieldRay, f64)) {
         let Sampling { replicates, .. } = self.sampling;
         for replicate in 0..replicates {
@@ -108,7 +108,7 @@ impl RenderJob<'_> {
                 let Some(ray) = self.pupil_ray(pixel, glam::DVec2::ZERO, &stream, PRINCIPAL_NM as f32) else {
                     continue;
                 };
-                // At the pupil all rows are exposed together, and there may be fewer of them than of the picture.
+                // At the pupil all rows are exposed together, and there may be fewer of them than rows of the image.
                 let row = pixel.y.min(self.height - 1);
                 let moment_s = self.exposure.moment_s(row, self.time_number(&stream));
                 let lit = TimeInterval::default();
@@ -118,7 +118,7 @@ impl RenderJob<'_> {
     }
 }
 
-/// The weights of the identities that were met so far, in the order in which they were first.
+/// Weights of the identities hit so far, in order of first occurrence.
 #[derive(Default)]
 struct Tally(Vec<(u32, f64)>);
 
@@ -130,7 +130,7 @@ impl Tally {
         }
     }
 
-    /// Of all but the background.
+    /// Coverage of all identities except the background.
     fn shares(self) -> Vec<Share> {
         let whole: f64 = self.0.iter().map(|(_, weight)| weight).sum();
         let met = self.0.into_iter().filter(|(id, weight)| *id > 0 && *weight > 0.0);

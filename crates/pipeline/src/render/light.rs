@@ -1,4 +1,4 @@
-//! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
+//! Light of a frame: sends every pixel's samples into a radiance field and accumulates them on the film.
 
 use crate::plan::PassAt;
 use crate::render::exposure::{FilmExposure, Shot};
@@ -24,53 +24,52 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
-/// How a raster point becomes a ray: through a lens, or from the centre of the entrance pupil.
+/// Conversion of a raster point to a ray: through a lens, or from the centre of the entrance pupil.
 pub trait RaySource: Sync {
-    /// The ray of a raster point (px) through the pupil sample (in [0, 1)²) at `wavelength_nm`, in the camera frame.
-    /// `None` where the lens stops it.
+    /// Ray of a raster point (px) through the pupil sample (in [0, 1)²) at `wavelength_nm`, in the camera frame. `None` if the lens blocks it.
     fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay>;
 }
 
-/// How densely light is sampled, and by which random addresses.
+/// Sampling density, and the random addresses of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Which pass: its samples a pixel are those of all replicates; the most where noise decides.
+    /// Pass: its samples per pixel are those of all replicates; with noise-limited sampling the maximum.
     pub pass: PassAt,
     /// Independently scrambled replicates of a pass; divides its samples.
     pub replicates: u32,
     /// The job's seed.
     pub seed: u64,
-    /// The place in the job of the camera whose light it is.
+    /// Index in the job of the camera that owns the light.
     pub camera: u32,
-    /// Which of its pictures; the first for light that serves all of them.
+    /// Frame and capture; the first for light that serves all of them.
     pub shot: Shot,
-    /// Shortest wavelength sampled, nm.
+    /// Shortest sampled wavelength, nm.
     pub low_nm: f32,
-    /// Longest wavelength sampled, nm.
+    /// Longest sampled wavelength, nm.
     pub high_nm: f32,
-    /// How wavelengths lie over the spectrum.
+    /// Distribution of wavelengths over the spectrum.
     pub spread: SpectrumSpread,
 }
 
 impl Sampling {
-    /// Samples a pixel, over all replicates; the most where noise decides.
+    /// Samples per pixel, over all replicates; with noise-limited sampling the maximum.
     #[must_use]
     pub fn spp(&self) -> u32 {
         self.pass.pass.samples
     }
 
-    /// The number of the first replicate of the pass.
+    /// Number of the first replicate of the pass.
     #[must_use]
     pub fn first_replicate(&self) -> u32 {
         self.pass.number * self.replicates
     }
 }
 
-/// What a frame's light is gathered from and into.
+/// Inputs and layout of the rendering of a frame's light.
 pub struct RenderJob<'a> {
-    /// Makes the rays.
+    /// Source of the rays.
     pub source: &'a dyn RaySource,
-    /// Where the camera is when.
+    /// Camera pose over time.
     pub exposure: FilmExposure<'a>,
     /// Columns of the film.
     pub width: u32,
@@ -78,40 +77,40 @@ pub struct RenderJob<'a> {
     pub height: u32,
     /// Side of a pixel's photosensitive area, in pixels (the root of the fill factor).
     pub aperture_px: f64,
-    /// What is kept.
+    /// Values to store.
     pub layout: Layout,
-    /// Responsivities to fold, where electrons are folded, or watched for their noise.
+    /// Responsivities, if electrons are accumulated or monitored for their noise.
     pub mosaic: Option<&'a Mosaic>,
     /// Samples and addresses.
     pub sampling: Sampling,
-    /// Where noise decides how many samples a pixel gets.
+    /// Tolerance of noise-limited sampling; `None` without it.
     pub tolerance: Option<Tolerance>,
-    /// Pixels whose paths share their tails.
+    /// Blocks of pixels whose paths share their tails.
     pub blocks: Blocks,
-    /// Side of a tile, px, that cuts no block. It does not change the result.
+    /// Side of a tile, px, that splits no block. It does not change the result.
     pub tile_px: u32,
-    /// Which tiles to render; the others stay zero.
+    /// Tiles to render; the others remain zero.
     pub shard: Shard,
-    /// What displaces samples on the film.
+    /// Displacement of samples on the film.
     pub sample_spread: Option<&'a SampleSpread>,
-    /// Where the bands are kept that are not kept in memory. It does not change the result.
+    /// Storage of bands that are not in memory. It does not change the result.
     pub scratch: Option<&'a Arc<dyn ScratchStore>>,
 }
 
-/// A pixel of a block that light reaches.
+/// A pixel of a block that receives light.
 struct Reached<const N: usize> {
-    /// Its place in the block.
+    /// Index in the block.
     index: usize,
     /// The weight of its ray.
     weight_sr: f64,
-    /// Weights of the wavelengths, where the sample was displaced.
+    /// Weights of the wavelengths, if the sample was displaced.
     spread: Option<Spectral<N>>,
 }
 
-/// One sample of each pixel of a block, while it is answered.
+/// One sample of each pixel of a block, during evaluation.
 #[derive(Default)]
 pub(super) struct Asked<const N: usize> {
-    /// Pixels that light reaches.
+    /// Pixels that receive light.
     pixels: Vec<Reached<N>>,
     rays: Vec<FieldRay>,
     radiance: Vec<Spectral<N>>,
@@ -125,10 +124,10 @@ impl<const N: usize> Asked<N> {
     }
 }
 
-/// Why a film is not complete.
+/// Reasons for which a film is incomplete.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GatherError {
-    /// The caller asked to stop.
+    /// The caller cancelled.
     #[error("the rendering was cancelled")]
     Cancelled,
     /// The bands could not be written to the scratch file, or read from it.
@@ -137,10 +136,10 @@ pub enum GatherError {
 }
 
 impl RenderJob<'_> {
-    /// Renders the shard's tiles in parallel on the caller's thread pool; joined with what the passes before it gathered, where there are some.
+    /// Renders the shard's tiles in parallel on the caller's thread pool, and adds them to the light of the passes before, if any.
     ///
     /// # Errors
-    /// Where the observer asked to stop, or bands cannot be kept on the disk.
+    /// The observer cancels, or bands cannot be stored on disk.
     pub fn gather<const N: usize>(
         &self,
         field: &dyn RadianceField<N>,
@@ -151,11 +150,11 @@ impl RenderJob<'_> {
         let (disk, film) = (film.disk().cloned(), Mutex::new(film));
         let (tiles, done) = (tiles(self.width, self.height, self.tile_px, self.shard), AtomicUsize::new(0));
         observer.begins();
-        // Tile by tile, or the last of a thread are a row of tiles that no other can take over.
+        // One tile at a time; otherwise the last tiles of a thread are a row that no other thread can take over.
         tiles.par_iter().with_max_len(1).try_for_each(|tile| {
             let pixels = self.gather_tile(field, *tile, observer)?;
             let pixels = self.joined(pixels, *tile, before, disk.as_ref()).map_err(GatherError::Scratch)?;
-            // The film is locked once a tile.
+            // The film is locked once per tile.
             let mut film = film.lock().expect("no tile panicked");
             pixels.iter().for_each(|(pixel, light)| film.store(*pixel, light));
             observer.tile(*tile, &film);
@@ -166,7 +165,7 @@ impl RenderJob<'_> {
         Ok(film.into_inner().expect("no tile panicked"))
     }
 
-    /// The film before the first tile. One on the disk has its own file, so that the film before stays as it is.
+    /// The film before the first tile. A film on disk has its own file, so that the previous film remains unchanged.
     fn begun(&self, before: Option<&Film>) -> Result<Film, String> {
         let disk = self.scratch.zip(self.layout.bands).map(|(store, bands)| {
             let has_variance = has_variance(self.sampling.replicates, self.shard);
@@ -188,7 +187,7 @@ impl RenderJob<'_> {
         Film::new(self.width as usize, self.height as usize, &self.layout, self.sampling.replicates)
     }
 
-    /// The light of the pixels of a tile, which this pass takes.
+    /// Light of the pixels of a tile that are in this pass.
     fn gather_tile<const N: usize>(
         &self,
         field: &dyn RadianceField<N>,
@@ -204,7 +203,7 @@ impl RenderJob<'_> {
         Ok(lights.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
     }
 
-    /// The same joined with the light before; the bands of the tile are written where they are kept on the disk.
+    /// Adds the light of the passes before; writes the bands of the tile if they are on disk.
     fn joined(
         &self,
         pixels: Vec<(Pixel, PixelLight)>,
@@ -226,12 +225,12 @@ impl RenderJob<'_> {
         Ok(pixels)
     }
 
-    /// What is gathered of each pixel: what the film keeps, and electrons where their noise is watched.
+    /// Values accumulated for each pixel: those that the film stores, and electrons if their noise is monitored.
     pub(super) fn gathered(&self) -> Layout {
         Layout { folded: self.mosaic.is_some(), ..self.layout }
     }
 
-    /// Gathers the pixels of a block, sample by sample.
+    /// Renders the pixels of a block, sample by sample.
     fn gather_block<const N: usize>(&self, field: &dyn RadianceField<N>, block: &[Pixel]) -> Vec<(Pixel, PixelLight)> {
         let layout = self.gathered();
         let mut sums = vec![Sums::new(layout); block.len()];
@@ -269,14 +268,14 @@ impl RenderJob<'_> {
         PixelAddress { frame: FrameAddress { seed, camera, frame, capture }, pixel, replicate }
     }
 
-    /// The wavelengths of a replicate of a block, which are those of its first pixel.
+    /// Wavelengths of a replicate of a block: those of its first pixel.
     fn heroes(&self, pixel: Pixel, replicate: u32) -> Heroes {
         let Sampling { replicates, spread, .. } = self.sampling;
         let samples = self.sampling.spp() / replicates;
         Heroes::new(spread, &self.address(pixel, replicate), samples, self.sampling.first_replicate(), replicates)
     }
 
-    /// One sample of each pixel of a block.
+    /// Adds one sample of each pixel of a block.
     fn add_samples<const N: usize>(
         &self,
         field: &dyn RadianceField<N>,
@@ -308,7 +307,7 @@ impl RenderJob<'_> {
         }
     }
 
-    /// How far the point spread displaces a sample, px, and the weights of its wavelengths.
+    /// Displacement of a sample by the point spread, px, and the weights of its wavelengths.
     pub(super) fn displaced<const N: usize>(
         &self,
         pixel: Pixel,
@@ -322,14 +321,14 @@ impl RenderJob<'_> {
         (offset_px, Some(Spectral(weights)))
     }
 
-    /// The ray of a sample; `None` where the lens stops it.
+    /// Ray of a sample; `None` if the lens blocks it.
     pub(super) fn pupil_ray(&self, pixel: Pixel, off_px: DVec2, stream: &PathStream, nm: f32) -> Option<PupilRay> {
         let area = stream.two(Draw::PixelArea, 0).as_dvec2() - 0.5;
         let raster = DVec2::new(f64::from(pixel.x), f64::from(pixel.y)) + 0.5 + area * self.aperture_px;
         self.source.ray(raster - off_px, stream.two(Draw::Pupil, 0).as_dvec2(), f64::from(nm))
     }
 
-    /// A pixel that folds its responsivity draws wavelengths by it.
+    /// Wavelengths of a sample; a pixel that accumulates electrons samples them by its responsivity.
     pub(super) fn wavelengths<const N: usize>(&self, site: Option<&Site>, u: f32) -> Wavelengths<N> {
         let Sampling { low_nm, high_nm, .. } = self.sampling;
         match site {
@@ -338,7 +337,7 @@ impl RenderJob<'_> {
         }
     }
 
-    /// The number by which the samples of a block have their moments, those of the block's first pixel.
+    /// Number that determines the times of a block's samples: that of the block's first pixel.
     pub(super) fn time_number(&self, stream: &PathStream) -> f32 {
         if self.exposure.has_moments() { stream.one(Draw::Time, 0) } else { 0.0 }
     }
@@ -396,7 +395,7 @@ mod tests {
         assert_eq!(joined, whole);
     }
 
-    /// All values of the lit pixels of an even field of radiance 1 over a weight of 0.25, in bands of 5 nm.
+    /// All values of the lit pixels of a uniform field of radiance 1 over a weight of 0.25, in bands of 5 nm.
     fn bands(spp: u32, replicates: u32, spread: SpectrumSpread) -> Vec<f64> {
         let mut exposure = exposure(16, Shard::WHOLE);
         exposure.width = 64;
@@ -418,7 +417,7 @@ mod tests {
         (mean, (square / values.len() as f64).sqrt())
     }
 
-    /// 64 wavelengths of 80 bands: none or one in each, where drawn ones left 0 to 7.5.
+    /// 64 wavelengths of 80 bands: none or one in each, where independent ones gave 0 to 7.5.
     #[test]
     fn bands_of_even_light_are_met_as_evenly_as_wavelengths_allow() {
         let even = bands(16, 4, SpectrumSpread::AllReplicates);

@@ -1,4 +1,4 @@
-//! Along a pixel's ray of ground truth at the pixel's own time.
+//! Traces a pixel's ray of ground truth at the pixel's own time.
 
 use super::frame_view::FrameView;
 use super::truth::is_there;
@@ -17,17 +17,17 @@ pub(crate) struct LookAt<'a> {
     view: RenderSpace<'a>,
 }
 
-/// The ray by which a pixel looks.
+/// Ray of a pixel.
 pub(crate) struct PixelRay {
-    /// In the camera's frame.
+    /// Ray in the camera's frame.
     pub(crate) front: FrontRay,
-    /// As `CameraBody::truth_ray` tells it.
+    /// Second value of `CameraBody::truth_ray`.
     pub(crate) off_centre: bool,
-    /// When it looks, s from the frame's start.
+    /// Time of the ray, s from the frame's start.
     pub(crate) ray_time_s: f32,
-    /// The simulated time that this means, s.
+    /// Simulated time of the ray, s.
     pub(crate) time_s: f64,
-    /// Where the camera stands then.
+    /// Pose of the camera at that time.
     pub(crate) pose: CameraPose,
 }
 
@@ -38,12 +38,12 @@ impl<'a> LookAt<'a> {
         Self { frame: *frame, plan, view }
     }
 
-    /// When a row looks, s from the frame's start. Rays have times of 32 bits.
+    /// Time of a row's rays, s from the frame's start. Rays have times of 32 bits.
     pub(crate) fn ray_time_s(&self, row: usize) -> f32 {
         (self.frame.row_middle_s(row) - self.view.interval().start_s()) as f32
     }
 
-    /// The ray of a point of the picture (px) at the time of its row; `None` where no light comes.
+    /// Ray of an image point (px) at the time of its row; `None` where no light arrives.
     pub(crate) fn ray(&self, at_px: DVec2) -> Option<PixelRay> {
         let (front, off_centre) = self.frame.body().truth_ray(at_px)?;
         let ray_time_s = self.ray_time_s(at_px.y as usize);
@@ -51,7 +51,7 @@ impl<'a> LookAt<'a> {
         Some(PixelRay { front, off_centre, ray_time_s, time_s, pose: self.frame.pose_at(time_s) })
     }
 
-    /// What is met first from a point of a camera's frame (m) along a direction of it, the camera standing at `pose` at a time.
+    /// First hit from a point of the camera's frame (m) along a direction of it, with the camera at `pose` at a time.
     pub(crate) fn meets(
         &self,
         pose: &CameraPose,
@@ -60,7 +60,7 @@ impl<'a> LookAt<'a> {
         ray_time_s: f32,
         instance: Option<u32>,
     ) -> Option<Truth> {
-        // The view's origin is where the camera is half-way through the frame.
+        // The view's origin is the camera's position at the middle of the frame.
         let from_m = pose.position_m - self.view.origin_m() + pose.point_to_render(origin_m);
         let wanted = |index: u32| instance.is_none_or(|wanted| wanted == index);
         self.view.truth(from_m, pose.direction_to_world(direction), ray_time_s, |point| {
@@ -68,7 +68,7 @@ impl<'a> LookAt<'a> {
         })
     }
 
-    /// Whether a point of the picture would show an instance (its place in the world's list) if that were alone.
+    /// Returns true if an image point would show an instance (its index in the world's list) if that were alone.
     pub(crate) fn meets_alone(&self, at_px: DVec2, instance: u32) -> bool {
         let found = self.ray(at_px).and_then(|ray| {
             let line = ray.front.ray;

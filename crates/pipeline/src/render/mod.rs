@@ -1,16 +1,16 @@
 //! Rendering: from a plan to the light of a camera, tile by tile.
 //!
 //! # Contract
-//! - [`light`](light()) renders one camera of a plan and answers with a [`film::Film`]: spectral irradiance (W·m⁻²·nm⁻¹) or mean
-//!   electrons a second through the lens, spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) on the route at the pupil, with the variance of the means.
+//! - [`light`](light()) renders one camera of a plan and returns a [`film::Film`]: spectral irradiance (W·m⁻²·nm⁻¹) or mean
+//!   electrons per second through the lens, spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) on the pupil route, with the variance of the means.
 //! - Bands of a film that is too large for memory are in a scratch file ([`tiled_cube`]).
-//! - [`adaptive`] decides how many samples a pixel gets, where noise does.
-//! - [`motion`] is the ground truth of what moves: optical flow, scene flow, disparity.
-//! - [`boxes`] are those of objects, in the picture and in space.
-//! - [`truth`], [`rays`] and [`pupil_depth`] are point-sampled beside it, along principal rays.
-//! - [`identity_coverage`] is which objects a pixel sees, and how much of it each covers.
-//! - [`weather_layers`] are what media, drops and flakes do to each pixel.
-//! - Every pixel has one owner and its own random address: the result depends on neither threads, nor tiles, nor shards.
+//! - [`adaptive`] determines the number of samples of a pixel in noise-limited sampling.
+//! - [`motion`] is the ground truth of motion: optical flow, scene flow, disparity.
+//! - [`boxes`] are the boxes of objects, in the image and in space.
+//! - [`truth`], [`rays`] and [`pupil_depth`] are point-sampled separately, along principal rays.
+//! - [`identity_coverage`] is the coverage of each pixel by objects.
+//! - [`weather_layers`] are the effects of media, drops and flakes on each pixel.
+//! - Every pixel has one owner and its own random address: the result does not depend on threads, tiles or shards.
 //! - Work runs on the caller's rayon pool, under the caller's [`observer::Observer`].
 
 pub mod adaptive;

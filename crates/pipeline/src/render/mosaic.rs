@@ -1,9 +1,9 @@
-//! What the pixels of a colour filter's tile respond to, and which wavelengths are worth asking for them.
+//! Responsivities of the pixels of a colour filter's tile, and the density of their wavelengths.
 //!
-//! Responsivities are those of a second of exposure, so that cameras that differ in exposure alone fold the same.
+//! Responsivities are per second of exposure, so that cameras that differ only in exposure accumulate the same values.
 //!
-//! A pixel that folds its responsivity into electrons draws its wavelengths by it ([`PixelDensity`]): electrons are then an estimate with
-//! little spectral noise, and where a spectral cube is kept beside them, every band still gets its share.
+//! A pixel that weights radiance by its responsivity and accumulates electrons samples its wavelengths by it ([`PixelDensity`]). Electrons are then an
+//! estimate with little spectral noise; if a spectral cube is stored as well, every band still receives its fraction.
 
 use crate::plan::pixel_density::PixelDensity;
 use etendue_core::WavelengthDensity;
@@ -16,7 +16,7 @@ use etendue_spectra::Spectrum;
 pub struct Site {
     /// Responsivity, e⁻·s⁻¹ per W·m⁻².
     pub responsivity: Spectrum,
-    /// Density of the wavelengths that are asked for.
+    /// Density of the sampled wavelengths.
     pub density: WavelengthDensity,
 }
 
@@ -30,7 +30,7 @@ pub struct Mosaic {
 }
 
 impl Mosaic {
-    /// The tile of a sensor whose pixels' wavelengths are drawn by these densities.
+    /// Tile of a sensor whose pixels' wavelengths are sampled with these densities.
     #[must_use]
     pub fn of(sensor: &Sensor, density: &PixelDensity<'_>) -> Self {
         let cfa = &sensor.parameters().cfa;
@@ -40,25 +40,25 @@ impl Mosaic {
         Self { columns: cfa.width(), margin_px: [0, 0], sites }
     }
 
-    /// The same for a film that begins `margin_px` columns and rows before the sensor.
+    /// The mosaic for a film that starts `margin_px` columns and rows before the sensor.
     #[must_use]
     pub fn beyond(self, margin_px: [usize; 2]) -> Self {
         Self { margin_px, ..self }
     }
 
-    /// The site that `pixel` of the film has.
+    /// Site of a `pixel` of the film.
     #[must_use]
     pub fn at(&self, pixel: Pixel) -> &Site {
         &self.sites[self.place(pixel)]
     }
 
-    /// Pixels of the tile.
+    /// Number of pixels of the tile.
     #[must_use]
     pub fn places(&self) -> usize {
         self.sites.len()
     }
 
-    /// The place of `pixel` in the tile, row by row.
+    /// Index of `pixel` in the tile, row by row.
     #[must_use]
     pub fn place(&self, pixel: Pixel) -> usize {
         let rows = self.sites.len() / self.columns;

@@ -1,4 +1,4 @@
-//! Which drops and flakes a camera may see.
+//! Drops and flakes that a camera may see.
 
 use crate::plan::Precipitation;
 use crate::render::exposure::FilmExposure;
@@ -10,22 +10,22 @@ use etendue_tracer::media::Media;
 use etendue_tracer::precipitation::{ChangeOver, NearParticles, SeenRegion, ViewPlacement};
 use glam::{DMat3, DVec2};
 
-/// Points along a side of the film whose rays are looked at.
+/// Points along a side of the film whose rays bound the view.
 const SIDE: u32 = 13;
 
-/// Room for what lies between these, rad.
+/// Margin for rays between these points, rad.
 const ROOM_RAD: f64 = 0.03;
 
-/// Points of the pupil whose rays are looked at.
+/// Points of the pupil whose rays bound the view.
 const PUPIL: [[f64; 2]; 5] = [[0.5, 0.5], [0.001, 0.001], [0.999, 0.001], [0.001, 0.999], [0.999, 0.999]];
 
-/// How far within a film points of its last edges lie where the edge itself has no ray, px.
+/// Distance of alternative points inside the film's edges, px, for edges without a ray.
 const WITHIN_PX: f64 = 1e-6;
 
-/// A wavelength in the middle of the spectrum, nm.
+/// A central wavelength of the spectrum, nm.
 const MIDDLE_NM: f64 = 550.0;
 
-/// What a camera sees during an exposure of a film of a size in px, about the origin of its view.
+/// Region that a camera sees during an exposure of a film of a size in px, relative to the origin of its view.
 pub(super) fn seen_region(source: &dyn RaySource, exposure: &FilmExposure<'_>, width: u32, height: u32) -> SeenRegion {
     let moments = moments(exposure.interval());
     let (mut directions, mut margin_m) = (vec![], 0.0_f64);
@@ -43,7 +43,7 @@ pub(super) fn seen_region(source: &dyn RaySource, exposure: &FilmExposure<'_>, w
     SeenRegion::around(&directions, ROOM_RAD, margin_m)
 }
 
-/// What the camera of a stored image sees that stands still, its axes turned to the world's by a rotation.
+/// Region that the static camera of a stored image sees, with its axes rotated to the world's.
 pub(crate) fn region_of_projection(projection: &PupilProjection, rotation: DMat3) -> SeenRegion {
     let (width, height) = (projection.width() as u32, projection.height() as u32);
     let direction = |[at, within]: [DVec2; 2]| projection.direction(at).or_else(|| projection.direction(within));
@@ -51,7 +51,7 @@ pub(crate) fn region_of_projection(projection: &PupilProjection, rotation: DMat3
     SeenRegion::around(&directions, ROOM_RAD, 0.0)
 }
 
-/// Points all over a film, its edges included, and the same just within the last edges.
+/// Points over a film, including its edges, each with an alternative just inside the edges.
 fn grid(width: u32, height: u32) -> impl Iterator<Item = [DVec2; 2]> {
     let size = DVec2::new(f64::from(width), f64::from(height));
     (0..SIDE * SIDE).map(move |i| {
@@ -64,7 +64,7 @@ fn moments(interval: TimeInterval) -> [f64; 5] {
     core::array::from_fn(|i| interval.start_s() + 0.25 * i as f64 * interval.length_s())
 }
 
-/// The drops and flakes of a view, `media` being its media.
+/// Drops and flakes of a view; `media` are its media.
 pub(super) fn near<'a>(
     precipitation: &Precipitation,
     media: &Media<'a>,

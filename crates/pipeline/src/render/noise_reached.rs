@@ -1,24 +1,23 @@
-//! How far a film that noise limits has come: samples, errors, and what is short of the limit.
+//! Progress of a noise-limited film: samples, errors, and pixels beyond the limit.
 
 use crate::render::film::Film;
 use crate::sizes::tolerance::Tolerance;
 
-/// What became of a limit of noise.
+/// Result of noise-limited sampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoiseReached {
-    /// Mean samples of a pixel.
+    /// Mean samples per pixel.
     pub mean_spp: f64,
-    /// Fewest and most samples of a pixel.
+    /// Minimum and maximum samples of a pixel.
     pub range_spp: (u32, u32),
-    /// Standard error over what is tolerated: the root of the mean square over all pixels with samples. 1 at the limit.
+    /// Standard error over the permitted one: root mean square over all pixels with samples. 1 at the limit.
     pub error: f64,
-    /// Share of the pixels that got more than half of the most samples and whose error is still beyond the limit.
+    /// Fraction of the pixels that received more than half of the maximum samples and still exceed the limit.
     pub short: f64,
 }
 
 impl NoiseReached {
-    /// Of the pixels of a film that have samples, none of which got more than `max_spp`; `None` where nothing was watched or no pixel has
-    /// samples.
+    /// Evaluates the pixels of a film that have samples, at most `max_spp` each; `None` without a monitored signal or without samples.
     #[must_use]
     pub fn of(film: &Film, tolerance: &Tolerance, max_spp: u32) -> Option<Self> {
         let watched = film.watched.as_ref()?;

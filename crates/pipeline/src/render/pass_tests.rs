@@ -1,4 +1,4 @@
-//! Films of several passes: what joins them, against each pass by itself.
+//! Films of several passes: their combination, compared with each pass alone.
 
 use super::film::Film;
 use super::light::RaySource;
@@ -25,12 +25,12 @@ fn pixels() -> impl Iterator<Item = (usize, usize)> {
     (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)))
 }
 
-/// Light that differs from sample to sample, of mean 1.
+/// Light that varies from sample to sample, with mean 1.
 struct Uneven;
 
 impl RadianceField<4> for Uneven {
     fn radiance(&self, asked: &FieldRay, _: &Wavelengths<4>) -> Spectral<4> {
-        // Far digits of a stratified number are not stratified.
+        // The low-order digits of a stratified number are not stratified.
         Spectral::splat(2.0 * (f64::from(asked.stream.one(Draw::Pupil, 0)) * 9973.0).fract() as f32)
     }
 }
@@ -71,7 +71,7 @@ fn passes_join_to_the_mean_of_all_samples_and_its_variance() {
         assert_eq!(f64::from(joined.samples.at(pixel.0, pixel.1)), total);
         parts += usize::from(total == 28.0);
     }
-    // A quarter of 24 × 16 pixels, evenly spread.
+    // A quarter of 24 × 16 pixels, evenly distributed.
     assert!(parts.abs_diff(96) <= 6, "{parts}");
 }
 
@@ -90,6 +90,6 @@ fn the_stated_variance_of_joined_passes_is_their_scatter() {
     let off = |x, y| f64::from(planes[2].at(x, y)) - mean;
     let scatter = sum(&|x, y| off(x, y) * off(x, y));
     let told = sum(&|x, y| f64::from(cube.variance.planes()[2].at(x, y)));
-    // Of n pixels the scatter is known to √(2/n), the told to less; four of it.
+    // For n pixels the relative uncertainty of the scatter is √(2/n), that of the estimate less; the limit is four times that.
     assert!((scatter / told - 1.0).abs() < 4.0 * (2.0_f64 / (WIDTH * HEIGHT) as f64).sqrt(), "{scatter} for {told}");
 }

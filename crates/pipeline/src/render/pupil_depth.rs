@@ -1,8 +1,8 @@
-//! How far off the scene is, as seen from the centre of the entrance pupil: the ground truth of a stored radiance image.
+//! Distance of the scene from the centre of the entrance pupil: the ground truth of a stored radiance image.
 //!
-//! One ray through the centre of each stored pixel, never filtered. A picture takes the stored pixel nearest to each of its
-//! own, which looks at most half a stored pixel's diagonal elsewhere (exactly where it does, without distortion): on a surface
-//! seen under the angle α from its normal distances are right to tan α times that angle.
+//! One ray through the centre of each stored pixel, never filtered. An image uses the nearest stored pixel for each of its own pixels; its direction differs
+//! by at most half a stored pixel's diagonal (not at all without distortion). On a surface seen at the angle α from its normal the relative error of
+//! distances is tan α times that angle.
 
 use crate::plan::{CameraPlan, Plan, Route};
 use crate::render::exposure::{FilmExposure, Shot};
@@ -14,17 +14,16 @@ use etendue_tracer::accel::Simd;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// Distances of what the pixels of a stored radiance image see.
+/// Distances seen by the pixels of a stored radiance image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PupilDepth {
     /// Along the pixel's ray from the pupil's centre, m; +∞ for the sky, NaN between views.
     pub distance: Plane<Length>,
-    /// Along the optical axis, m; +∞ for the sky, NaN between views and where a pixel does not look ahead.
+    /// Along the optical axis, m; +∞ for the sky, NaN between views and where a pixel does not look forward.
     pub depth: Plane<Length>,
 }
 
-/// The distances of a camera whose route is at the pupil half-way through a frame's exposure, on the caller's pool; `None` through
-/// the lens.
+/// Distances for a camera on the pupil route at the middle of a frame's exposure; `None` on the lens route. Runs on the caller's pool.
 #[must_use]
 pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> Option<PupilDepth> {
     let Route::Pupil(projection) = &camera.settings.route else { return None };

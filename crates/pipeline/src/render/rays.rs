@@ -1,9 +1,8 @@
-//! The ray table: by which ray each pixel looks.
+//! The ray table: the ray of each pixel.
 //!
-//! The same rays as the ground truth's: of pixels' centres, through the centre of the pupil at 587.56 nm, or through the
-//! centroid of its open part where that is clipped. A point at distance d (`distance.Z` of the ground truth) is seen from
-//! pose · (origin + d direction), to rounding: 32-bit floats keep 6e-8 of the distance. Through a mirror the origin is the
-//! mirror's point and d counts from the pupil: pose · (origin + (d − path) direction).
+//! The same rays as the ground truth's: of pixel centres, through the centre of the pupil at 587.56 nm, or through the centroid of its open part if that ray
+//! is clipped. A point at distance d (`distance.Z` of the ground truth) is at pose · (origin + d direction), up to rounding: 32-bit floats have a relative
+//! error of 6e-8. With a mirror the origin is the point on the mirror and d counts from the pupil: pose · (origin + (d − path) direction).
 
 use crate::plan::CameraBody;
 use etendue_core::Plane;
@@ -15,17 +14,17 @@ use rayon::prelude::*;
 /// Rays of all pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayTable {
-    /// Where they begin, camera frame, m; NaN where there is none.
+    /// Origins, camera frame, m; NaN without a ray.
     pub origin: Plane<Vector>,
-    /// Unit direction into the scene, camera frame; NaN where there is none.
+    /// Unit directions into the scene, camera frame; NaN without a ray.
     pub direction: Plane<Vector>,
     /// 0 no ray, 1 the principal ray, 2 one through the centroid of the open pupil.
     pub ray: Plane<Identity>,
-    /// Of a camera with a mirror, whose origins lie on it: the path from the pupil to there, m, 0 beside the mirror.
+    /// For a camera with a mirror, with the origins on it: the path from the pupil to the mirror, m; 0 outside the mirror.
     pub path: Option<Plane<Length>>,
 }
 
-/// The ray table of a camera, on the caller's pool.
+/// Ray table of a camera. Runs on the caller's pool.
 #[must_use]
 pub fn ray_table(body: &CameraBody) -> RayTable {
     let (width, height) = (body.raster.width(), body.raster.height());

@@ -1,12 +1,12 @@
-//! Cameras inside a solid object, which see the inside of its surface alone.
+//! Cameras inside a solid object, which see only the inside of its surface.
 
 use crate::plan::{CameraPlan, Plan};
 use crate::render::exposure::{FilmExposure, Shot};
 use etendue_core::Ray;
 use glam::Vec3;
 
-/// The name of the object that a camera stands in at the first frame's beginning; `None` where it sees anything else, a surface from outside, or through
-/// one. Fourteen directions are looked along: those of the faces and corners of a cube.
+/// Name of the object that contains a camera at the start of the first frame; `None` if the camera sees anything else: a surface from outside, or through
+/// one. Tests fourteen directions: those of the faces and corners of a cube.
 pub(crate) fn surrounding_object<'p>(plan: &'p Plan, camera: &CameraPlan) -> Option<&'p str> {
     let exposure = FilmExposure::of(camera, Shot::default());
     let view = plan.world.render_space_for_few(exposure.origin_m(), exposure.interval());
@@ -33,7 +33,7 @@ pub(crate) fn surrounding_object<'p>(plan: &'p Plan, camera: &CameraPlan) -> Opt
 fn directions() -> impl Iterator<Item = Vec3> {
     let side = [-1.0_f32, 1.0];
     let faces = side.into_iter().flat_map(|s| [Vec3::X * s, Vec3::Y * s, Vec3::Z * s]);
-    // Off the diagonals, which meet edges of boxes about the camera.
+    // Off the diagonals, which hit edges of boxes around the camera.
     let corner = move |i: usize| Vec3::new(side[i & 1], 0.9 * side[i >> 1 & 1], 0.8 * side[i >> 2]).normalize();
     faces.map(|face| (face + Vec3::new(0.011, 0.007, 0.013)).normalize()).chain((0..8).map(corner))
 }

@@ -1,4 +1,4 @@
-//! A job of a camera that stands still, for tests of what gathers its light.
+//! A job of a static camera, for tests of light accumulation.
 
 use super::exposure::{FilmExposure, Shot};
 use super::light::{RaySource, RenderJob, Sampling};
@@ -14,7 +14,7 @@ use std::sync::LazyLock;
 static PATH: LazyLock<CameraPath> =
     LazyLock::new(|| CameraPath::still(CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY }));
 
-/// One pass of wavelengths from 400 to 700 nm, of camera 0.
+/// One pass with wavelengths from 400 to 700 nm, of camera 0.
 pub(super) fn sampling(pass: PassAt, replicates: u32) -> Sampling {
     Sampling {
         pass,
@@ -28,7 +28,7 @@ pub(super) fn sampling(pass: PassAt, replicates: u32) -> Sampling {
     }
 }
 
-/// Every pixel by itself with as many samples, all tiles, of 16 px.
+/// Single pixels with equal numbers of samples, all tiles, of 16 px.
 pub(super) fn still_job(
     source: &dyn RaySource,
     [width, height]: [u32; 2],

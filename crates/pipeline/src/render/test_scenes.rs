@@ -37,7 +37,7 @@ pub(super) fn plan_of(camera: &str, pitch_um: f64, objects: &str) -> Plan {
     compile(&job, &Assets::default(), &Choices::default()).unwrap_or_else(|f| panic!("{f:?}"))
 }
 
-/// The plan with the track of an object's instance from its first place.
+/// The plan with a track for an object's instance from its initial pose.
 pub(super) fn with_motion(mut plan: Plan, instance: usize, motion: &Track) -> Plan {
     let mut builder = WorldBuilder::new();
     let meshes: Vec<_> = plan.world.meshes().iter().map(|mesh| builder.add_mesh(mesh.clone())).collect();

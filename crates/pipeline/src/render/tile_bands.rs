@@ -1,4 +1,4 @@
-//! The bands of a tile of a film: what is written to a scratch file at once.
+//! Bands of a tile of a film: the unit of writing to a scratch file.
 
 use crate::render::gather::{PixelLight, stored_variance};
 use crate::sizes::tile::Tile;
@@ -11,7 +11,7 @@ use etendue_core::{Plane, SpectralCube};
 pub struct TileBands {
     tile: Tile,
     count: usize,
-    /// Band after band row by row: all means, then all variances.
+    /// Bands in order, each row by row: all means, then all variances.
     samples: Vec<f32>,
 }
 
@@ -21,7 +21,7 @@ impl TileBands {
         Self { tile, count, samples: vec![0.0; 2 * count * tile.len()] }
     }
 
-    /// Over samples, band after band row by row, all means and then all variances.
+    /// A tile over samples: bands in order, each row by row, all means and then all variances.
     pub(super) fn from_samples(tile: Tile, count: usize, samples: Vec<f32>) -> Self {
         debug_assert_eq!(samples.len(), 2 * count * tile.len(), "two numbers a band and pixel");
         Self { tile, count, samples }
@@ -60,7 +60,7 @@ impl TileBands {
         }
     }
 
-    /// Which tile.
+    /// The tile.
     pub(super) fn tile(&self) -> Tile {
         self.tile
     }

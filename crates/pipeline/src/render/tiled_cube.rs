@@ -1,8 +1,8 @@
-//! The bands of a film in a scratch file, tile by tile.
+//! Bands of a film in a scratch file, tile by tile.
 //!
-//! Each tile is one piece, written once when its light is complete: band after band, row by row, all means and then all variances (32 bits, little-endian,
-//! the numbers that memory would hold). Tiles follow one another row by row of the film's grid. A band, or rows of it, are read out of all pieces that
-//! hold some of them. A single replicate knows no variance: none is written then, and NaN is read.
+//! Each tile is one piece, written once when its light is complete: bands in order, each row by row, all means and then all variances (32 bits,
+//! little-endian, the same values as in memory). Tiles are in row order of the film's grid. A band, or rows of it, are read from all pieces that contain some
+//! of them. A single replicate gives no variance: none is written then, and NaN is read.
 
 use crate::render::tile_bands::TileBands;
 use crate::sizes::film::scratch_planes;
@@ -24,29 +24,29 @@ pub struct TiledCube {
     variance: Arc<dyn BandReader>,
 }
 
-/// Cubes are equal that share a file.
+/// Cubes are equal if they share a file.
 impl PartialEq for TiledCube {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scratch, &other.scratch)
     }
 }
 
-/// Where the pieces are.
+/// Positions of the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Grid {
     width: usize,
     height: usize,
     /// Side of a tile, px.
     side: usize,
-    /// Numbers that are kept of each pixel.
+    /// Number of values stored per pixel.
     planes: usize,
 }
 
 impl TiledCube {
-    /// A cube of `width` × `height` pixels, all 0, in tiles of `side` pixels; its variances are written where there are some.
+    /// A cube of `width` × `height` pixels, all 0, in tiles of `side` pixels; variances are written if there are any.
     ///
     /// # Errors
-    /// Where there is no room.
+    /// There is no space.
     pub fn new(
         store: &Arc<dyn ScratchStore>,
         bands: Bands,
@@ -62,7 +62,7 @@ impl TiledCube {
         Ok(Self { bands, grid, store: Arc::clone(store), scratch, mean, variance })
     }
 
-    /// Where there is room for what is made of it.
+    /// Storage for results computed from it.
     #[must_use]
     pub fn store(&self) -> &dyn ScratchStore {
         &*self.store
@@ -95,17 +95,17 @@ impl TiledCube {
     /// Writes a tile of the grid.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// It cannot be written.
     pub(super) fn write(&self, bands: &TileBands) -> Result<(), String> {
         let tile = bands.tile();
         let kept = &bands.samples()[..self.grid.planes * tile.len()];
         write_numbers(&*self.scratch, self.grid.offset(tile.x0 as usize, tile.y0 as usize), kept)
     }
 
-    /// A tile of the grid.
+    /// Reads a tile of the grid.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// It cannot be read.
     pub(super) fn tile(&self, tile: Tile) -> Result<TileBands, String> {
         let mut samples = vec![f32::NAN; 2 * self.bands.count() * tile.len()];
         let offset = self.grid.offset(tile.x0 as usize, tile.y0 as usize);
@@ -115,7 +115,7 @@ impl TiledCube {
 }
 
 impl Grid {
-    /// Where the piece of the tile from column `x`, row `y` on begins, bytes.
+    /// Offset of the piece of the tile that starts at column `x`, row `y`, bytes.
     fn offset(&self, x: usize, y: usize) -> u64 {
         let rows = self.side.min(self.height - y);
         ((y * self.width + x * rows) * self.planes * NUMBER_BYTES) as u64
@@ -127,7 +127,7 @@ impl Grid {
 struct Reader {
     grid: Grid,
     scratch: Arc<dyn Scratch>,
-    /// Which plane is that of band 0.
+    /// Index of the plane of band 0.
     first: usize,
 }
 

@@ -1,7 +1,8 @@
-//! Paths that are followed before a picture, so that matt surfaces know where light comes from.
+//! Paths traced before an image to train path guiding at diffuse surfaces.
 //!
-//! A sixteenth as many as the pass has (where noise decides, as all pixels have), and at most 524 288, spread evenly over the whole film whatever part of it is
-//! rendered: every shard, and every run of the same pass, learns the same. They have random numbers of their own and are not part of the picture.
+//! Their number is a sixteenth of the pass's paths (with noise-limited sampling, of the paths common to all pixels), at most 524 288. They are spread evenly
+//! over the whole film whatever part of it is rendered: every shard, and every run of the same pass, learns the same. They have their own random numbers and
+//! are not part of the image.
 
 use crate::plan::{CameraPlan, PassAt};
 use crate::render::light::{GatherError, RenderJob};
@@ -12,19 +13,19 @@ use etendue_tracer::guiding::{Guide, Training};
 use etendue_tracer::integrator::{PathTracer, SpectralPaths};
 use rayon::prelude::*;
 
-/// Paths of a picture for each that is followed before it.
+/// Image paths for each training path.
 const PATHS_FOR_ONE: u64 = 16;
-/// Paths that are followed before a picture at most: a second or two of one thread.
+/// Maximum number of training paths: one or two seconds of a single thread.
 const MOST_PATHS: u64 = 1 << 19;
-/// Paths between two questions whether to go on.
+/// Number of paths between two tests for cancellation.
 const A_CHUNK: u64 = 1 << 12;
 /// Steps from one path's pixel to the next, of columns and rows (Roberts 2018, the R2 sequence).
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
-/// What paths of the picture find at matt surfaces, before a pass of it.
+/// Radiance that paths of the image find at diffuse surfaces, learned before a pass of it.
 ///
 /// # Errors
-/// Where the observer asked to stop.
+/// The observer cancels.
 pub(super) fn guide<const N: usize>(
     job: &RenderJob<'_>,
     tracer: &PathTracer<'_>,
@@ -46,7 +47,7 @@ where
     Ok(training.guide())
 }
 
-/// How many paths are followed before the passes of a camera's picture, all together.
+/// Number of training paths before the passes of a camera's image, all together.
 #[must_use]
 pub fn paths_of(camera: &CameraPlan) -> u64 {
     let passes = (0..camera.pass_count()).map(|number| camera.pass(number));
@@ -54,12 +55,12 @@ pub fn paths_of(camera: &CameraPlan) -> u64 {
     passes.map(|pass| paths(width, height, spp(camera, pass))).sum()
 }
 
-/// Samples a pixel that every pixel gets in a pass.
+/// Samples common to all pixels in a pass.
 fn spp(camera: &CameraPlan, pass: PassAt) -> u32 {
     camera.settings.adaptive.map_or(pass.pass.samples, |limit| limit.min_spp)
 }
 
-/// How many paths are followed before a pass of so many columns and rows, and samples a pixel.
+/// Number of training paths before a pass, for columns, rows and samples per pixel.
 fn paths(width: u32, height: u32, spp: u32) -> u64 {
     (u64::from(width) * u64::from(height) * u64::from(spp) / PATHS_FOR_ONE).min(MOST_PATHS)
 }
@@ -67,7 +68,7 @@ fn paths(width: u32, height: u32, spp: u32) -> u64 {
 fn train<const N: usize>(job: &RenderJob<'_>, tracer: &dyn SpectralPaths<N>, path: u64, training: &Training) {
     let place = |step: f64, size: u32| (((0.5 + path as f64 * step).fract() * f64::from(size)) as u32).min(size - 1);
     let pixel = Pixel { x: place(STEPS[0], job.width), y: place(STEPS[1], job.height) };
-    // Apart from all that are part of the picture.
+    // Distinct from all addresses that are part of the image.
     let address = PixelAddress { replicate: u32::MAX, ..job.address(pixel, 0) };
     let stream = PathStream::new(&address, path as u32);
     let wavelengths = job.wavelengths::<N>(job.mosaic.map(|mosaic| mosaic.at(pixel)), stream.one(Draw::Wavelength, 0));
@@ -89,7 +90,7 @@ mod tests {
         assert_eq!(paths(u32::MAX, 2, 64), MOST_PATHS);
     }
 
-    /// A step of the sequence in the place of another would leave gaps or meet pixels twice.
+    /// A wrong step of the sequence would leave gaps or hit pixels twice.
     #[test]
     fn paths_are_spread_over_the_film() {
         let place = |path: u32, step: f64| ((0.5 + f64::from(path) * step).fract() * 8.0) as usize;

@@ -1,5 +1,4 @@
-//! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered: a surface that is cut out by its
-//! opacity is there where at least half of it is.
+//! Ground truth: the hit of each pixel's principal ray. Point-sampled, never filtered: a surface with opacity is present where it is at least one half.
 
 use crate::plan::camera_body::has_planar_depth;
 use crate::plan::{CameraPlan, Plan, TimeDependence};
@@ -16,45 +15,44 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Planes of ground truth, in the raster of the picture.
+/// Planes of ground truth, in the image raster.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundTruth {
-    /// Distance along the camera's axis from the entrance pupil, m; +∞ for the sky, NaN where no principal ray passes and
-    /// where it looks sideways or back or at a mirror, so that depth along the axis means nothing.
+    /// Distance along the camera's axis from the entrance pupil, m; +∞ for the sky, NaN where no principal ray passes and where it looks sideways, backwards
+    /// or at a mirror, so that depth along the axis is undefined.
     pub depth: Plane<Length>,
-    /// Distance along the pixel's ray from its origin (which the ray table states; the centre of the entrance pupil but for
-    /// real pupils, which move with the field), m; through a mirror the whole path from the pupil. +∞ for the sky, NaN
-    /// where no ray passes.
+    /// Distance along the pixel's ray from its origin (in the ray table: the centre of the entrance pupil, except for real pupils, which move with the
+    /// field), m; with a mirror the whole path from the pupil. +∞ for the sky, NaN where no ray passes.
     pub distance: Plane<Length>,
     /// Unit shading normal in the world; zero for the sky.
     pub normal: Plane<Vector>,
     /// Position in the world, m, rounded to 32 bits; zero for the sky.
     pub position: Plane<Vector>,
-    /// What that rounding took off, m: the sum of both is the position to 10⁻⁶ of its distance from the camera. Of cameras that stand more than
-    /// [`FAR_M`] from the world's origin along an axis, at any time; else `None`.
+    /// Rounding residual of `position`, m: the sum of both is the position to 10⁻⁶ of its distance from the camera. Only for cameras that are more than
+    /// [`FAR_M`] from the world's origin along an axis, at any time; otherwise `None`.
     pub position_low: Option<Plane<Vector>>,
-    /// Position in the camera's frame, m; z is negative behind the camera; zero for the sky. `None` where it is not asked for.
+    /// Position in the camera's frame, m; z is negative behind the camera; zero for the sky. `None` if not requested.
     pub camera_space_position: Option<Plane<Vector>>,
     /// Instance ids; 0 is the background.
     pub instance: Plane<Identity>,
-    /// Class ids; 0 is the background and what has no class.
+    /// Class ids; 0 is the background, and objects without a class.
     pub semantic: Plane<Identity>,
-    /// Places in the plan's list of materials, from 1; 0 is the background.
+    /// Positions in the plan's list of materials, from 1; 0 is the background.
     pub material: Plane<Identity>,
-    /// By which ray the pixel looks: 0 none passes the lens, 1 the principal ray, 2 that is clipped and the ray through
-    /// the centroid of the open pupil is taken.
+    /// Kind of the pixel's ray: 0 none passes the lens, 1 the principal ray, 2 the ray through the centroid of the open pupil, because the principal ray is
+    /// clipped.
     pub ray: Plane<Identity>,
-    /// Of a camera with a mirror: where the ray meets it, in the camera frame, m; NaN where it does not.
+    /// For a camera with a mirror: intersection of the ray with it, in the camera frame, m; NaN if there is none.
     pub mirror: Option<Plane<Vector>>,
 }
 
-/// How far from the world's origin a camera's positions are told in two parts, m: nearer ones are rounded by 0.03 mm at most, or by less than
-/// they are known by their distance from the camera.
+/// Distance from the world's origin above which a camera's positions are stored in two parts, m: nearer ones are rounded by at most 0.03 mm, or by less than
+/// the uncertainty from their distance to the camera.
 pub const FAR_M: f64 = 1000.0;
 
-/// What one pixel sees.
+/// Hit of one pixel.
 pub(crate) enum Seen {
-    /// No principal ray: the lens stops it.
+    /// No principal ray: the lens blocks it.
     Nothing,
     Sky {
         ahead: bool,
@@ -66,18 +64,18 @@ pub(crate) enum Seen {
     },
 }
 
-/// From where and when a pixel's truth is seen.
+/// Origin and time of a pixel's ground-truth ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Viewpoint {
     pub(crate) pose: CameraPose,
-    /// From the origin of the render frame to the camera, m.
+    /// Offset from the origin of the render frame to the camera, m.
     offset_m: DVec3,
     /// As [`etendue_core::Ray::time_s`].
     time_s: f32,
 }
 
 impl Viewpoint {
-    /// A camera at a moment, s, as a view of the world sees it.
+    /// A camera at a time, s, in a view of the world.
     pub(crate) fn new(view: &RenderSpace<'_>, camera: &CameraPlan, moment_s: f64) -> Self {
         let pose = camera.path.at(moment_s);
         let time_s = (moment_s - view.interval().start_s()) as f32;
@@ -85,7 +83,7 @@ impl Viewpoint {
     }
 }
 
-/// When the truth of a row of the picture holds, s: half-way through the row's first exposure.
+/// Time of the ground truth of an image row, s: the middle of the row's first exposure.
 #[must_use]
 pub fn truth_time_s(camera: &CameraPlan, frame: u32, row: usize) -> f64 {
     match camera.time {
@@ -94,7 +92,7 @@ pub fn truth_time_s(camera: &CameraPlan, frame: u32, row: usize) -> f64 {
     }
 }
 
-/// A pixel's ray and what it meets.
+/// A pixel's ray and its hit.
 struct Look {
     /// As [`GroundTruth::ray`].
     ray: u32,
@@ -102,8 +100,8 @@ struct Look {
     mirror_m: Option<DVec3>,
 }
 
-/// The ground truth of a camera, along the principal rays (587.56 nm) of its pixels' centres, on the caller's pool.
-/// Where the lens clips that ray but lets light through, the ray through the centroid of the open pupil is used.
+/// Ground truth of a camera, along the principal rays (587.56 nm) of its pixel centres. If the lens clips that ray but transmits light, the ray through the
+/// centroid of the open pupil is used. Runs on the caller's pool.
 #[must_use]
 pub fn ground_truth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> GroundTruth {
     TruthRows::new(plan, camera, frame, simd).rows(0..camera.body.raster.height())
@@ -112,7 +110,7 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) ->
 /// Number of rows whose hits are in memory at the same time: that of a block of an EXR file.
 const STRIP_ROWS: usize = 16;
 
-/// The ground truth of a camera, some rows at a time.
+/// Ground truth of a camera, some rows at a time.
 #[derive(Debug)]
 pub struct TruthRows<'a> {
     view: RenderSpace<'a>,
@@ -123,7 +121,7 @@ pub struct TruthRows<'a> {
 }
 
 impl<'a> TruthRows<'a> {
-    /// That of a frame.
+    /// Ground truth of a frame.
     #[must_use]
     pub fn new(plan: &'a Plan, camera: &'a CameraPlan, frame: u32, simd: Simd) -> Self {
         let exposure = FilmExposure::of(camera, Shot { frame, capture: 0 });
@@ -133,7 +131,7 @@ impl<'a> TruthRows<'a> {
         Self { view, material_table: &plan.material_table, camera, viewpoints }
     }
 
-    /// Columns and rows of the whole.
+    /// Columns and rows of the whole image.
     #[must_use]
     pub fn size(&self) -> (usize, usize) {
         let raster = &self.camera.body.raster;
@@ -156,7 +154,7 @@ impl<'a> TruthRows<'a> {
         (STRIP_ROWS * camera.body.raster.width() * size_of::<Look>()) as f64
     }
 
-    /// Whether some pixel has no depth along the axis: it has no ray, or does not look ahead. Nothing is traced.
+    /// Returns true if some pixel has no depth along the axis: it has no ray, or does not look forward. Traces nothing.
     #[must_use]
     pub fn has_gaps(&self) -> bool {
         let (width, height) = self.size();
@@ -167,7 +165,7 @@ impl<'a> TruthRows<'a> {
         (0..width * height).into_par_iter().any(is_gap)
     }
 
-    /// Planes of some rows, on the caller's pool.
+    /// Planes of some rows. Runs on the caller's pool.
     #[must_use]
     pub fn rows(&self, rows: Range<usize>) -> GroundTruth {
         let mut truth = self.empty(rows.len());
@@ -235,7 +233,7 @@ impl<'a> TruthRows<'a> {
         }
     }
 
-    /// The depth along the axis alone, found some rows at a time, on the caller's pool.
+    /// Depth along the axis only, computed some rows at a time. Runs on the caller's pool.
     #[must_use]
     pub fn depth(&self) -> Plane<Length> {
         let (width, height) = self.size();
@@ -270,7 +268,7 @@ fn look(
     }
 }
 
-/// What a ray that left a camera meets.
+/// Hit of a ray that has left a camera.
 pub(crate) fn seen(
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
@@ -290,7 +288,7 @@ pub(crate) fn seen(
     }
 }
 
-/// Whether a pixel sees a surface that may be cut out: where at least half of it is there. Panes of glass are seen.
+/// Returns true if a surface with opacity is present for ground truth: where the opacity is at least one half. Panes of glass are present.
 pub(crate) fn is_there(view: &RenderSpace<'_>, material_table: &MaterialTable, point: &SurfacePoint) -> bool {
     if !material_table.lets_pass(point.material) {
         return true;

@@ -1,10 +1,8 @@
-//! The processor time of a path, and of what is done on a finished film: the effects of the lens, depth of field,
-//! ground truth, cubes of bands.
+//! CPU time of a path, and of the work on a finished film: the effects of the lens, depth of field, ground truth, cubes of bands.
 //!
-//! Each part on the film is counted in units of its own from the plan's numbers, and each unit has one measured time (docs/performance.md, "What is
-//! done on the film": AMD EPYC, AVX2, one thread, release build, 2026-11-22,
-//! `etendue render --threads 1` by `/usr/bin/time`, shares of its parts by
-//! `perf record -e cpu-clock`; other programs were at work, so a tenth either way).
+//! Each part of the work is counted in its own unit from the plan's numbers, and each unit has one measured time (docs/performance.md, "What is done on the
+//! film": AMD EPYC, AVX2, one thread, release build, 2026-11-22, `etendue render --threads 1` by `/usr/bin/time`, fractions of its parts by `perf record -e
+//! cpu-clock`; other programs were running, so the uncertainty is a tenth).
 
 use crate::plan::film::needs_irradiance;
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
@@ -19,50 +17,48 @@ use glam::DVec2;
 
 /// A path of the street scene (docs/performance.md).
 pub(crate) const PATH_CPU_S: f64 = 2.2e-6;
-/// The same of at most two bounces, with direct light alone, and without its shadows: shares of a whole path, by street.toml with max_bounces 6 and 2
-/// and the integrators direct and flat (docs/plan.md).
+/// A path of at most two bounces, of direct light alone, and without shadows: as fractions of a whole path, from street.toml with max_bounces 6 and 2 and the
+/// integrators direct and flat (docs/plan.md).
 pub(crate) const TWO_BOUNCES_CPU_S: f64 = 0.95 * PATH_CPU_S;
 pub(crate) const DIRECT_PATH_CPU_S: f64 = 0.70 * PATH_CPU_S;
 pub(crate) const FLAT_PATH_CPU_S: f64 = 0.57 * PATH_CPU_S;
-/// What one branch more takes, as a share of the path: 0.52 to 0.57 in the wet night, 0.69 in the Cornell box (docs/decisions/branching.md).
+/// Time of one additional branch, as a fraction of the path: 0.52 to 0.57 in the wet night, 0.69 in the Cornell box (docs/decisions/branching.md).
 const BRANCH: f64 = 0.6;
 
-/// A pixel by a tap of a kernel of few taps: a multiplication and two checks; too short to be measured on a film.
+/// A pixel with a tap of a kernel of few taps: a multiplication and two tests; too short to be measured on a film.
 const TAP_S: f64 = 1e-9;
-/// A number in a Fourier transform, by the bits of both its sides' lengths. night-flare.toml with glare alone, by the one without effects.
+/// A value in a Fourier transform, per bit of the lengths of both sides. night-flare.toml with glare alone, compared with no effects.
 const TRANSFORMED_S: f64 = 1.07e-9;
-/// A point of a diffraction pattern shared among the taps of a kernel, with its part of the kernel's making.
-/// night-flare.toml with point spread alone.
+/// A point of a diffraction pattern distributed over the taps of a kernel, including its part of the kernel's computation. night-flare.toml with point spread
+/// alone.
 const SHARED_S: f64 = 38e-9;
 /// A pattern of a wavefront: a transform of 1024 × 1024, its phases, its light. night-flare.toml with coma.
 const PATTERN_S: f64 = 31e-3;
-/// A surface met by a ghost's ray, and a ghost's beam, of one source, pair and wavelength, laid on the sensor. scenes/lenses/ghosts.toml, camera bare,
+/// A surface hit by a ghost's ray, and a ghost's beam, of one source, pair and wavelength, accumulated on the sensor. scenes/lenses/ghosts.toml, camera bare,
 /// and the street by day through the same lens, 2026-11-23.
 const GHOST_SURFACE_S: f64 = 60e-9;
 const GHOST_BEAM_S: f64 = 0.08e-3;
-/// Sources of a picture's ghosts: where a sun or lamps outshine the rest, and where the light is even.
-/// Between 1 and 1024, as the picture is.
+/// Number of sources of an image's ghosts: if a sun or lamps dominate, and for uniform light. Between 1 and 1024, depending on the image.
 const SOURCES_OUTSHONE: f64 = 270.0;
 const SOURCES_EVEN: f64 = 1000.0;
-/// A stored pixel's band looked up for a picture, with its distance. scenes/lenses/defocus.toml, camera sharp, by through-lens.
+/// A band of a stored pixel looked up for an image, with its distance. scenes/lenses/defocus.toml, camera sharp, from through-lens.
 const RESAMPLED_S: f64 = 300e-9;
 /// The outline of a pixel's blur, and a band of a row of it. defocus.toml, camera physical, focused at 6 m and at 1 m.
 const OUTLINE_S: f64 = 2e-6;
 const BLUR_BAND_S: f64 = 10e-9;
 /// A band of a pixel blended. defocus.toml, camera fast.
 const BLENDED_S: f64 = 100e-9;
-/// A pixel's ground truth: a primary ray and what it meets. night-flare.toml and sphere-on-plane.toml with and without it: less than the
-/// noise between runs.
+/// A pixel's ground truth: a primary ray and its hit. night-flare.toml and sphere-on-plane.toml with and without it: less than the noise between runs.
 const TRUTH_S: f64 = 0.3e-6;
-/// Rays of ground truth a pixel for boxes: its own, and those of the objects whose boxes hold it, in a street.
+/// Rays of ground truth per pixel for boxes: its own, and those of the objects whose boxes contain it, in a street.
 const BOX_RAYS: f64 = 8.0;
-/// A pixel of a capture from electrons to digital numbers with all noises, and one from there to the picture: "A frame of two megapixels" there.
+/// A pixel of a capture from electrons to digital numbers with all noises, and one from there to the image: "A frame of two megapixels" there.
 const SENSOR_S: f64 = 99e-9;
 const PROCESSING_S: f64 = 73e-9;
-/// A number of a cube written: "Spectral EXR" there.
+/// A value of a cube written: "Spectral EXR" there.
 const WRITTEN_S: f64 = 4.0 / 34.5e6;
 
-/// Processor time of a path by the integrator and bounces of a camera, s.
+/// CPU time of a path for a camera's integrator and bounces, s.
 pub(crate) fn path_cpu_s(camera: &CameraPlan) -> f64 {
     match (camera.settings.paths.integrator, camera.settings.paths.max_bounces) {
         (Integrator::Flat, _) => FLAT_PATH_CPU_S,
@@ -72,7 +68,7 @@ pub(crate) fn path_cpu_s(camera: &CameraPlan) -> f64 {
     }
 }
 
-/// What all branches of a path beside its first take, as a share of the path.
+/// Time of all branches of a path except the first, as a fraction of the path.
 pub(crate) fn branches_share(camera: &CameraPlan) -> f64 {
     f64::from(camera.settings.paths.branches - 1) * BRANCH
 }
@@ -80,15 +76,15 @@ pub(crate) fn branches_share(camera: &CameraPlan) -> f64 {
 /// A part of the work on a finished film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Share {
-    /// What it is, in words.
+    /// Name, as text.
     pub name: &'static str,
-    /// Processor time, s.
+    /// CPU time, s.
     pub cpu_s: f64,
-    /// What the figure holds for, in words; empty where the plan decides it.
+    /// Condition under which the figure holds, as text; empty if the plan determines it.
     pub holds_for: &'static str,
 }
 
-/// What is done on the film of a camera; parts that it does not have take no time.
+/// Work on the film of a camera; parts that it does not have take no time.
 pub(crate) fn shares(plan: &Plan, camera: &CameraPlan) -> Vec<Share> {
     let share = |name, cpu_s| Share { name, cpu_s, holds_for: "" };
     let (ghosts_s, holds_for) = ghosts(plan, camera);
@@ -105,7 +101,7 @@ pub(crate) fn shares(plan: &Plan, camera: &CameraPlan) -> Vec<Share> {
     ]
 }
 
-/// The bands on which effects act.
+/// Bands on which effects act.
 fn bands(camera: &CameraPlan) -> Option<Bands> {
     camera.settings.bands
 }
@@ -121,7 +117,7 @@ fn seconds(work: OperationCounts) -> f64 {
     work.taps * TAP_S + work.transformed * TRANSFORMED_S + work.shared * SHARED_S + work.patterns * PATTERN_S
 }
 
-/// Diffraction and wavefront error, or a picture of a point's light.
+/// Diffraction and wavefront error, or an image of a point's light.
 fn point_spread(camera: &CameraPlan) -> f64 {
     of(camera, Effect::PointSpread)
 }
@@ -131,7 +127,7 @@ fn glare(camera: &CameraPlan) -> f64 {
     of(camera, Effect::Glare)
 }
 
-/// Ghosts, and what decides the number of their sources.
+/// Ghosts, and the condition that determines the number of their sources.
 fn ghosts(plan: &Plan, camera: &CameraPlan) -> (f64, &'static str) {
     let body = &camera.body;
     let (Some(settings), Lens::Prescription(lens), Some(bands)) = (body.effects.ghosts(), &body.lens, bands(camera))
@@ -148,7 +144,7 @@ fn ghosts(plan: &Plan, camera: &CameraPlan) -> (f64, &'static str) {
     (work.met * GHOST_SURFACE_S + work.laid * GHOST_BEAM_S, holds_for)
 }
 
-/// Whether a sun stands in the film of a camera, hidden or not.
+/// Returns true if a sun is within the film of a camera, occluded or not.
 fn is_seen(camera: &CameraPlan, sun: &Sun) -> bool {
     let film = camera.body.film();
     let direction = camera.path.at(camera.timing.frame_start_s(0)).rotation.transpose() * sun.direction().as_dvec3();
@@ -156,12 +152,12 @@ fn is_seen(camera: &CameraPlan, sun: &Sun) -> bool {
     at_px.is_some_and(|px| px.cmpge(DVec2::ZERO).all() && px.x < film.width() as f64 && px.y < film.height() as f64)
 }
 
-/// Whether the lens is put on the picture: not where the film is on the disk and nothing is delivered that it is needed for.
+/// Returns true if the lens is applied to the image: not if the film is on disk and no product needs it.
 fn is_made(plan: &Plan, camera: &CameraPlan) -> bool {
     plan.scratch(camera).is_none() || needs_irradiance(camera)
 }
 
-/// On the route at the pupil: resampling, and depth of field.
+/// Pupil route: resampling, and depth of field.
 fn at_pupil(camera: &CameraPlan) -> f64 {
     let (Route::Pupil(_), Some(bands)) = (&camera.settings.route, bands(camera)) else { return 0.0 };
     let margin = camera.body.whole_margin_px(camera.body.blur_margin_px(&camera.depth_of_field));
@@ -178,7 +174,7 @@ fn at_pupil(camera: &CameraPlan) -> f64 {
     numbers * RESAMPLED_S + blur
 }
 
-/// Rows that a far thing's light is spread over.
+/// Number of rows over which the light of a distant object is spread.
 fn rows(body: &CameraBody) -> f64 {
     1.0 + body.lens.circle_of_confusion_mm(f64::INFINITY) / body.raster.pitch_mm().y
 }
@@ -198,24 +194,24 @@ fn truth(camera: &CameraPlan) -> f64 {
     wanted.into_iter().filter(|(wanted, _)| *wanted).map(|(_, what)| truth_cpu_s(camera, what)).sum()
 }
 
-/// What rays of the ground truth are for.
+/// Purpose of rays of the ground truth.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Truth {
     /// The frame itself.
     Planes,
-    /// The frames before and after.
+    /// The previous and next frames.
     Neighbours,
     /// Another camera.
     Disparity,
     /// Objects.
     Boxes,
-    /// What each pixel's samples meet.
+    /// Surfaces hit by each pixel's samples.
     Coverage,
 }
 
-/// Processor time of a part of the ground truth, s.
+/// CPU time of a part of the ground truth, s.
 pub(super) fn truth_cpu_s(camera: &CameraPlan, what: Truth) -> f64 {
-    // A ray of the frame itself, and one of each that is compared; boxes: about one for every object that a pixel's ray passes.
+    // One ray of the frame itself, and one of each compared frame or camera; boxes: about one for every object that a pixel's ray passes.
     let rays = match what {
         Truth::Planes => 1.0,
         Truth::Neighbours => 3.0,
@@ -226,14 +222,14 @@ pub(super) fn truth_cpu_s(camera: &CameraPlan, what: Truth) -> f64 {
     pixels(camera.body.raster.width(), camera.body.raster.height()) * TRUTH_S * rays
 }
 
-/// Layers of weather: paths for the airlight and rays for both shares.
+/// Layers of weather: paths for the airlight and rays for both fractions.
 fn weather(camera: &CameraPlan) -> f64 {
     let (width, height) = camera.film_size();
     let samples = f64::from(width) * f64::from(height) * f64::from(weather_layers::spp(camera));
     if camera.products.weather { samples * (PATH_CPU_S + 2.0 * TRUTH_S) } else { 0.0 }
 }
 
-/// Cubes of bands, encoded.
+/// Encoding of cubes of bands.
 fn files(camera: &CameraPlan) -> f64 {
     let p = &camera.products;
     let cubes = [p.radiance, p.irradiance, p.ghosts].into_iter().filter(|wanted| *wanted).count() as f64;
@@ -241,7 +237,7 @@ fn files(camera: &CameraPlan) -> f64 {
     cubes * cube_cpu_s(camera)
 }
 
-/// All captures of a frame, where electrons are made.
+/// All captures of a frame, if electrons are computed.
 fn sensor(camera: &CameraPlan) -> f64 {
     let products = &camera.products;
     let is_made = products.raw || products.picture || products.signal_breakdown;
@@ -250,12 +246,12 @@ fn sensor(camera: &CameraPlan) -> f64 {
     picture_pixels(camera) * captures as f64 * SENSOR_S
 }
 
-/// From raw to the picture.
+/// Processing from raw to image.
 fn processing(camera: &CameraPlan) -> f64 {
     if camera.products.picture { picture_pixels(camera) * PROCESSING_S } else { 0.0 }
 }
 
-/// A cube of bands, encoded: processor time, s.
+/// CPU time of encoding a cube of bands, s.
 pub(super) fn cube_cpu_s(camera: &CameraPlan) -> f64 {
     bands(camera).map_or(0.0, |bands| picture_pixels(camera) * bands.count() as f64 * WRITTEN_S)
 }
@@ -280,7 +276,7 @@ mod tests {
     const GAUSS: &str = "lens = { type = \"prescription\", published = \"double-gauss\", f_number = 4, focus_distance_m = \"infinity\" }";
     const PITCH: [&str; 2] = ["6.0", "300.0"];
 
-    /// Seconds of the parts of a camera that looks along +x.
+    /// CPU time of the parts, s, of a camera that looks along +x.
     fn cost(lens: &str, camera: &str, render: &str, scene: &str) -> Vec<f64> {
         let pitch = PITCH[usize::from(lens == GAUSS)];
         let scene = if scene.is_empty() { "[scene]" } else { scene };
@@ -311,7 +307,7 @@ mod tests {
         };
         let (one, four) = (psf("[1, 1]"), psf("[2, 2]"));
         assert!(one[0] > 0.0 && one[1..5] == [0.0; 4], "{one:?}");
-        // Four times the kernels; what each is applied to is a part of the film.
+        // Four times the kernels; the film part to which each is applied differs.
         assert!((3.0..4.5).contains(&(four[0] / one[0])), "{} by {}", four[0], one[0]);
         let glare = |render: &str| {
             cost(
@@ -322,7 +318,7 @@ mod tests {
             )[1]
         };
         let (means, both) = (glare("replicates = 1"), glare("replicates = 2"));
-        // The kernel is made once; variances are pictures too.
+        // The kernel is computed once; variances are images too.
         assert!(means > 0.0 && (1.8..2.0).contains(&(both / means)), "{both} by {means}");
     }
 
@@ -336,10 +332,10 @@ mod tests {
         let ghosts =
             |render: &str, elevation: f64| cost(GAUSS, "effects = { ghosts = true }", render, &sky(elevation))[2];
         let (narrow, wide) = ("wavelength_range_nm = [400, 500]", "wavelength_range_nm = [400, 700]");
-        // Tabulated at 2 wavelengths and at 4, and a first look at one.
+        // Tabulated at 2 and at 4 wavelengths; the first pass uses one.
         let ratio = ghosts(wide, 60.0) / ghosts(narrow, 60.0);
         assert!((1.85..2.0).contains(&ratio), "{ratio}");
-        // Of beams laid down alone 1000 by 270; rays that tabulate them are as many.
+        // Of beams alone 1000 to 270; the number of rays that tabulate them is unchanged.
         let ratio = ghosts(wide, 60.0) / ghosts(wide, 5.0);
         assert!((1.5..1000.0 / 270.0).contains(&ratio), "the sun in the picture: {ratio}");
         assert_eq!(cost(GAUSS, "effects = { ghosts = false }", wide, "")[2], 0.0);

@@ -1,29 +1,29 @@
-//! The processor time and memory that a frame of a camera is foretold to take.
+//! Estimated CPU time and memory of a frame of a camera.
 //!
-//! Paths are those of the street scene (docs/performance.md): other scenes' take from a tenth of it to three times as long.
+//! The time per path is that of the street scene (docs/performance.md): in other scenes it is from a tenth of that to three times as long.
 
 use super::cpu_time::{self, Share, branches_share, path_cpu_s};
 use crate::plan::{CameraPlan, Plan};
 use crate::render::training;
 use crate::report::FilmBytes;
 
-/// What a frame of a camera is foretold to take.
+/// Estimated cost of a frame of a camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameCost {
-    /// Paths that are traced, with those that learn before the picture; where noise decides, the fewest. 0 where another camera's light serves.
+    /// Number of traced paths, including those that train the guiding; a lower bound for noise-limited sampling. 0 if another camera provides the light.
     pub paths: f64,
-    /// Processor time of these paths at the street's rate, s.
+    /// CPU time of these paths at the rate of the street scene, s.
     pub paths_cpu_s: f64,
-    /// What is done on the finished film; parts that the camera does not have take no time.
+    /// Work on the finished film; parts that the camera does not have take no time.
     pub parts: Vec<Share>,
-    /// What the film takes in memory and on the disk.
+    /// Bytes of the film in memory and on disk.
     pub film: FilmBytes,
-    /// Whether more samples than the fewest may be needed.
+    /// True if more than the minimum of samples may be needed.
     pub is_lower_bound: bool,
 }
 
 impl FrameCost {
-    /// Of a frame of a camera of the plan.
+    /// Cost of a frame of a camera of the plan.
     #[must_use]
     pub fn of(plan: &Plan, camera: &CameraPlan) -> Self {
         let (width, height) = camera.film_size();
@@ -35,7 +35,7 @@ impl FrameCost {
         let (own, guiding) = if is_served { (0.0, 0.0) } else { (own, guiding) };
         Self {
             paths: own + guiding,
-            // Paths that learn do not branch.
+            // Paths that train the guiding do not branch.
             paths_cpu_s: (own * (1.0 + branches_share(camera)) + guiding) * path_cpu_s(camera),
             parts: cpu_time::shares(plan, camera),
             film: plan.film_bytes(camera),
@@ -43,13 +43,13 @@ impl FrameCost {
         }
     }
 
-    /// Processor time of the whole frame, s.
+    /// CPU time of the whole frame, s.
     #[must_use]
     pub fn cpu_s(&self) -> f64 {
         self.paths_cpu_s + self.film_cpu_s()
     }
 
-    /// Processor time of what is done on the film, s.
+    /// CPU time of the work on the film, s.
     #[must_use]
     pub fn film_cpu_s(&self) -> f64 {
         self.parts.iter().map(|part| part.cpu_s).sum()

@@ -1,4 +1,4 @@
-//! Sizes of meshes as they stand in the scene, and warnings where the unit or the axes of a file are not those stated.
+//! Sizes of meshes in the scene, and warnings if the unit or the axes of a file seem not to be those stated.
 
 use crate::plan::Plan;
 use crate::render::boxes::SolidBox;
@@ -6,14 +6,14 @@ use etendue_tracer::geometry::{MeshId, Shape};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Triangles of boxes, which have no file, at most: meshes of no more are not listed.
+/// Maximum triangles of a box, which has no file: meshes of no more triangles are not listed.
 const OF_A_BOX: usize = 12;
-/// Least and greatest plausible length of a road user, m.
+/// Minimum and maximum plausible length of a road user, m.
 const ROAD_USER_M: [f64; 2] = [0.01, 200.0];
-/// Height over the longer side above which a vehicle stands on end.
+/// Ratio of height to the longer side above which a vehicle is considered upended.
 const ON_END: f64 = 1.5;
 
-/// Names of classes whose members use the road.
+/// Names of the classes of road users.
 const ROAD_USERS: [&str; 22] = [
     "animal",
     "bicycle",
@@ -38,15 +38,15 @@ const ROAD_USERS: [&str; 22] = [
     "lorry",
     "emergency-vehicle",
 ];
-/// Those of them that are longer or wider than high.
+/// Those of them that are longer or wider than they are high.
 const LONG: [&str; 9] = ["bus", "car", "caravan", "train", "tram", "trailer", "truck", "van", "lorry"];
 
-/// A mesh as it stands in the scene.
+/// A mesh in the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshSize {
-    /// The first object that it is the shape of.
+    /// The first object with this mesh.
     pub object: String,
-    /// Objects that it is the shape of.
+    /// Number of objects with this mesh.
     pub objects: usize,
     /// Its triangles.
     pub triangles: usize,
@@ -54,7 +54,7 @@ pub struct MeshSize {
     pub size_m: [f64; 3],
 }
 
-/// The meshes that are the shape of named objects, in the order of the first object of each; boxes and flat shapes are left out.
+/// Meshes of named objects, in the order of the first object of each; boxes and flat shapes are omitted.
 #[must_use]
 pub fn mesh_sizes(plan: &Plan) -> Vec<MeshSize> {
     let mut places: BTreeMap<MeshId, usize> = BTreeMap::new();
@@ -76,7 +76,7 @@ pub fn mesh_sizes(plan: &Plan) -> Vec<MeshSize> {
     found
 }
 
-/// Warnings of road users that are too small or too large, or of vehicles that stand on end: of each shape and class the first object.
+/// Warnings of road users that are too small or too large, and of upended vehicles: for each shape and class the first object.
 pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
     for instance in plan.world.instances() {
@@ -97,7 +97,7 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     found
 }
 
-/// The fault of a road user's size along its own axes, m.
+/// Describes an implausible size of a road user along its own axes, m.
 fn fault(class: &str, size_m: DVec3) -> Option<String> {
     let DVec3 { x: length, y: width, z: height } = size_m;
     let measures = format!("{length:.4} × {width:.4} × {height:.4} m (length, width, height)");

@@ -1,9 +1,9 @@
-//! What a plan will take and what it leaves out, in figures and in words.
+//! Cost and omissions of a plan, in figures and as text.
 //!
-//! - [`effects`]: everything that can cost or change a frame, each with its reason and its price.
-//! - [`FrameCost`]: processor time of a frame; [`RunMemory`]: the peak memory of a run.
-//! - [`mesh_sizes()`]: the size of meshes as they stand in the scene.
-//! - [`summary`]: the plan as text; `warnings`: why the picture may not be what was meant.
+//! - [`effects`]: everything that can cost time or change a frame, each with its reason and its cost.
+//! - [`FrameCost`]: CPU time of a frame; [`RunMemory`]: the peak memory of a run.
+//! - [`mesh_sizes()`]: the size of meshes in the scene.
+//! - [`summary`]: the plan as text; `warnings`: reasons for which the image may differ from the user's intent.
 
 mod cpu_time;
 pub mod effects;

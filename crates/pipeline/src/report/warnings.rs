@@ -1,4 +1,4 @@
-//! What of a plan a rendering repeats: why the picture may not be what was meant.
+//! Warnings of a plan that a render repeats: reasons for which the image may differ from the user's intent.
 
 use crate::plan::remark::{Weight, grouped};
 use crate::plan::{CameraPlan, Plan};
@@ -8,8 +8,8 @@ use crate::report::summary::lens::field_of_view_rad;
 use etendue_optics::Lens;
 
 impl Plan {
-    /// Warnings that concern the picture, each a sentence without a full stop: those of the remarks, of each camera that nothing gives light, of extreme
-    /// fields of view, of each camera inside an object, and of road users of implausible size.
+    /// Warnings that concern the image, each a sentence without a full stop: those of the remarks, of each camera that receives no light, of extreme fields
+    /// of view, of each camera inside an object, and of road users of implausible size.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let groups = grouped(&self.remarks).into_iter().filter(|group| group.weight == Weight::Warning);
@@ -35,10 +35,10 @@ impl Plan {
     }
 }
 
-/// Fields of view of perspective lenses that are hardly meant, degrees: below the first or above the second.
+/// Implausible fields of view of perspective lenses, degrees: below the first or above the second.
 const PLAUSIBLE_FIELD_DEG: [f64; 2] = [0.2, 175.0];
 
-/// Warns of a perspective field of view that comes from a focal length or pitch in another unit.
+/// Warns of a perspective field of view that results from a focal length or pitch in another unit.
 fn extreme_field(camera: &CameraPlan) -> Option<String> {
     if !matches!(camera.body.lens, Lens::Pinhole(_) | Lens::Thin(_)) {
         return None;

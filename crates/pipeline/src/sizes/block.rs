@@ -1,29 +1,29 @@
 //! Blocks of pixels whose paths share their tails.
 //!
-//! The pixels of a block carry the same wavelengths, so they are pixels of one colour of the sensor's filter: every
-//! `stride`-th of a square. Blocks lie on a grid of the whole frame, whatever the tiles.
+//! The pixels of a block carry the same wavelengths. They are therefore pixels of one colour of the sensor's filter: every `stride`-th of a square. Blocks
+//! are aligned to a grid of the whole frame, independent of tiles.
 
 use crate::sizes::tile::Tile;
 use etendue_core::maths::least_common_multiple;
 use etendue_core::random::Pixel;
 
-/// Least side of a cell, px: where bright light is rare, fewer pixels do not know it together.
+/// Minimum side of a cell, px: if bright light is rare, fewer pixels cannot estimate it together.
 const CELL_PX: u32 = 16;
 
-/// How a frame falls into blocks.
+/// Division of a frame into blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Blocks {
-    /// Columns and rows of a block; 1 where every pixel stands alone.
+    /// Columns and rows of a block; 1 for single pixels.
     side: u32,
-    /// Columns and rows from one pixel of a block to the next.
+    /// Distance between the pixels of a block, columns and rows.
     stride: (u32, u32),
 }
 
 impl Blocks {
-    /// Every pixel by itself.
+    /// Blocks of a single pixel.
     pub const SINGLE: Self = Self { side: 1, stride: (1, 1) };
 
-    /// Blocks of `side` × `side` pixels (a power of two), for a filter that repeats after so many columns and rows.
+    /// Blocks of `side` × `side` pixels (a power of two), for a filter with a period of `columns` and `rows`.
     #[must_use]
     pub fn new(side: u32, columns: u32, rows: u32) -> Self {
         if side == 1 { Self::SINGLE } else { Self { side, stride: (columns, rows) } }
@@ -35,31 +35,31 @@ impl Blocks {
         self.side
     }
 
-    /// Pixels of a block away from the frame's border: their errors may be alike.
+    /// Number of pixels of a block away from the frame's border: their errors may be correlated.
     #[must_use]
     pub fn len_px(self) -> u32 {
         self.side * self.side
     }
 
-    /// Columns and rows of the frame that hold whole blocks of every colour.
+    /// Columns and rows of the smallest area that contains whole blocks of every colour.
     fn cell(self) -> (u32, u32) {
         (self.side * self.stride.0, self.side * self.stride.1)
     }
 
-    /// The least side of a tile, from `wanted` on, that cuts no block.
+    /// Smallest side of a tile, at least `wanted`, that does not split a block.
     #[must_use]
     pub fn tile_px(self, wanted: u32) -> u32 {
         let (columns, rows) = self.cell();
         wanted.next_multiple_of(least_common_multiple(columns, rows))
     }
 
-    /// Side of the cells whose pixels know their noise together, px: they cut no block. Cells lie on a grid of the whole frame.
+    /// Side of the cells whose pixels estimate their noise together, px: they do not split a block. Cells are aligned to a grid of the whole frame.
     #[must_use]
     pub fn cell_px(self) -> u32 {
         self.tile_px(CELL_PX)
     }
 
-    /// The blocks of a tile that cuts none, each with its pixels, neighbours in the list far apart in the block.
+    /// Blocks of a tile that splits none, each with its pixels; consecutive pixels are far apart in the block.
     pub fn of(self, tile: Tile) -> impl Iterator<Item = Vec<Pixel>> {
         let (columns, rows) = self.cell();
         let corners =
@@ -75,7 +75,7 @@ impl Blocks {
         (0..rows).flat_map(move |j| (0..columns).map(move |i| (i, j)))
     }
 
-    /// The pixels of the block whose first is (`x`, `y`).
+    /// Pixels of the block that starts at (`x`, `y`).
     fn pixels(self, x: u32, y: u32) -> impl Iterator<Item = Pixel> {
         (0..self.side * self.side).map(move |rank| {
             let (i, j) = spread(rank, self.side);
@@ -88,8 +88,8 @@ fn starts(from: u32, to: u32, step: u32) -> impl Iterator<Item = u32> + Clone {
     (from..to).step_by(step as usize)
 }
 
-/// The `rank`-th place of a square of `side` (a power of two) in the order of an ordered dither (Bayer 1973): every quarter
-/// of the ranks is spread over the whole square.
+/// The `rank`-th position in a square of `side` (a power of two) in the order of an ordered dither (Bayer 1973): every quarter of the ranks is spread over
+/// the whole square.
 fn spread(rank: u32, side: u32) -> (u32, u32) {
     let (mut x, mut y, mut half, mut rest) = (0, 0, side / 2, rank);
     while half > 0 {
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
     use crate::sizes::tile::{Shard, tiles};
 
-    /// Blocks of a frame of 37 × 23 pixels, cut into tiles of at least `tile_px`.
+    /// Blocks of a frame of 37 × 23 pixels, divided into tiles of at least `tile_px`.
     fn blocks(blocks: Blocks, tile_px: u32) -> Vec<Vec<(u32, u32)>> {
         let cut = tiles(37, 23, blocks.tile_px(tile_px), Shard::WHOLE);
         let all = cut.into_iter().flat_map(|tile| blocks.of(tile));

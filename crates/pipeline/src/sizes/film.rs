@@ -1,27 +1,27 @@
-//! The planes of a film, and the bytes that they take in memory and in scratch files.
+//! Planes of a film, and their bytes in memory and in scratch files.
 
 use super::tile::Shard;
 use etendue_core::Bands;
 use etendue_core::storage::NUMBER_BYTES;
 
-/// The planes that every pixel's samples are gathered into.
+/// Planes that accumulate each pixel's samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// Spectral bands, where a cube is kept.
+    /// Spectral bands, if a cube is stored.
     pub bands: Option<Bands>,
-    /// Whether each pixel folds its own responsivity into electrons.
+    /// True if each pixel weights radiance by its responsivity and accumulates electrons.
     pub folded: bool,
-    /// Whether a limit of noise watches the pixel's light: its electrons where they are folded, else its irradiance over all wavelengths.
+    /// True if a noise limit monitors the pixel's light: its electrons if these are accumulated, otherwise its irradiance over all wavelengths.
     pub watched: bool,
 }
 
 impl Layout {
-    /// Numbers a pixel: the bands, the pupil's weight, the electrons or the irradiance that is watched in their place.
+    /// Number of values per pixel: the bands, the pupil's weight, the electrons or, instead of them, the monitored irradiance.
     pub(crate) fn slots(&self) -> usize {
         self.band_count() + 1 + usize::from(self.folded || self.watched)
     }
 
-    /// The place of what is watched.
+    /// Index of the monitored value.
     pub(crate) fn watched_slot(&self) -> usize {
         self.band_count() + 1
     }
@@ -30,19 +30,19 @@ impl Layout {
         self.bands.map_or(0, Bands::count)
     }
 
-    /// Bytes that a film of this size and layout takes in memory; a float, for a picture too large to be made must not overflow.
+    /// Bytes of a film of this size and layout in memory; a float, because an impossibly large image must not overflow.
     #[must_use]
     pub fn bytes(&self, width: usize, height: usize) -> f64 {
         self.cube_bytes(width, height) + self.bytes_beside_cube(width, height)
     }
 
-    /// Bytes of the bands of a film, in memory.
+    /// Bytes of the bands of a film in memory.
     #[must_use]
     pub fn cube_bytes(&self, width: usize, height: usize) -> f64 {
         plane_bytes(width, height) * (2 * self.bands.map_or(0, Bands::count)) as f64
     }
 
-    /// Bytes of all else, which always is in memory.
+    /// Bytes of everything else, which is always in memory.
     #[must_use]
     pub fn bytes_beside_cube(&self, width: usize, height: usize) -> f64 {
         let planes = 2 * (usize::from(self.folded) + usize::from(self.watched)) + 3;
@@ -55,18 +55,17 @@ fn plane_bytes(width: usize, height: usize) -> f64 {
     width as f64 * height as f64 * size_of::<f32>() as f64
 }
 
-/// Whether the bands of a film have variances that say something: those of one replicate are unknown, and all are kept of a shard, whose other
-/// tiles are 0.
+/// Returns true if the bands of a film have useful variances: those of one replicate are unknown, and a shard stores all, with 0 in other tiles.
 pub(crate) fn has_variance(replicates: u32, shard: Shard) -> bool {
     replicates > 1 || shard != Shard::WHOLE
 }
 
-/// Planes of bands in a scratch file: means, and variances where there are some.
+/// Planes of bands in a scratch file: means, and variances if there are any.
 pub(crate) fn scratch_planes(bands: Bands, has_variance: bool) -> usize {
     bands.count() * if has_variance { 2 } else { 1 }
 }
 
-/// Bytes in a scratch file of the bands of that many pixels.
+/// Bytes of the bands of `pixels` pixels in a scratch file.
 #[must_use]
 pub(crate) fn scratch_bytes(pixels: f64, bands: Bands, has_variance: bool) -> f64 {
     pixels * (scratch_planes(bands, has_variance) * NUMBER_BYTES) as f64

@@ -1,8 +1,8 @@
-//! Sizes and counts: pure numbers of which plan, rendering and report are made. Nothing here knows a plan.
+//! Sizes and counts: pure numbers used by plan, render and report. Nothing here depends on a plan.
 //!
-//! - [`tile`] cuts a frame into tiles and shards, [`block`] a tile into blocks of pixels that share paths.
+//! - [`tile`] divides a frame into tiles and shards, [`block`] a tile into blocks of pixels that share paths.
 //! - [`film`] counts the planes of a film and their bytes.
-//! - [`spectrum_spread`] tells how evenly wavelengths lie over the bands, [`tolerance`] which errors of a pixel's mean are let be.
+//! - [`spectrum_spread`] is the distribution of wavelengths over the bands, [`tolerance`] the permitted error of a pixel's mean.
 
 pub mod block;
 pub mod film;

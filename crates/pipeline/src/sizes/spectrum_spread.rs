@@ -1,35 +1,35 @@
-//! How the wavelengths of a pixel's samples lie over its spectrum.
+//! Distribution of the wavelengths of a pixel's samples over its spectrum.
 //!
-//! A path's N wavelengths are rotations of one number by steps of 1/N in the cumulative distribution that they are drawn by.
-//! Where a spectral cube is the product, that number is taken so that all N · n wavelengths of n samples lie at equal steps:
-//! every band is met as evenly as so many wavelengths can meet it. Which of the N is the hero stays a draw of the path.
-//! Each wavelength alone is drawn by the density, and the sum over a path's wavelengths stays unbiased.
+//! A path's N wavelengths are rotations of one number by steps of 1/N in their cumulative distribution. If the product is a spectral cube, that number is
+//! chosen so that all N · n wavelengths of n samples are equidistant: bands are covered as uniformly as this number of wavelengths allows. The hero
+//! wavelength among the N remains a random choice of the path. Each wavelength alone follows the density, and the sum over a path's wavelengths remains
+//! unbiased.
 //!
-//! Replicates that tell the variance must be independent: each is spread by itself. Where nobody asks for the variance, the
-//! wavelengths of all replicates are spread together, which leaves less noise.
+//! Replicates that estimate the variance must be independent: each is spread by itself. If the variance is not requested, the wavelengths of all replicates
+//! are spread together, which leaves less noise.
 
-/// Over what wavelengths are spread.
+/// Set of samples over which wavelengths are spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpectrumSpread {
-    /// Each replicate's heroes are a stratified sequence: what pixels that fold electrons draw.
+    /// Each replicate's hero wavelengths are a stratified sequence; used by pixels that accumulate electrons.
     Drawn,
-    /// The wavelengths of each replicate lie at equal steps.
+    /// The wavelengths of each replicate are equidistant.
     EachReplicate,
-    /// The wavelengths of all replicates of a pass together lie at equal steps.
+    /// The wavelengths of all replicates of a pass together are equidistant.
     AllReplicates,
-    /// The wavelengths of each replicate lie evenly however many there will be.
+    /// The wavelengths of each replicate are evenly distributed for any number of samples.
     Open,
 }
 
 impl SpectrumSpread {
-    /// Groups of samples that are spread, each independently.
+    /// Number of groups of samples that are spread independently.
     fn groups(self, replicates: u32) -> u32 {
         if self == Self::AllReplicates { 1 } else { replicates }
     }
 
-    /// Standard deviation of a band of an even spectrum in even light over its mean, by the choice of `wavelengths` a path
-    /// alone: a part `share` of the density falls in the band. Of ⌊m⌋ or ⌈m⌉ wavelengths in the band, m their mean in a group,
-    /// the variance is f (1 − f), f the fraction of m. `None` where wavelengths are drawn, or nobody knows how many there will be.
+    /// Standard deviation over mean, from the choice of `wavelengths` per path alone, of a band of a uniform spectrum in uniform light; the fraction `share`
+    /// of the density falls in the band. With ⌊m⌋ or ⌈m⌉ wavelengths in the band, m their mean in a group, the variance is f (1 − f), f the fractional part
+    /// of m. `None` if wavelengths are sampled independently, or their number is unknown.
     #[must_use]
     pub fn band_noise(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<f64> {
         let (mean, groups) = self.in_band(spp, replicates, wavelengths, share)?;
@@ -37,7 +37,7 @@ impl SpectrumSpread {
         Some((fraction * (1.0 - fraction) / groups).sqrt() / mean)
     }
 
-    /// The most that [`SpectrumSpread::band_noise`] may be where at least a part `share` of the density falls in the band.
+    /// Maximum of [`SpectrumSpread::band_noise`] if at least the fraction `share` of the density falls in the band.
     #[must_use]
     pub fn most_band_noise(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<f64> {
         let (mean, groups) = self.in_band(spp, replicates, wavelengths, share)?;
@@ -45,7 +45,7 @@ impl SpectrumSpread {
         Some((fraction * (1.0 - fraction) / groups).sqrt() / mean)
     }
 
-    /// Mean wavelengths of a group in a band, and the groups.
+    /// Mean number of wavelengths of a group in a band, and the number of groups.
     fn in_band(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<(f64, f64)> {
         let groups = f64::from(self.groups(replicates));
         matches!(self, Self::EachReplicate | Self::AllReplicates)

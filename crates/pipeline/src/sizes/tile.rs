@@ -1,4 +1,4 @@
-//! A frame cut into tiles, and the shard of them that one run renders.
+//! Tiles of a frame, and the shard of them that one run renders.
 
 use etendue_core::random::Pixel;
 
@@ -21,7 +21,7 @@ impl Tile {
         (self.y0..self.y1).flat_map(move |y| (self.x0..self.x1).map(move |x| Pixel { x, y }))
     }
 
-    /// The squares of `side` pixels that it falls into, row by row; smaller at its end.
+    /// Squares of `side` pixels in the tile, row by row; smaller at its right and lower edges.
     pub fn parts(self, side: u32) -> impl Iterator<Item = Tile> {
         let starts = move |from: u32, to: u32| (from..to).step_by(side as usize);
         starts(self.y0, self.y1).flat_map(move |y0| {
@@ -40,14 +40,14 @@ impl Tile {
         (self.x1 - self.x0) as usize * (self.y1 - self.y0) as usize
     }
 
-    /// Whether the tile holds no pixel (never one made by [`tiles`]).
+    /// Returns true if the tile has no pixel (never for tiles from [`tiles`]).
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.len() == 0
     }
 }
 
-/// The part of a frame's tiles that one run renders: those whose number is `index` modulo `count`.
+/// Part of a frame's tiles that one run renders: those whose number is `index` modulo `count`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     index: u32,
@@ -64,13 +64,13 @@ impl Shard {
         (index < count).then_some(Self { index, count })
     }
 
-    /// Which shard.
+    /// Index of the shard.
     #[must_use]
     pub fn index(self) -> u32 {
         self.index
     }
 
-    /// Of how many.
+    /// Number of shards.
     #[must_use]
     pub fn count(self) -> u32 {
         self.count
@@ -81,8 +81,7 @@ impl Shard {
     }
 }
 
-/// The tiles of a frame of `width` × `height` pixels that `shard` owns, in order. Tiles are `side` pixels square but
-/// at the right and lower border.
+/// Tiles of a frame of `width` × `height` pixels in `shard`, in order. Tiles are `side` pixels square except at the right and lower edges.
 #[must_use]
 pub fn tiles(width: u32, height: u32, side: u32, shard: Shard) -> Vec<Tile> {
     let starts = |length: u32| (0..length).step_by(side.max(1) as usize);

@@ -1,47 +1,47 @@
-//! Which errors of a pixel's mean are let be, where noise decides how many samples it gets.
+//! Permitted error of a pixel's mean in noise-limited sampling.
 
 use etendue_sensor::TemporalNoise;
 
-/// How many standard deviations of the mean a pixel lies above white before its error is let be.
+/// Number of standard deviations of the mean above white from which a pixel's error is ignored.
 const SURELY_WHITE: f64 = 4.0;
 
 /// Samples until noise is below a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveSampling {
-    /// Greatest standard error over the noise that the sensor adds, or over the pixel's mean where there is none.
+    /// Maximum standard error over the noise that the sensor adds, or over the pixel's mean without a sensor.
     pub threshold: f64,
-    /// Samples that every pixel gets.
+    /// Minimum samples of a pixel.
     pub min_spp: u32,
 }
 
-/// Which errors are let be.
+/// Permitted error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
     limit: AdaptiveSampling,
-    /// Where electrons are watched; else the pixel's own mean decides.
+    /// Noise of the sensor if electrons are monitored; otherwise the pixel's own mean is the reference.
     sensor: Option<TemporalNoise>,
 }
 
 impl Tolerance {
-    /// A part of the noise of a sensor; of each pixel's mean where there is none.
+    /// Tolerance as a fraction of the noise of a sensor, or of each pixel's mean without one.
     #[must_use]
     pub fn new(limit: AdaptiveSampling, sensor: Option<TemporalNoise>) -> Self {
         Self { limit, sensor }
     }
 
-    /// Samples that every pixel gets.
+    /// Minimum samples of a pixel.
     #[must_use]
     pub fn min_spp(&self) -> u32 {
         self.limit.min_spp
     }
 
-    /// The sensor's noise, where that is the measure.
+    /// Noise of the sensor, if that is the reference.
     #[must_use]
     pub fn sensor(&self) -> Option<&TemporalNoise> {
         self.sensor.as_ref()
     }
 
-    /// The variance that a pixel's mean may have, in the square of the mean's unit: electrons a second where there is a sensor.
+    /// Permitted variance of a pixel's mean, in the square of the mean's unit: electrons per second with a sensor.
     #[must_use]
     pub fn variance(&self, mean: f64) -> f64 {
         let factor = self.limit.threshold;
@@ -64,7 +64,7 @@ mod tests {
     fn a_sensor_lets_more_be_the_brighter_it_is_and_all_beyond_white() {
         let noise = TemporalNoise::of_one_capture(0.5, 9.0, 1000.0);
         let tolerance = Tolerance::new(AdaptiveSampling { threshold: 0.5, min_spp: 16 }, Some(noise));
-        // Electrons a second; the exposure is half a second.
+        // Electrons per second; the exposure is half a second.
         let at = |mean: f64| tolerance.variance(mean);
         assert!((at(0.0) - 0.25 * 9.0 * 4.0).abs() < 1e-9 && (at(200.0) - 0.25 * 109.0 * 4.0).abs() < 1e-9);
         let far = 2.0 * 9000.0;

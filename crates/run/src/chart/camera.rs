@@ -1,4 +1,4 @@
-//! The camera that a chart is made for: a camera file, or a reference camera that is written beside the chart.
+//! The camera that a chart is made for: a camera file, or a reference camera that is written next to the chart.
 
 use etendue_charts::CameraStation;
 use etendue_io::failure::{Error, ErrorCode};
@@ -10,7 +10,7 @@ use etendue_pipeline::plan::CameraBody;
 use etendue_scene::{Overrides, load_camera, named_files};
 use std::path::{Path, PathBuf};
 
-/// Camera files that need no other.
+/// Reference camera files that name no other files.
 const STAND_INS: [(&str, &str); 5] = [
     ("web", include_str!("../../../../scenes/cameras/web.toml")),
     ("ccd-mono", include_str!("../../../../scenes/cameras/ccd-mono.toml")),
@@ -19,10 +19,10 @@ const STAND_INS: [(&str, &str); 5] = [
     ("laboratory", include_str!("../../../../scenes/cameras/laboratory.toml")),
 ];
 
-/// The specimen of a series whose camera does not say one.
+/// Unit number of a series whose camera states none.
 const SPECIMEN: u64 = 1;
 
-/// A camera and where its file is.
+/// A camera and the place of its file.
 pub(super) struct ChartCamera {
     /// The camera.
     pub(super) body: CameraBody,
@@ -90,14 +90,14 @@ impl ChartCamera {
         text.map(str::to_owned).ok_or_else(told)
     }
 
-    /// Keys that a chart's cameras do without: what changes the exposure from frame to frame.
+    /// Keys removed from a chart's cameras: those that change the exposure from frame to frame.
     pub(super) fn removed_keys(&self) -> &'static [&'static str] {
         let sensor = self.body.sensor.as_ref();
         let controlled = sensor.is_some_and(|sensor| sensor.parameters().exposure.control.is_some());
         if controlled { &["sensor.auto_exposure"] } else { &[] }
     }
 
-    /// The specimen to name in the cameras of a series, so that all of them are the same one.
+    /// Unit number for the cameras of a series, so that all of them are the same physical unit.
     pub(super) fn specimen(&self, stations: &[CameraStation]) -> Option<u64> {
         let sensor = self.body.sensor.as_ref()?;
         let open = sensor.parameters().specimen.is_none();

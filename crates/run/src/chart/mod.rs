@@ -1,4 +1,4 @@
-//! A chart as a scene ready to render, with its truth beside it.
+//! A chart as a scene ready to render, with ground truth.
 
 mod camera;
 mod changes;
@@ -28,17 +28,17 @@ use std::path::{Path, PathBuf};
 /// Maximum number of views of a chart.
 pub const MAX_VIEWS: u32 = 200;
 
-/// The distance of a sheet before a camera that is focused nowhere in particular, m.
+/// Distance of a sheet from a camera that states no focus distance, m.
 const DISTANCE_M: f64 = 1.0;
-/// The luminance of white before a camera without electronics, cd/m².
+/// Luminance of white before a camera without electronics, cd/m².
 const LUMINANCE_CD_M2: f64 = 1000.0;
 
 /// A series of exposures, one camera each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What white reaches in each.
+    /// Level of white in each exposure.
     pub exposures: Exposures,
-    /// Whether a camera whose exposure cannot be told is refused; otherwise the chart is made without the series.
+    /// If true, a camera whose exposure cannot be computed is refused; otherwise the chart is made without the series.
     pub required: bool,
 }
 
@@ -51,32 +51,32 @@ pub struct ChartRequest {
     pub camera: String,
     /// Changes of the written job's keys, `key=value`, e.g. `render.spp=16` or `cameras.camera.lens.f_number=4`: the chart is drawn for the changed camera.
     pub set: Vec<String>,
-    /// Distance of the sheet from the entrance pupil, m, above 0; `None`: where the camera is focused, or 1.
+    /// Distance of the sheet from the entrance pupil, m, above 0; `None`: the camera's focus distance, or 1.
     pub distance_m: Option<f64>,
-    /// Width of what the camera sees of the sheet, mm, above 0: the distance follows.
+    /// Width of the part of the sheet that the camera sees, mm, above 0; determines the distance.
     pub width_mm: Option<f64>,
     /// The light's spectrum: D65, A, E, LED-B3, …
     pub illuminant: String,
-    /// Luminance of a perfect white sheet (or of the panel), cd/m²; `None`: what `white` asks for.
+    /// Luminance of a perfect white sheet (or of the panel), cd/m²; `None`: the luminance that `white` requires.
     pub luminance_cd_m2: Option<f64>,
-    /// The fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure.
+    /// Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure.
     pub white: f64,
     /// The seed of all random numbers.
     pub seed: u64,
-    /// Writes the print as chart.png too, at this many pixels an inch.
+    /// Resolution of an additional `chart.png`, px per inch; `None`: no such file.
     pub png_dpi: Option<f64>,
-    /// How many cameras look at it: the first square to it, the others tilted by 25 degrees all round.
+    /// Number of views: the first is perpendicular to the chart, the others are tilted by 25 degrees in all directions.
     pub views: u32,
-    /// Whether the views lie a little off their places, as by hand, drawn by `seed`: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees.
+    /// If true, the views deviate at random (by `seed`), as if hand-held: up to 0.5 % of the distance sideways, 2 % farther away, rolled by 1.5 degrees.
     pub hand_held: bool,
     /// Exposures, one camera each; `None`: the camera's own.
     pub series: Option<Series>,
-    /// Whether each exposure has a dark frame.
+    /// If true, each exposure has a dark frame.
     pub dark: bool,
 }
 
 impl ChartRequest {
-    /// One view by a camera at 0.7 of its saturation, in daylight D65.
+    /// One view by a camera at 0.7 of its saturation, illuminant D65.
     pub fn new(chart: Chart, camera: impl Into<String>) -> Self {
         Self {
             chart,
@@ -98,7 +98,7 @@ impl ChartRequest {
 }
 
 impl ChartRequest {
-    /// The light: as bright as asked for, or as fills the sensor as far as asked for.
+    /// The light: of the requested luminance, or of the one that reaches the requested fraction of saturation.
     fn light(&self, meter: Option<&Meter<'_>>, otherwise_cd_m2: f64) -> Result<Light, ChartError> {
         let named = |luminance_cd_m2| Light::named(&self.illuminant, luminance_cd_m2);
         if let Some(luminance_cd_m2) = self.luminance_cd_m2 {
@@ -113,7 +113,7 @@ impl ChartRequest {
         named(share.map_or(otherwise_cd_m2, |share| white / share))
     }
 
-    /// The exposures of the series, s; none where there is no series.
+    /// Exposures of the series, s; empty without a series.
     fn exposures_s(&self, light: &Light, drawing: &Drawing, meter: Option<&Meter<'_>>) -> Result<Vec<f64>, ChartError> {
         let Some(Series { exposures, required }) = &self.series else { return Ok(Vec::new()) };
         let share = meter.map(|meter| meter.share(&drawing.inks[0].radiance(light))).filter(|share| *share > 0.0);
@@ -138,7 +138,7 @@ impl ChartRequest {
     }
 }
 
-/// Makes a chart as a scene with its job, cameras and truth in a folder; answers with the files' paths.
+/// Makes a chart as a scene with its job, cameras and ground truth in a folder; returns the paths of the files.
 ///
 /// # Errors
 /// The camera cannot be used, the chart does not fit it, a change names no key of the job, or the folder cannot be written.
@@ -207,7 +207,7 @@ fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Resu
         saturation_e: meter.saturation_e(),
         electrons: &electrons,
     });
-    // Nothing is measured in no time.
+    // An exposure time of zero cannot be metered.
     let meter = meter.filter(|meter| meter.exposure_s > 0.0);
     let seen = footprint(request, &camera, &ray_camera)?;
     let drawing = request.chart.draw(&seen, request.seed).map_err(chart_error)?;
@@ -235,7 +235,7 @@ fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Resu
     chart_files(&files, &camera, request.png_dpi)
 }
 
-/// The error of a chart, with the argument at fault.
+/// Converts an error of a chart, with the argument that caused it.
 pub fn chart_error(error: ChartError) -> Error {
     match error {
         ChartError::Option { option, .. } => Error::argument(option, error.to_string()),
@@ -243,7 +243,7 @@ pub fn chart_error(error: ChartError) -> Error {
     }
 }
 
-/// What the camera sees at the distance that is asked for, directly or by the width.
+/// The area that the camera sees at the requested distance, or at the distance of the requested width.
 fn footprint(request: &ChartRequest, camera: &ChartCamera, ray_camera: &RayCamera<'_>) -> Result<Footprint, Error> {
     let legal = |option: &'static str, value: f64| match value.is_finite() && value > 0.0 {
         true => Ok(value),
@@ -256,7 +256,7 @@ fn footprint(request: &ChartRequest, camera: &ChartCamera, ray_camera: &RayCamer
     };
     if let Some(width_mm) = request.width_mm {
         let width_mm = legal("width_mm", width_mm)?;
-        // The width is all but proportional to the distance.
+        // The width is nearly proportional to the distance.
         for _ in 0..8 {
             distance_m *= width_mm / ray_camera.footprint(distance_m).map_err(chart_error)?.outer_mm.x;
         }

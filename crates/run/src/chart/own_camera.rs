@@ -1,4 +1,4 @@
-//! A chart before a camera of a job, as the job's files and changes of keys say it: for what a measurement sees of a change.
+//! A chart before a camera of a job, as the job's files and changes of keys describe it: measures the effect of a change.
 
 use super::camera::ChartCamera;
 use super::{ChartRequest, make};
@@ -18,14 +18,14 @@ use etendue_scene::written::File;
 use etendue_scene::{Description, Overrides};
 use std::path::{Path, PathBuf};
 
-/// The distance of a chart before a lens that is focused at infinity, m: its blur there is that of infinity.
+/// Distance of a chart before a lens that is focused at infinity, m: its blur there equals that at infinity.
 const FAR_M: f64 = 1000.0;
 const CAMERA: &str = "job-camera.toml";
 const JOB: &str = "job.toml";
 const CHANGED: &str = "changed.toml";
 const PHOTOGRAPHS: &str = "photographs";
 
-/// A chart in a folder, made for a camera of a job. Exposure and distance are those of the camera as the job says it.
+/// A chart in a folder, made for a camera of a job. Exposure and distance are those that the job states for the camera.
 #[derive(Clone, Debug)]
 pub struct ChartBeforeCamera {
     folder: PathBuf,
@@ -33,16 +33,16 @@ pub struct ChartBeforeCamera {
 }
 
 impl ChartBeforeCamera {
-    /// Makes the chart of `request` before a camera of a job: the request's own camera does not count, and where it says no distance the chart stands where the job's
-    /// camera is focused, 1 km away at most. The folder is for this alone.
+    /// Makes the chart of `request` before a camera of a job. The request's own camera is ignored. Without a stated distance the chart stands at the focus
+    /// distance of the job's camera, at most 1 km away. The folder must hold nothing else.
     ///
     /// # Errors
-    /// Where the job has faults or no such camera, the chart does not fit the camera, or the folder cannot be written.
+    /// The job is invalid or has no such camera, the chart does not fit the camera, or the folder cannot be written.
     pub fn make(request: &ChartRequest, job: &JobRequest, camera: &str, folder: &Path) -> Result<Self, Error> {
         let setup = setup(job, camera)?;
         let failed = |error| Error::run(format!("{}: {error}", folder.display()));
         std::fs::create_dir_all(folder).map_err(failed)?;
-        // From the root of the file system, as files that are written name others so.
+        // An absolute path, because written files name other files by absolute paths.
         let folder = &folder.canonicalize().map_err(failed)?;
         let file = folder.join(CAMERA);
         write(&file, &File::new(of_constant_exposure(setup.camera).to_table()))?;
@@ -54,18 +54,18 @@ impl ChartBeforeCamera {
         Ok(Self { folder: folder.to_owned(), camera: camera.to_owned() })
     }
 
-    /// What the chart is and where, for a measurement.
+    /// Path of the reference data of the chart (kind and position), for a measurement.
     #[must_use]
     pub fn truth(&self) -> PathBuf {
         self.folder.join("truth.json")
     }
 
-    /// Photographs the chart by the camera as `job` says it now, directly lit, with `spp` samples a pixel: the path of the developed picture, of a camera without
-    /// processing of its raw picture. Changes of the scene, of poses and of samples have no part in it. A further photograph takes the place of the one before.
-    /// Runs on the caller's thread pool.
+    /// Captures the chart by the camera as `job` now describes it, with direct light only and `spp` samples per pixel. Returns the path of the developed
+    /// image, or of the raw image of a camera without processing. Changes of the scene, of poses and of samples have no effect. A further capture replaces
+    /// the one before. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// Where the job has faults, the camera makes no such picture, the observer cancels, or the folder cannot be written.
+    /// The job is invalid, the camera makes no such image, the observer cancels, or the folder cannot be written.
     pub fn photograph(
         &self,
         job: &JobRequest,
@@ -107,10 +107,10 @@ fn load(file: &Path, sandbox: &Sandbox, overrides: &Overrides) -> Result<Descrip
     description.map_err(|faults| Error::inputs(faults.list()))
 }
 
-/// A camera of a job, with the names of its files from the root of the file system.
+/// A camera of a job, with absolute paths of its files.
 fn setup(job: &JobRequest, camera: &str) -> Result<CameraSetup, Error> {
     let told = |error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", job.job.display()));
-    // The folder alone: names are from that of a link, not from that of its target.
+    // Canonicalises the folder only: relative names start from the folder of a link, not from that of its target.
     let parent = job.job.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let file = parent.canonicalize().map_err(told)?.join(job.job.file_name().unwrap_or_default());
     let description = load(&file, &job.folders()?, &job.overrides())?;
@@ -118,7 +118,7 @@ fn setup(job: &JobRequest, camera: &str) -> Result<CameraSetup, Error> {
     setup.ok_or_else(|| Error::coded(ErrorCode::UnknownName, format!("{}: no camera {camera}", job.job.display())))
 }
 
-/// What changes the exposure from frame to frame follows the scene, of which the chart is none.
+/// Removes what changes the exposure from frame to frame (it follows the job's scene, not the chart).
 fn of_constant_exposure(mut camera: Camera) -> Camera {
     if let Some(electronics) = &mut camera.sensor.electronics {
         electronics.auto_exposure = None;
@@ -126,7 +126,7 @@ fn of_constant_exposure(mut camera: Camera) -> Camera {
     camera
 }
 
-/// Flat sheets light nothing but the camera.
+/// Flat sheets light only the camera: no indirect light.
 fn directly_lit(render: Render, spp: u32) -> Render {
     let samples = SampleKeys { spp: Some(u64::from(spp).into()), replicates: Some(1.into()), ..SampleKeys::default() };
     Render { samples, integrator: Some(Integrator::Direct.into()), paths: PathKeys::default(), ..render }

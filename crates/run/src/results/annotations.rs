@@ -1,4 +1,4 @@
-//! Ground truth between frames, between cameras and of objects: in memory, and as files.
+//! Ground truth between frames, between cameras and of objects, in memory and as files.
 
 use super::camera::CameraResults;
 use super::metadata::add_time;
@@ -21,9 +21,8 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 impl CameraResults {
-    /// Optical flow, visibility and motion in space of the first of the frames: against the next frame, and then against the one before it,
-    /// but for frame 0, before which there is none. Traced anew at each call, on the caller's thread pool. Where no period of frames is stated
-    /// all frames are one moment.
+    /// Returns optical flow, visibility and motion in space of the first frame: to the next frame, then to the previous one (none for frame 0). Traced at
+    /// each call, on the caller's thread pool. Without a frame rate all frames are at one time.
     #[must_use]
     pub fn motion_truth(&self) -> MotionTruth {
         let here = self.frame_view();
@@ -33,8 +32,8 @@ impl CameraResults {
         motion_truth(&self.plan, &here, &others, self.simd)
     }
 
-    /// Disparity to the camera that the job names, and whether that sees each point, of the first of the frames; `None` where it names none. Traced
-    /// anew at each call, on the caller's thread pool.
+    /// Returns the disparity to the camera that the job names, and the visibility of each point there, of the first frame; `None` if the job names no camera.
+    /// Traced at each call, on the caller's thread pool.
     #[must_use]
     pub fn disparity(&self) -> Option<(Plane<Disparity>, Plane<Identity>)> {
         let here = self.frame_view();
@@ -43,33 +42,33 @@ impl CameraResults {
         Some(disparity(&self.plan, &here, &FrameView { camera, ..here }, self.simd))
     }
 
-    /// The boxes of the objects in the first of the frames. Traced anew at each call, on the caller's thread pool.
+    /// Returns the boxes of the objects in the first frame. Traced at each call, on the caller's thread pool.
     #[must_use]
     pub fn boxes(&self) -> Vec<ObjectBoxes> {
         object_boxes(&self.plan, &self.frame_view(), &self.ground_truth().instance, self.simd)
     }
 
-    /// The same as `boxes.json` says it, with names, classes and conventions.
+    /// Returns the content of `boxes.json`, with names, classes and conventions.
     #[must_use]
     pub fn boxes_json(&self) -> Value {
         self.boxes_json_of(&self.ground_truth().instance)
     }
 
-    /// The same of identities that are known, those of [`ground_truth`](Self::ground_truth).
+    /// Does the same for the known identities of [`ground_truth`](Self::ground_truth).
     #[must_use]
     pub fn boxes_json_of(&self, instances: &Plane<Identity>) -> Value {
         let boxes = object_boxes(&self.plan, &self.frame_view(), instances, self.simd);
         boxes_json(&self.plan, &self.frame_view(), &boxes)
     }
 
-    /// The pixels (row by row from the top left) that would show each object of the first of the frames were it alone, or that show it in the ground
-    /// truth's `instances`, by identity. Traced anew at each call, on the caller's thread pool.
+    /// Returns, by identity, the pixels (row by row from the top left) that would show each object of the first frame if it were alone, or that show it in
+    /// the ground truth's `instances`. Traced at each call, on the caller's thread pool.
     #[must_use]
     pub fn silhouettes(&self, instances: &Plane<Identity>) -> BTreeMap<u32, Vec<usize>> {
         silhouettes(&self.plan, &self.frame_view(), instances, self.simd)
     }
 
-    /// All objects of the world half-way through a frame's first exposure, whether the camera sees them or not.
+    /// Returns all objects of the world at the middle of a frame's first exposure, visible to the camera or not.
     #[must_use]
     pub fn world_objects(&self, frame: u32) -> Vec<WorldObject> {
         world_objects(&self.plan, self.camera().timing.capture(frame, 0).middle_s())
@@ -93,16 +92,16 @@ impl CameraResults {
         self.write_disparity(writer)
     }
 
-    /// Which objects and materials the pixels of the first of the frames see, and how much of each they cover. Traced anew at each call, on the caller's thread pool.
+    /// Returns the coverage of each pixel of the first frame by objects and materials. Traced at each call, on the caller's thread pool.
     #[must_use]
     pub fn identity_coverage(&self) -> IdentityCoverage {
         identity_coverage(&self.plan, self.camera(), self.frame_numbers().start, self.simd)
     }
 
-    /// The same as the bytes of a Cryptomatte: layers `CryptoObject` and `CryptoMaterial`, by the names of the plan.
+    /// Returns the coverage as the bytes of a Cryptomatte: layers `CryptoObject` and `CryptoMaterial`, with the names of the plan.
     ///
     /// # Errors
-    /// Where it cannot be stored.
+    /// It cannot be stored.
     pub fn cryptomatte(&self) -> Result<Vec<u8>, Error> {
         let bytes = self.cryptomatte_image().into_bytes();
         bytes.map_err(|error| Error::Run(format!("{}: {error}", Files::CRYPTOMATTE)))
@@ -150,7 +149,7 @@ impl CameraResults {
     }
 }
 
-/// The layers that are asked for.
+/// The requested layers.
 fn planes<'a>(truth: &'a MotionTruth, products: &Products) -> exr::MotionTruth<'a> {
     let asked = &products.annotations;
     let flow = asked.optical_flow.is_some();
@@ -168,7 +167,7 @@ fn planes<'a>(truth: &'a MotionTruth, products: &Products) -> exr::MotionTruth<'
     }
 }
 
-/// What `boxes.json` says of a frame.
+/// The content of `boxes.json` for a frame.
 fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxes]) -> Value {
     let raster = &frame.camera.body.raster;
     let (width, height) = (raster.width(), raster.height());

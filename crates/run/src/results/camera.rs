@@ -1,4 +1,4 @@
-//! One camera's results in memory.
+//! Results of one camera in memory.
 
 use super::frames::{encoded, frames};
 use crate::job_request::RenderOptions;
@@ -21,32 +21,33 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The results of one camera: of all frames where its light does not depend on time, else of one. Its light is held; frames, ground truth and rays are computed when they are asked for.
+/// Results of one camera: of all frames if its light is constant, otherwise of one frame. The light is stored; frames, ground truth and rays are computed on
+/// request.
 #[derive(Clone, Debug)]
 pub struct CameraResults {
     pub(super) plan: Arc<Plan>,
-    /// Its place among the plan's cameras.
+    /// Index of the camera in the plan.
     camera: usize,
     pub(super) light: Light,
     pub(super) sampling: Option<SamplingPlanes>,
     pub(super) depth: Option<PupilDepth>,
     pub(super) undistorted: Option<RectifiedCamera>,
     pub(super) frames: Range<u32>,
-    /// Of the sensor before the first of them.
+    /// State of the sensor before the first of these frames.
     state: SensorState,
-    /// The only one, where it has a light of its own and the sensor remembers it: the frames after it need it before anybody asks.
+    /// The frame, if it has its own light and the sensor keeps a state: later frames depend on it.
     remembered: Option<RememberedFrame>,
     pub(super) simd: Simd,
 }
 
-/// What a sensor remembers, and the first frame that it remembers anything of.
+/// State of a sensor, and the first frame that contributed to it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SensorHistory {
     pub(crate) state: SensorState,
     pub(crate) since: u32,
 }
 
-/// A frame that has been taken, and what the sensor remembers of it.
+/// A rendered frame, and the state of the sensor after it.
 #[derive(Clone, Debug)]
 struct RememberedFrame {
     frame: Frame,
@@ -54,7 +55,7 @@ struct RememberedFrame {
 }
 
 impl CameraResults {
-    /// Everything that a camera of the plan delivers of its films, one for each capture whose exposure differs. Runs on the caller's thread pool.
+    /// Computes all results of a camera of the plan from its films, one for each capture with a different exposure. Runs on the caller's thread pool.
     pub(crate) fn of_films(
         plan: &Arc<Plan>,
         camera: &CameraPlan,
@@ -94,31 +95,31 @@ impl CameraResults {
         &self.camera().name
     }
 
-    /// Spectral radiance, irradiance and mean electrons, as far as the job asks for them.
+    /// Spectral radiance, irradiance and mean electrons, as far as the job requests them.
     #[must_use]
     pub fn light(&self) -> &Light {
         &self.light
     }
 
-    /// How each pixel was sampled, of the first capture; `None` where the job does not ask for it.
+    /// Sampling of each pixel in the first capture; `None` if the job does not request it.
     #[must_use]
     pub fn sampling(&self) -> Option<&SamplingPlanes> {
         self.sampling.as_ref()
     }
 
-    /// Mean electrons of each pixel; `None` where the camera has no electronics.
+    /// Mean electrons of each pixel; `None` for a camera without electronics.
     #[must_use]
     pub fn electrons(&self) -> Option<&Plane<MeanElectrons>> {
         self.light.electrons.as_ref()
     }
 
-    /// The photographs of the run's frames, one after the other as the sensor's state runs through them: raw, and picture where
-    /// the camera processes it; nothing where the camera has no electronics.
+    /// The run's frames in order, with the state of the sensor carried from one to the next: raw, and developed image if the camera has processing. Empty for
+    /// a camera without electronics.
     pub fn frames(&self) -> impl Iterator<Item = Frame> + '_ {
         self.numbered_frames().map(|(_, frame)| frame.into_owned())
     }
 
-    /// The same with their numbers; one that has been taken is not taken again.
+    /// The frames with their numbers; a frame that was computed before is reused.
     pub(super) fn numbered_frames(&self) -> impl Iterator<Item = (u32, Cow<'_, Frame>)> + '_ {
         let signal_breakdown = self.camera().products.signal_breakdown;
         let known = self.remembered.as_ref().map(|known| (self.frames.start, Cow::Borrowed(&known.frame)));
@@ -130,43 +131,43 @@ impl CameraResults {
         known.into_iter().chain(anew.into_iter().flatten())
     }
 
-    /// The first frame's picture as a display shows it, 0 to 1; `None` where the camera has no processing.
+    /// The first frame's image as shown on a display, 0 to 1; `None` for a camera without processing.
     #[must_use]
     pub fn display_picture(&self) -> Option<Plane<Display>> {
         self.frames().next()?.picture.map(|developed| developed.display)
     }
 
-    /// The file of a frame's picture as `render` writes it: its extension and its bytes; `None` where the camera does not process its raws.
+    /// The file of a frame's image as `render` writes it (extension and bytes); `None` for a camera without processing.
     ///
     /// # Errors
-    /// Where the picture cannot be encoded.
+    /// The image cannot be encoded.
     pub fn picture_file(&self, frame: &Frame) -> Option<Result<(&'static str, Vec<u8>), Error>> {
         let (picture, development) = frame.picture.as_ref().zip(self.camera().body.development.as_ref())?;
         let bytes = encoded(&picture.display, development).map_err(|error| Error::Run(format!("picture: {error}")));
         Some(bytes.map(|bytes| (development.format.extension(), bytes)))
     }
 
-    /// Where the camera stands half-way through a frame's first exposure, and when that is, s: what `frame.NNNN.json` states.
+    /// Pose of the camera at the middle of a frame's first exposure, and that time, s, as in `frame.NNNN.json`.
     #[must_use]
     pub fn pose(&self, frame: u32) -> (CameraPose, ExactTime) {
         let camera = self.camera();
         (rig::pose(camera, frame), camera.timing.frame_middle(frame))
     }
 
-    /// The plan that the camera is of.
+    /// The plan that contains the camera.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// The numbers of the run's frames that these results are of: one where light depends on time.
+    /// Numbers of the run's frames that these results cover: a single one where light depends on time.
     #[must_use]
     pub fn frame_numbers(&self) -> Range<u32> {
         self.frames.clone()
     }
 
-    /// Depth, normals, positions and identities of the first of the frames along the principal rays of the pixels' centres. Traced anew at each call, on
-    /// the caller's thread pool.
+    /// Depth, normals, positions and identities of the first frame along the principal rays of the pixel centres. Traced at each call, on the caller's thread
+    /// pool.
     #[must_use]
     pub fn ground_truth(&self) -> GroundTruth {
         ground_truth(&self.plan, self.camera(), self.frames.start, self.simd)
@@ -178,17 +179,17 @@ impl CameraResults {
         ray_table(&self.camera().body)
     }
 
-    /// Whether each frame has a light, and files of it, of its own.
+    /// Returns true if each frame has its own light and files.
     pub(crate) fn has_own_light(&self) -> bool {
         self.camera().time != TimeDependence::None
     }
 
-    /// What the sensor remembers after a frame that has a light of its own; `None` where it remembers nothing.
+    /// State of the sensor after a frame with its own light; `None` for a sensor without a state.
     pub(crate) fn state_after(&self) -> Option<&SensorHistory> {
         self.remembered.as_ref().map(|known| &known.after)
     }
 
-    /// Takes the frame, where anything is remembered.
+    /// Computes the frame if the sensor keeps a state.
     fn remembered_frame(&self, since: u32) -> Option<RememberedFrame> {
         let camera = self.camera();
         let light = self.light.captures().filter(|_| camera.body.sensor.as_ref().is_some_and(Sensor::remembers))?;
@@ -197,17 +198,17 @@ impl CameraResults {
         Some(RememberedFrame { frame, after: SensorHistory { state, since } })
     }
 
-    /// Where a frame of the camera stands among all.
+    /// Address of a frame of the camera among all frames.
     pub(super) fn address(&self, frame: u32) -> FrameAddress {
         let camera = self.camera();
         FrameAddress { seed: camera.settings.seed, camera: camera.index, frame, capture: 0 }
     }
 }
 
-/// A display picture as a JPEG of a quality from 1 to 100.
+/// Encodes a display image as a JPEG of quality 1 to 100.
 ///
 /// # Errors
-/// Where it cannot be encoded.
+/// It cannot be encoded.
 pub fn display_jpeg(picture: &Plane<Display>, quality: u8) -> Result<Vec<u8>, Error> {
     encode_jpeg(picture, quality).map_err(|error| Error::Run(error.to_string()))
 }

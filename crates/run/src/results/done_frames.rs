@@ -1,4 +1,4 @@
-//! Frames that an interrupted run has written, so that the next one goes on after them.
+//! Frames that an interrupted run has written: the resumed run continues after them.
 
 use super::metadata;
 use super::sequence::Sequence;
@@ -16,20 +16,20 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Frames that were written by a run of the same plan, by camera and number, with their facts.
+/// Frames written by a run of the same plan, by camera and number, with their facts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DoneFrames {
     facts: BTreeMap<(String, u32), Value>,
-    /// The run's first frame, which sensors that remember begin with.
+    /// The run's first frame, with which the state of sensors starts.
     first: u32,
 }
 
 impl DoneFrames {
-    /// What stands in a folder of results. A frame's own file is written last and states the digests of all others: where it and they are as they were written, the
-    /// frame is whole. Others are made anew, and the observer is told.
+    /// Finds the complete frames in a folder of results. A frame's own file is written last and states the digests of all others: the frame is complete if it
+    /// and they are unchanged. Other frames are rendered again, and the observer is informed.
     ///
     /// # Errors
-    /// Where a frame or a side-car there is of another plan, or cannot be read.
+    /// A frame or a side-car in the folder is of another plan, or cannot be read.
     pub(crate) fn in_folder(
         folder: &Path,
         plan: &Plan,
@@ -57,8 +57,7 @@ impl DoneFrames {
         Ok(Self { facts, first: frames.start })
     }
 
-    /// The states of the sensors of cameras after a frame; `None` where it is not whole for all of them, or a sensor that remembers
-    /// began with another frame.
+    /// States of the sensors of cameras after a frame; `None` if it is incomplete for any of them, or a sensor's state started with another frame.
     pub(crate) fn states(&self, group: &[&CameraPlan], frame: u32) -> Option<Vec<SensorState>> {
         group.iter().map(|camera| self.state(camera, frame)).collect()
     }
@@ -71,7 +70,7 @@ impl DoneFrames {
         }
     }
 
-    /// Notes the frames in a sequence that goes on after them.
+    /// Registers the frames in a sequence that continues after them.
     pub(crate) fn note_all(&self, plan: &Arc<Plan>, sequence: &mut Sequence) {
         let frames = sequence.frames().clone();
         for group in plan.by_light() {
@@ -89,7 +88,7 @@ impl DoneFrames {
     }
 }
 
-/// Refuses the results of a whole run of another plan: cameras whose light does not depend on time have no other file that tells.
+/// Refuses the results of a complete run of another plan: of cameras with constant light no other file states the plan.
 fn check_sidecar(folder: &Path, plan: &Plan) -> Result<(), Error> {
     let path = folder.join(Files::SIDECAR);
     match written(&path, "this is not the side-car of a camera")? {
@@ -101,7 +100,7 @@ fn check_sidecar(folder: &Path, plan: &Plan) -> Result<(), Error> {
     }
 }
 
-/// A file of facts; `None` where there is none.
+/// Reads a file of facts; `None` if there is none.
 fn written(path: &Path, otherwise: &str) -> Result<Option<Value>, Error> {
     let bytes = match read_regular(path, &DESCRIPTION) {
         Ok(bytes) => bytes,

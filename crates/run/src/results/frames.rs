@@ -1,4 +1,4 @@
-//! Photographs of a camera, frame after frame, as files.
+//! Frames of a camera, one after the other, as files.
 
 use super::metadata;
 use super::writer::{Encoder, ResultWriter};
@@ -22,24 +22,24 @@ use serde_json::Value;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Which photographs are wanted.
+/// Selection of frame products.
 #[derive(Clone, Copy)]
 pub(crate) struct Wanted<'a> {
-    /// What of each frame.
+    /// Products of each frame.
     pub(crate) products: &'a Products,
-    /// The camera's name, for files that tell it.
+    /// The camera's name, for files that state it.
     pub(crate) camera: &'a str,
-    /// The facts of files that tell them.
+    /// Facts for files that state them.
     pub(crate) facts: &'a Provenance,
-    /// The twin whose pictures are wanted as well.
+    /// The rectified camera whose images are written as well.
     pub(crate) undistorted: Option<&'a RectifiedCamera>,
-    /// Whether files are made one after the other, for the sake of memory.
+    /// If true, files are made one after the other, to save memory.
     pub(crate) one_by_one: bool,
-    /// Who is told of pixels without valid light.
+    /// Receives warnings of pixels without valid light.
     pub(crate) observer: &'a dyn Observer,
 }
 
-/// The file of a picture that was developed so.
+/// Encodes the file of a developed image.
 pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Result<Vec<u8>, EncodeError> {
     let tone = encoding(&development.processing.tone);
     match development.format {
@@ -49,8 +49,8 @@ pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Re
     }
 }
 
-/// Frame after frame with its number, as the sensor's state runs through them from `before` on; with what each digital number is made of where `signal_breakdown` is
-/// wanted. Ends where the camera has no electronics.
+/// Frames with their numbers, with the state of the sensor carried on from `before`; with the components of each digital number if `signal_breakdown` is set.
+/// Empty for a camera without electronics.
 pub(crate) fn frames<'a>(
     body: &'a CameraBody,
     light: CaptureLight<'a>,
@@ -67,7 +67,7 @@ pub(crate) fn frames<'a>(
     })
 }
 
-/// Writes what is wanted of frame after frame; none is taken where nothing is. Answers with exposure and gain of each frame.
+/// Writes the requested products of each frame; computes none if nothing is requested. Returns exposure and gain of each frame.
 pub(crate) fn write_frames<'a>(
     body: &CameraBody,
     taken: impl Iterator<Item = (u32, Cow<'a, Frame>)>,
@@ -81,7 +81,7 @@ pub(crate) fn write_frames<'a>(
         return Ok(points);
     }
     for (number, mut frame) in taken {
-        // Of a large picture all that is not written goes before files are made.
+        // Frees the parts of a large image that are not written, before files are made.
         if let (None, Cow::Owned(Frame { picture: Some(picture), .. })) = (wanted.undistorted, &mut frame) {
             picture.linear = Plane::new(0, 0);
         }
@@ -97,7 +97,7 @@ pub(crate) fn write_frames<'a>(
     Ok(points)
 }
 
-/// Writes what is wanted of a frame.
+/// Writes the requested products of a frame.
 fn write_frame(
     body: &CameraBody,
     frame: &Frame,

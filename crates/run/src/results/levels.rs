@@ -1,4 +1,4 @@
-//! The level of raw frames: whether a camera's frames are useful at all.
+//! Level of raw frames: detects frames that are entirely black or clipped.
 
 use etendue_core::observer::{Message, Observer};
 use etendue_sensor::Raw;
@@ -8,24 +8,24 @@ use serde_json::Value;
 /// The key of a frame's facts in the side-car.
 pub(crate) const LEVELS: &str = "levels";
 
-/// Share of clipped pixels above which a frame is warned of.
+/// Fraction of clipped pixels above which a frame causes a warning.
 const CLIPPED: f64 = 0.99;
-/// Mean level over black below which a frame is warned of, DN: rounding.
+/// Mean level above black below which a frame causes a warning, DN: rounding.
 const BLACK_DN: f64 = 0.5;
 
-/// Mean and ends of the readings of a frame.
+/// Mean, and fractions at both ends of the range, of a frame.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Levels {
     /// Mean, DN.
     mean_dn: f64,
-    /// Share of pixels at the white level or above.
+    /// Fraction of pixels at or above the white level.
     clipped_fraction: f64,
-    /// Share of pixels at the black level or below.
+    /// Fraction of pixels at or below the black level.
     black_fraction: f64,
 }
 
 impl Levels {
-    /// Those of the part of a frame that light reaches.
+    /// Levels of the part of a frame that receives light.
     pub(crate) fn new(raw: &Raw) -> Self {
         let area = raw.picture;
         let rows = raw.plane.samples().chunks(raw.plane.width().max(1)).skip(area.y).take(area.height);
@@ -39,7 +39,7 @@ impl Levels {
         Self { mean_dn: share(sum), clipped_fraction: share(clipped), black_fraction: share(black) }
     }
 
-    /// The mean over frames; `None` of no frames.
+    /// Mean over frames; `None` for no frames.
     fn mean(frames: &[Self]) -> Option<Self> {
         let mean = |of: fn(&Self) -> f64| frames.iter().map(of).sum::<f64>() / frames.len() as f64;
         (!frames.is_empty()).then(|| Self {
@@ -50,7 +50,7 @@ impl Levels {
     }
 }
 
-/// A frame's facts, as far as its levels need them.
+/// The facts of a frame that its levels require.
 #[derive(Deserialize)]
 struct FrameFacts {
     levels: Levels,
@@ -58,7 +58,8 @@ struct FrameFacts {
     white_level_dn: f64,
 }
 
-/// Sends the observer the levels of a camera's frames in one line, as a warning where all frames are white or black; nothing of a camera without raw frames.
+/// Reports the levels of a camera's frames to the observer in one line; a warning if all frames are white or black. Reports nothing for a camera without raw
+/// frames.
 pub(crate) fn report<'a>(camera: &str, frames: impl Iterator<Item = &'a Value>, observer: &dyn Observer) {
     let frame_facts: Vec<FrameFacts> = frames.filter_map(|facts| FrameFacts::deserialize(facts).ok()).collect();
     let levels: Vec<Levels> = frame_facts.iter().map(|frame| frame.levels).collect();

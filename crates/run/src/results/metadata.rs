@@ -1,4 +1,4 @@
-//! What every result says of itself: the side-car and the facts in EXR headers.
+//! Metadata of every result: the side-car and the facts in EXR headers.
 
 mod frame;
 
@@ -16,15 +16,15 @@ use glam::DVec2;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Facts under which a radiance image states its geometry, so that `expose` can use it: the pitch and the axis of one
-/// rectilinear view, or the faces of a cube and what is stored of each.
+/// Facts in which a radiance image states its geometry for `expose`: pitch and axis of one rectilinear view, or the faces of a cube and the stored part of
+/// each.
 const PITCH_TAN: &str = "pupil_pitch_tan";
 const PRINCIPAL_X_PX: &str = "pupil_principal_x_px";
 const PRINCIPAL_Y_PX: &str = "pupil_principal_y_px";
 const FACE_PX: &str = "pupil_face_px";
 const VIEWS: &str = "pupil_views";
 
-/// Facts of light that depends on time: the exposure time that it was gathered over, and when the stated pose holds.
+/// Facts of time-dependent light: its exposure time, and the time of the stated pose.
 pub(crate) const EXPOSURE_S: &str = "exposure_s";
 
 const THROUGH_LENS: &str = "through the lens, pixel centres at +0.5, x right, y down; pose: camera x right, y down, \
@@ -44,7 +44,7 @@ const UNDISTORTED: &str = "rectilinear from the centre of the entrance pupil: di
 /// The program's version.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The facts of a camera's results of a frame; of the first one where all have the same light.
+/// Facts of a camera's results of a frame; of the first frame if all have the same light.
 pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan, frame: u32) -> Provenance {
     let settings = &camera.settings;
     let frame = if camera.time == TimeDependence::None { 0 } else { frame };
@@ -61,7 +61,7 @@ pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan, frame: u32) -> Proven
     }
 }
 
-/// Samples of every pixel, or what decides them.
+/// Samples of every pixel, or the rule that determines them.
 fn spp(settings: &Settings) -> Value {
     match settings.adaptive {
         None => settings.spp.into(),
@@ -69,7 +69,7 @@ fn spp(settings: &Settings) -> Value {
     }
 }
 
-/// The passes that samples came in.
+/// The passes of the samples.
 fn passes(camera: &CameraPlan) -> Option<Vec<f64>> {
     camera.passes.as_ref().map(|passes| passes.list().iter().map(|pass| pass.number()).collect())
 }
@@ -86,12 +86,12 @@ fn further(settings: &Settings) -> impl Iterator<Item = (String, String)> {
     even.into_iter().chain(limited.into_iter().flatten()).map(|(name, value)| (name.to_owned(), value))
 }
 
-/// The passes that samples came in, as the key `passes` has them.
+/// The passes of the samples, as in the key `passes`.
 fn passes_fact(camera: &CameraPlan) -> Option<(String, String)> {
     camera.passes.as_ref().map(|passes| ("passes".to_owned(), passes.text()))
 }
 
-/// When light that depends on time was gathered.
+/// Exposure of time-dependent light.
 fn exposure_facts(camera: &CameraPlan, frame: u32) -> Vec<(String, String)> {
     if camera.time == TimeDependence::None {
         return Vec::new();
@@ -105,12 +105,12 @@ fn exposure_facts(camera: &CameraPlan, frame: u32) -> Vec<(String, String)> {
     std::iter::once(exposure).chain(texts.map(|(name, value)| (name, text(value)))).collect()
 }
 
-/// Half-way through a frame's first exposure, s: when its pose holds.
+/// Middle of a frame's first exposure, s: the time of its pose.
 fn middle_s(camera: &CameraPlan, frame: u32) -> f64 {
     camera.timing.capture(frame, 0).middle_s()
 }
 
-/// The facts of a radiance image; at the pupil its own geometry.
+/// Facts of a radiance image; at the pupil with its own geometry.
 pub(crate) fn radiance_provenance(facts: Provenance, camera: &CameraPlan) -> Provenance {
     match &camera.settings.route {
         Route::Lens => facts,
@@ -118,7 +118,7 @@ pub(crate) fn radiance_provenance(facts: Provenance, camera: &CameraPlan) -> Pro
     }
 }
 
-/// The facts of an undistorted twin's results.
+/// Facts of a rectified camera's results.
 pub(crate) fn undistorted_provenance(mut facts: Provenance, twin: &RectifiedCamera) -> Provenance {
     UNDISTORTED.clone_into(&mut facts.geometry);
     let matrix = twin.matrix;
@@ -127,7 +127,7 @@ pub(crate) fn undistorted_provenance(mut facts: Provenance, twin: &RectifiedCame
     facts
 }
 
-/// What the side-car says of an undistorted twin.
+/// Side-car entry of a rectified camera.
 pub(crate) fn undistorted(twin: &RectifiedCamera) -> Value {
     json!({
         "camera_matrix": twin.matrix.rows(),
@@ -140,7 +140,7 @@ pub(crate) fn undistorted(twin: &RectifiedCamera) -> Value {
     })
 }
 
-/// The facts of what another camera made of a stored radiance image.
+/// Facts of the results of another camera made from a stored radiance image.
 pub(crate) fn exposed_provenance(source: &Provenance, camera: &str, seed: u64) -> Provenance {
     let pupil = [PITCH_TAN, PRINCIPAL_X_PX, PRINCIPAL_Y_PX, FACE_PX, VIEWS];
     let further = source.further.iter().filter(|(name, _)| !pupil.contains(&name.as_str()));
@@ -176,7 +176,7 @@ fn at_pupil(mut facts: Provenance, projection: &PupilProjection, camera: u32) ->
     facts
 }
 
-/// What is stored of a cube's faces: "front 0 0 808 808 -4 -4; …".
+/// Stored part of a cube's faces: "front 0 0 808 808 -4 -4; …".
 fn views_text(cube: &Cube) -> String {
     let view = |(view, window): (&Option<View>, Option<Window>)| {
         let (view, Window { left, top, width, height }) = (view.as_ref()?, window?);
@@ -187,7 +187,7 @@ fn views_text(cube: &Cube) -> String {
     texts.join("; ")
 }
 
-/// The geometry that a radiance image of `width` × `height` pixels states; `None` where it states none.
+/// Geometry stated by a radiance image of `width` × `height` pixels; `None` if it states none.
 pub(crate) fn pupil_geometry(
     facts: &Provenance,
     width: usize,
@@ -207,7 +207,7 @@ pub(crate) fn pupil_geometry(
     Some(view.map_err(|error| error.to_string()))
 }
 
-/// The cube of [`views_text`]; `None` where the text is not that of a cube.
+/// The cube of [`views_text`]; `None` if the text describes no cube.
 fn stated_cube(face_px: usize, text: &str) -> Option<Cube> {
     let mut windows = [None; 6];
     for view in text.split("; ") {
@@ -225,7 +225,7 @@ fn stated_cube(face_px: usize, text: &str) -> Option<Cube> {
     Cube::new(face_px, windows).ok().filter(|cube| views_text(cube) == text)
 }
 
-/// The side-car of a rendered camera, whose first frame it is.
+/// Side-car of a rendered camera; `first` is the first frame.
 pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTreeMap<String, Value>) -> Value {
     let first = if camera.time == TimeDependence::None { 0 } else { first };
     let settings = &camera.settings;
@@ -267,11 +267,11 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
     facts
 }
 
-/// Settings that a side-car does not repeat: those of biased approximations, of a plan's estimates, and of what stands elsewhere in it.
+/// Settings that a side-car omits: those of biased approximations, those of a plan's estimates, and those stated elsewhere in it.
 const NOT_IN_SIDECARS: [&str; 8] =
     ["integrator", "caustics", "min_spp", "noise_threshold", "bands", "sums_electrons", "spectral_gain", "seed"];
 
-/// The settings of a camera's light, with the names that side-cars have for some of them.
+/// Settings of a camera's light; some have names of their own in side-cars.
 fn sampling(camera: &CameraPlan) -> Value {
     let settings = &camera.settings;
     let Ok(Value::Object(mut sampling)) = serde_json::to_value(settings) else { return Value::Null };

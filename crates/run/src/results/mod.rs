@@ -1,4 +1,4 @@
-//! What a camera delivers: its light, its frames, ground truth and rays, in memory and as files.
+//! Results of a camera: its light, frames, ground truth and rays, in memory and as files.
 
 mod annotations;
 mod camera;
@@ -32,7 +32,7 @@ impl Results {
         Self { cameras }
     }
 
-    /// The cameras, those of equal light one after the other; where light depends on time, once for each frame.
+    /// The cameras, those of equal light one after the other; where light depends on time, one entry per frame.
     #[must_use]
     pub fn cameras(&self) -> &[CameraResults] {
         &self.cameras
@@ -44,11 +44,11 @@ impl Results {
         self.cameras.iter().find(|camera| camera.name() == name)
     }
 
-    /// Writes all files that the job asks for into a folder, one folder a camera, and answers with their paths. They get
-    /// their names when all are complete. Runs on the caller's thread pool.
+    /// Writes all requested files into a folder, with a subfolder for each camera, and returns their paths. Files receive their final names when all are
+    /// complete. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// Where the folder cannot be written, or files are there that must not be replaced.
+    /// The folder cannot be written, or files exist that must not be replaced.
     pub fn save(&self, folder: &Path, existing: Existing, observer: &dyn Observer) -> Result<Vec<PathBuf>, Error> {
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         for camera in &self.cameras {

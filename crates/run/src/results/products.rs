@@ -1,4 +1,4 @@
-//! The files of light and ground truth that a camera can deliver: their names, what they hold, and how they are written.
+//! Files of light and ground truth that a camera can deliver: names, contents, and writers.
 
 use super::camera::CameraResults;
 use super::metadata;
@@ -21,31 +21,31 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Files that are written together, of a frame, or of all frames where light does not depend on time.
+/// Files that are written together: of one frame, or of all frames if light is constant.
 pub(super) struct ProductFiles {
-    /// Adds the files that are asked for, with what they hold.
+    /// Adds the requested files with their contents.
     pub(crate) entries: fn(&Products, &mut FileEntries),
-    /// When they are written.
+    /// Stage at which they are written.
     pub(crate) stage: Stage,
-    /// Writes those that are asked for.
+    /// Writes the requested files.
     pub(crate) write: fn(&CameraResults, &mut ResultWriter<'_>) -> Result<(), Error>,
 }
 
-/// When files are written.
+/// Stage at which files are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stage {
-    /// Before the photographs, and whenever those are refined.
+    /// Before the frames, and whenever these are refined.
     Light,
-    /// After them.
+    /// After the frames.
     GroundTruth,
 }
 
-/// Names of files, and what each holds.
+/// Names of files with the content of each.
 #[derive(Debug, Default)]
 pub(super) struct FileEntries(Vec<(String, Value)>);
 
 impl FileEntries {
-    /// Adds a file where it is asked for.
+    /// Adds a file if it is requested.
     pub(crate) fn add(&mut self, is_wanted: bool, name: &str, entry: Value) {
         if is_wanted {
             self.0.push((name.to_owned(), entry));
@@ -54,7 +54,7 @@ impl FileEntries {
 }
 
 impl ProductFiles {
-    /// Whether any of them is asked for.
+    /// Returns true if any of them is requested.
     pub(crate) fn is_wanted(&self, products: &Products) -> bool {
         let mut entries = FileEntries::default();
         (self.entries)(products, &mut entries);
@@ -62,7 +62,7 @@ impl ProductFiles {
     }
 }
 
-/// All of them, in the order in which they are written.
+/// All of them, in the order of writing.
 pub(super) const PRODUCT_FILES: &[ProductFiles] = &[
     ProductFiles {
         entries: |p, files| files.add(p.radiance, Files::RADIANCE, entry_of::<Radiance>()),
@@ -108,7 +108,7 @@ pub(super) const PRODUCT_FILES: &[ProductFiles] = &[
     ANNOTATIONS,
 ];
 
-/// The files of what lies between frames, between cameras and of objects.
+/// Files of motion, disparity and objects.
 const ANNOTATIONS: ProductFiles = ProductFiles {
     entries: annotation_entries,
     stage: Stage::GroundTruth,
@@ -134,7 +134,7 @@ fn annotation_entries(products: &Products, files: &mut FileEntries) {
 }
 
 impl Files {
-    /// All files of a camera whose frames have one light, with what they hold.
+    /// All files of a camera whose frames share one light, with their contents.
     #[must_use]
     pub fn of(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
         let mut files = Self::of_light(p);
@@ -142,7 +142,7 @@ impl Files {
         files
     }
 
-    /// All files of a camera of a plan over frames, with what they hold.
+    /// All files of a camera of a plan over frames, with their contents.
     #[must_use]
     pub fn of_camera(camera: &CameraPlan, frames: &Range<u32>) -> BTreeMap<String, Value> {
         let (p, body) = (&camera.products, &camera.body);
@@ -162,7 +162,7 @@ impl Files {
         files
     }
 
-    /// Returns true if a file is of the camera or of all frames, and has no frame's number.
+    /// Returns true if a file belongs to the camera or to all frames, and has no frame number.
     fn is_of_camera(name: &str) -> bool {
         [Self::RAYS, Self::TRACKS].contains(&name) || name == Self::undistorted(Self::RAYS)
     }
@@ -185,7 +185,7 @@ impl Files {
         files.0.into_iter().collect()
     }
 
-    /// The files of photographs.
+    /// Files of frames.
     fn of_frames(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
         let mut files = BTreeMap::new();
         let mut add = |wanted: bool, name: &str, entry: Value| {
@@ -270,7 +270,7 @@ fn write_truth(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result
     }
 }
 
-/// The same of planes that are larger than films may be in memory: found when they are written, some rows at a time.
+/// Does the same for planes that exceed the memory limit of films: computed during writing, some rows at a time.
 fn write_large_truth(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
     let camera = results.camera();
     let rows = TruthRows::new(&results.plan, camera, results.frame_numbers().start, results.simd);
@@ -283,7 +283,7 @@ fn write_large_truth(results: &CameraResults, writer: &mut ResultWriter<'_>) -> 
     }
 }
 
-/// What weather does to each pixel: found anew, with the samples of the light.
+/// Effect of weather on each pixel, computed again with the samples of the light.
 fn write_weather(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
     let camera = results.camera();
     let shot = Shot { frame: results.frame_numbers().start, capture: 0 };
@@ -295,7 +295,7 @@ fn write_weather(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Resu
     layers.cover.iter().try_for_each(|cover| writer.exr(&results.file(Files::COVER), plane_image(cover, None, &facts)))
 }
 
-/// Whether a picture is so large that its ground truth, about as much as all else that is made of it, would take more memory than the bands of a film may.
+/// Returns true if an image is so large that its ground truth, about as large as all other results together, would exceed the memory limit of film bands.
 pub(super) fn is_large(plan: &Plan, camera: &CameraPlan) -> bool {
     plan.film_limit.as_ref().is_some_and(|limit| TruthRows::bytes(camera) > limit.bytes as f64)
 }

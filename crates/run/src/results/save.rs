@@ -1,4 +1,4 @@
-//! A camera's results as files.
+//! Files of a camera's results.
 
 use super::camera::CameraResults;
 use super::frames::{Wanted, write_frames};
@@ -15,7 +15,7 @@ use etendue_pipeline::truth::{TruthRows, ground_truth};
 use serde_json::Value;
 
 impl CameraResults {
-    /// Writes all files but the camera's side-car; answers with what that says of each frame.
+    /// Writes all files except the camera's side-car; returns the side-car's facts of each frame.
     pub(super) fn write_files(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<Vec<Value>, Error> {
         let mut writer = ResultWriter { prefix: self.camera().name.clone(), folder };
         self.write_products(Stage::Light, &mut writer)?;
@@ -27,19 +27,19 @@ impl CameraResults {
         Ok(points)
     }
 
-    /// Writes the files of light and photographs.
+    /// Writes the files of light and frames.
     pub(crate) fn write_light(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
         let mut writer = ResultWriter { prefix: self.camera().name.clone(), folder };
         self.write_products(Stage::Light, &mut writer)?;
         self.write_photographs(&mut writer, observer).map(|_| ())
     }
 
-    /// The name of a file of light or ground truth.
+    /// Name of a file of light or ground truth.
     pub(super) fn file(&self, name: &str) -> String {
         if self.has_own_light() { Files::numbered(name, self.frame_numbers().start) } else { name.to_owned() }
     }
 
-    /// The facts of the files of light and ground truth.
+    /// Facts of the files of light and ground truth.
     pub(super) fn provenance(&self) -> etendue_io::Provenance {
         metadata::provenance(&self.plan, self.camera(), self.frame_numbers().start)
     }
@@ -50,7 +50,7 @@ impl CameraResults {
         wanted.map(|product| product.write).try_for_each(|write| write(self, writer))
     }
 
-    /// The frames; answers with what the side-car says of each.
+    /// Writes the frames; returns the side-car's facts of each.
     fn write_photographs(&self, writer: &mut ResultWriter<'_>, observer: &dyn Observer) -> Result<Vec<Value>, Error> {
         let camera = self.camera();
         let facts = self.provenance();
@@ -66,7 +66,7 @@ impl CameraResults {
         write_frames(&camera.body, self.numbered_frames(), |frame| self.address(frame), wanted, writer)
     }
 
-    /// Ground truth of the undistorted twin.
+    /// Writes the ground truth of the rectified camera.
     fn write_undistorted(&self, twin: &RectifiedCamera, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let camera = self.camera();
         if !camera.products.ground_truth {

@@ -1,4 +1,4 @@
-//! The results of cameras as they are written, and what is made of all frames at the end: tracks of objects, videos, and each camera's side-car.
+//! Results of cameras during writing, and files over all frames at the end: tracks of objects, videos, and each camera's side-car.
 
 use super::camera::CameraResults;
 use super::writer::ResultWriter;
@@ -23,26 +23,26 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The frames of a run, and what was written of each camera.
+/// Frames of a run, and the files written for each camera.
 #[derive(Debug)]
 pub(crate) struct Sequence {
     frames: Range<u32>,
-    /// Files of all cameras together.
+    /// Files common to all cameras.
     rig: RigFiles,
     cameras: Vec<CameraFrames>,
 }
 
-/// What was written of a camera.
+/// Files written for a camera.
 #[derive(Debug)]
 struct CameraFrames {
     plan: Arc<Plan>,
-    /// Its place among the plan's cameras.
+    /// Index of the camera in the plan.
     camera: usize,
-    /// The first and one past the last of its frames.
+    /// Range of its frames.
     frames: Range<u32>,
-    /// What the side-car says of each frame that has photographs or a light of its own.
+    /// Side-car facts of each frame that has an image or its own light.
     facts: BTreeMap<u32, Value>,
-    /// Whether this run has written the rays of the pixels.
+    /// True if this run has written the pixels' rays.
     has_rays: bool,
 }
 
@@ -53,7 +53,7 @@ impl CameraFrames {
 }
 
 impl Sequence {
-    /// Returns the frames of a plan, of which nothing was written.
+    /// Returns the frames of a plan, with nothing written yet.
     pub(crate) fn new(plan: &Plan, frames: Range<u32>) -> Self {
         Self { rig: rig::asked_files(plan, &frames), frames, cameras: Vec::new() }
     }
@@ -70,7 +70,7 @@ impl Sequence {
         names
     }
 
-    /// Writes all files of a camera's results but its side-car.
+    /// Writes all files of a camera's results except its side-car.
     pub(crate) fn write(
         &mut self,
         results: &CameraResults,
@@ -101,12 +101,12 @@ impl Sequence {
         Ok(())
     }
 
-    /// Notes a frame that a run before this one has written.
+    /// Registers a frame written by an earlier run.
     pub(crate) fn keep(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frame: u32, facts: Value) {
         self.of(plan, camera, &(frame..frame + 1)).facts.insert(frame, facts);
     }
 
-    /// Writes what is made of all frames and of all cameras, and the side-cars, and reports each camera's levels.
+    /// Writes the files over all frames and cameras, and the side-cars; reports each camera's levels.
     pub(crate) fn finish(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
         for known in &self.cameras {
             let camera = known.camera();
@@ -147,21 +147,21 @@ impl Sequence {
     }
 }
 
-/// The digests of the files of a frame, which have been written and have no final names yet, by their names in the camera's folder.
+/// Digests of the files of a frame, which are written but not yet published, by their names in the camera's folder.
 fn files_of_frame(
     camera: &CameraPlan,
     frame: u32,
     folder: &OutputFolder,
 ) -> Result<BTreeMap<String, FileDigest>, Error> {
     let prefix = format!("{}/", camera.name);
-    // What is of all frames has no number; other frames of the run may wait for their names as well.
+    // Files over all frames have no number; other frames of the run may also wait for publication.
     let number = format!(".{frame:04}.");
     let is_own = |name: &str| name.starts_with(&prefix) && name.contains(&number);
     let digests = folder.pending_digests(is_own).map_err(Error::run)?;
     Ok(digests.into_iter().map(|(name, digest)| (name[prefix.len()..].to_owned(), digest)).collect())
 }
 
-/// Writes what is the same in all frames: the rays of the pixels.
+/// Writes the data common to all frames: the pixels' rays.
 fn write_rays(camera: &CameraPlan, facts: &Provenance, folder: &mut OutputFolder) -> Result<(), Error> {
     if !camera.products.rays {
         return Ok(());
@@ -178,10 +178,10 @@ fn image_of_rays<'a>(table: &'a RayTable, facts: &Provenance) -> ExrImage<'a> {
     rays_image(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
 }
 
-/// What a track says of its object, not of its frames.
+/// Keys of a track that describe its object, not its frames.
 const OF_OBJECT: [&str; 3] = ["id", "name", "class"];
 
-/// Keys of the frame that are copied from the boxes.
+/// Frame keys that are copied from the boxes.
 const OF_FRAME: [&str; 3] = ["frame", "time_s", "time"];
 
 /// Writes `tracks.json`.
@@ -205,7 +205,7 @@ fn read_boxes(name: &str, folder: &OutputFolder) -> Result<Value, Error> {
     serde_json::from_slice(&bytes).map_err(|_| unread("this is not the file of a frame's boxes".to_owned()))
 }
 
-/// What was read so far.
+/// Tracks read so far.
 #[derive(Default)]
 struct Tracks {
     conventions: Value,
@@ -252,7 +252,7 @@ impl Tracks {
     }
 }
 
-/// Writes the video, one picture in memory at a time.
+/// Writes the video, with one image in memory at a time.
 fn write_video(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFolder) -> Result<(), Error> {
     let format = camera.body.picture_format();
     let file = |frame| folder.readable(&format!("{}/{}", camera.name, Files::picture(frame, format)));
@@ -278,7 +278,7 @@ fn write_video(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFold
     written.map_err(Error::run)
 }
 
-/// The names, relative to the output folder, of the files of all cameras of a plan.
+/// Names, relative to the output folder, of the files of all cameras of a plan.
 fn camera_file_names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
     let of_camera = |camera: &CameraPlan| {
         let names = Files::of_camera(camera, frames).into_keys().chain([Files::SIDECAR.to_owned()]);

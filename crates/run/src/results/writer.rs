@@ -1,4 +1,4 @@
-//! Where the files of one camera go.
+//! Writer of one camera's files.
 
 use etendue_core::quantity::Irradiance;
 use etendue_io::exr::{EncodeError, ExrImage, SpectralBands, spectral_image};
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Makes the bytes of a file.
 pub(crate) type Encoder<'a> = Box<dyn FnOnce() -> Result<Vec<u8>, EncodeError> + Send + 'a>;
 
-/// Where the results of one camera go.
+/// Destination of one camera's results.
 pub(crate) struct ResultWriter<'a> {
     /// Folder of the camera within the output folder.
     pub(crate) prefix: String,
@@ -19,7 +19,7 @@ pub(crate) struct ResultWriter<'a> {
 }
 
 impl ResultWriter<'_> {
-    /// Refuses early where a result is already there.
+    /// Fails early if a result already exists.
     pub(crate) fn claim(&self, name: &str) -> Result<(), Error> {
         self.folder.claim([format!("{}/{name}", self.prefix).as_str()]).map_err(Error::input)
     }
@@ -36,7 +36,7 @@ impl ResultWriter<'_> {
         write_exr(self.folder, &format!("{}/{name}", self.prefix), image)
     }
 
-    /// Writes files in their order, encoded side by side on the caller's thread pool.
+    /// Writes files in order, encoded in parallel on the caller's thread pool.
     pub(crate) fn write_together(&mut self, files: Vec<(String, Encoder<'_>)>) -> Result<(), Error> {
         let encoded: Vec<_> = files.into_par_iter().map(|(name, encode)| (name, encode())).collect();
         encoded.into_iter().try_for_each(|(name, bytes)| self.write(&name, bytes))
@@ -61,7 +61,7 @@ impl ResultWriter<'_> {
         self.exr(name, spectral_image::<Irradiance>(SpectralBands::of_kept(cube, variance), facts))
     }
 
-    /// Writes the part of the irradiance that is ghosts.
+    /// Writes the ghosts as part of the irradiance.
     pub(crate) fn ghosts(&mut self, name: &str, light: &Light, facts: &Provenance) -> Result<(), Error> {
         let Some(cube) = &light.ghosts else { return Ok(()) };
         self.exr(name, spectral_image::<Irradiance>(SpectralBands::of_kept(cube, None), facts))
@@ -79,7 +79,7 @@ pub(crate) fn write_exr(folder: &mut OutputFolder, name: &str, image: ExrImage<'
         })
     });
     match failure {
-        // The folder says which file.
+        // The folder's error names the file.
         Some(EncodeError::Write(_)) | None => written.map_err(Error::run),
         Some(cause) => Err(Error::Run(format!("{name}: {cause}"))),
     }

@@ -1,7 +1,6 @@
-//! The films of a run in the order of their frames, and how far each is.
+//! Films of a run in the order of their frames, with their progress.
 //!
-//! Light that does not depend on time has one film, which serves all frames. Light that does has one for each frame and for each
-//! capture whose exposure differs.
+//! Constant light has one film, which serves all frames. Time-dependent light has one for each frame and for each capture with a different exposure.
 
 use crate::film_file::StoredPasses;
 use etendue_io::failure::{Error, ErrorCode};
@@ -16,25 +15,25 @@ use std::ops::Range;
 /// Progress of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FilmStage {
-    /// Nothing is known of it, and light of it may be stored.
+    /// Not opened yet; light of it may be stored.
     New,
-    /// It holds the first of its passes, or none.
+    /// Holds some of its passes, or none.
     Open,
-    /// It holds all light that it gets.
+    /// Holds all of its light.
     Complete,
 }
 
-/// A film and the passes that it holds.
+/// A film and its passes.
 #[derive(Debug)]
 pub(super) struct RunFilm {
     /// Frame and capture.
     pub(super) shot: Shot,
     pub(super) stage: FilmStage,
-    /// Passes that it holds, that of an unfinished round included.
+    /// Number of passes in the film, including that of an unfinished round.
     pub(super) passes: usize,
-    /// The light of the passes; `None` before the first.
+    /// Light of the passes; `None` before the first.
     pub(super) light: Option<Film>,
-    /// The same with the pass of an unfinished round.
+    /// Light including the pass of an unfinished round.
     pub(super) with_round: Option<Film>,
 }
 
@@ -43,27 +42,27 @@ impl RunFilm {
         Self { shot, stage: FilmStage::New, passes: 0, light: None, with_round: None }
     }
 
-    /// Takes over stored light.
+    /// Continues from stored light.
     pub(super) fn resume(&mut self, film: Film, stored: &StoredPasses) {
         (self.light, self.passes) = (Some(film), stored.passes.list().len());
     }
 }
 
-/// The films whose results are delivered together: those of a frame, or the one of all frames; of a shard a single one.
+/// Films whose results are delivered together: those of a frame, or the single one of all frames; of a shard always a single one.
 #[derive(Debug)]
 pub(super) struct FrameFilms {
-    /// Number of the group of cameras of equal light, in the order of [`Plan::by_light`].
+    /// Index of the group of cameras of equal light, in the order of [`Plan::by_light`].
     pub(super) group: usize,
-    /// The frames that they serve.
+    /// Frames that they serve.
     pub(super) frames: Range<u32>,
-    /// One a capture.
+    /// One per capture.
     pub(super) films: Vec<RunFilm>,
-    /// The states of the sensors afterwards, where an earlier run has written the results.
+    /// States of the sensors after the frame, if an earlier run has written the results.
     pub(super) done: Option<Vec<SensorState>>,
 }
 
 impl FrameFilms {
-    /// Returns the place of the first film that is not complete.
+    /// Returns the index of the first incomplete film.
     pub(super) fn first_incomplete(&self) -> Option<usize> {
         self.films.iter().position(|film| film.stage != FilmStage::Complete)
     }
@@ -78,22 +77,22 @@ impl FrameFilms {
     }
 }
 
-/// A film by its place: among those of which entry, and which of these.
+/// Position of a film: index of the entry, and index within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FilmPlace {
     pub(super) entry: usize,
     pub(super) film: usize,
 }
 
-/// All films of a run in the order in which their results are delivered.
+/// All films of a run in the order of delivery.
 #[derive(Debug)]
 pub(super) struct RunFilms {
     pub(super) entries: Vec<FrameFilms>,
 }
 
 impl RunFilms {
-    /// Returns the films of all cameras over frames, by groups of cameras of equal light. Groups whose light does not depend on time are the last: what is
-    /// written of them gets its name at the end of the run, not with the frames of others.
+    /// Returns the films of all cameras over frames, by groups of cameras of equal light. Groups of constant light are last: their files are published at the
+    /// end of the run, not with the frames of others.
     pub(super) fn of_frames(plan: &Plan, frames: &Range<u32>) -> Self {
         let mut moving = Vec::new();
         let mut steady = Vec::new();
@@ -109,7 +108,7 @@ impl RunFilms {
         Self { entries: moving }
     }
 
-    /// Returns the films of cameras over frames that are `wanted`, each by itself, in the order of [`shots_of`].
+    /// Returns those films of cameras over frames that are `wanted`, each in its own entry, in the order of [`shots_of`].
     pub(super) fn one_by_one(plan: &Plan, frames: &Range<u32>, wanted: impl Fn(&CameraPlan, Shot) -> bool) -> Self {
         let mut entries = Vec::new();
         for (group, cameras) in plan.by_light().into_iter().enumerate() {
@@ -119,7 +118,7 @@ impl RunFilms {
         Self { entries }
     }
 
-    /// Places of all films in the order of the groups.
+    /// Positions of all films in the order of the groups.
     pub(super) fn by_light(&self) -> Vec<FilmPlace> {
         let mut entries: Vec<usize> = (0..self.entries.len()).collect();
         entries.sort_by_key(|entry| self.entries[*entry].group);
@@ -146,7 +145,7 @@ impl FrameFilms {
     }
 }
 
-/// The pictures of a frame that have a film of their own.
+/// Captures of a frame that have their own film.
 fn shots(camera: &CameraPlan, frame: u32) -> Vec<Shot> {
     match camera.time {
         TimeDependence::None => vec![Shot::default()],
@@ -157,7 +156,7 @@ fn shots(camera: &CameraPlan, frame: u32) -> Vec<Shot> {
     }
 }
 
-/// All of some frames.
+/// All captures of some frames.
 pub(crate) fn shots_of(camera: &CameraPlan, frames: &Range<u32>) -> Vec<Shot> {
     match camera.time {
         TimeDependence::None => shots(camera, 0),
@@ -171,7 +170,7 @@ pub(super) fn tile_count(camera: &CameraPlan, shard: Shard) -> usize {
     tiles(width, height, camera.settings.tile_px, shard).len()
 }
 
-/// Frames after the first need a rate where light depends on time.
+/// Checks that a frame rate is stated if frames after the first have time-dependent light.
 pub(crate) fn check_frames(plan: &Plan, frames: &Range<u32>) -> Result<(), Error> {
     let needs = |camera: &&CameraPlan| camera.time != TimeDependence::None && camera.timing.period_s.is_none();
     match plan.cameras.iter().find(needs) {
@@ -187,12 +186,12 @@ pub(crate) fn check_frames(plan: &Plan, frames: &Range<u32>) -> Result<(), Error
     }
 }
 
-/// Refuses light, once gathered, for which a tile of a texture could not be read.
+/// Refuses rendered light for which a tile of a texture could not be read.
 pub(crate) fn check_textures(plan: &Plan) -> Result<(), Error> {
     plan.material_table.texture_failure().map_or(Ok(()), |failure| Err(Error::run(failure)))
 }
 
-/// Refuses a film that holds what is no finite number.
+/// Refuses a film with numbers that are not finite.
 pub(crate) fn check_finite(camera: &CameraPlan, film: &Film) -> Result<(), Error> {
     match film.not_finite_samples() {
         0 => Ok(()),

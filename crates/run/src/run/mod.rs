@@ -1,21 +1,20 @@
-//! One run: what is asked for, what has been done, and what comes next.
+//! One run: its request, its state, and its next step.
 //!
-//! A [`Run`] is the whole state of a run: its plan, its films with the passes that they hold, the states of the sensors, how far it is. [`Run::next`] reads off it
-//! what comes next, a [`Step`]; the step is done and changes the state; this goes on until the results of a camera, or the film of a shard, can be handed over.
-//! All runs are this loop:
+//! A [`Run`] is the whole state of a run: its plan, its films with their passes, the states of the sensors, its progress. [`Run::next`] derives from it the
+//! next [`Step`]. The step changes the state. This repeats until the results of a camera, or the film of a shard, are ready. All runs are this loop:
 //!
 //! | run | differs by |
 //! | --- | --- |
-//! | plain, noise-limited, frames of a data set | nothing: the passes and samples are the plan's |
-//! | progressive | light is stored and pictures are refined after each pass ([`RunStore`]) |
-//! | for a given time | passes of all films in turn until the time is up ([`timed`]), then results |
-//! | resumed | films begin with stored light, frames that are whole are left out |
-//! | shard, one film of a shard | some tiles, some films, and films in the place of results |
+//! | plain, noise-limited, frames of a data set | nothing: passes and samples are the plan's |
+//! | progressive | light is stored and images are refined after each pass ([`RunStore`]) |
+//! | of a given time | passes of all films in turn until the time is up ([`timed`]), then results |
+//! | resumed | films start with stored light, complete frames are skipped |
+//! | shard, one film of a shard | some tiles, some films, and films in place of results |
 //! | merged from shards | the stored light is complete |
 //!
 //! - [`films`] are the films in the order of their frames; [`pass`] renders one pass of one.
-//! - [`rounds`] are the steps of a run for a given time, whose passes [`timed`] decides with the sizes of [`pace`], and what is stored after passes.
-//! - [`store`] is what a run asks of what is stored of it, and its output folder.
+//! - [`rounds`] are the steps of a run of a given time, whose passes [`timed`] determines with the sizes of [`pace`], and the storage after passes.
+//! - [`store`] is the interface to the stored state of a run, and its output folder.
 
 pub(crate) mod films;
 mod pace;
@@ -43,11 +42,11 @@ use timed::TimedPasses;
 
 /// An action of a run.
 enum Step {
-    /// Takes over the light that is stored of a film.
+    /// Restores the stored light of a film.
     Open(FilmPlace),
-    /// Measures how fast samples are made, where a time decides the passes.
+    /// Measures the sample rate, in a run of a given time.
     Pilot,
-    /// Ends a round, one pass of all films, and begins the next or none.
+    /// Ends a round, one pass of all films, and starts the next, if any.
     Round,
     /// Renders a pass of a film.
     Pass(FilmPlace, PassAt),
@@ -55,44 +54,44 @@ enum Step {
     Complete(FilmPlace),
     /// Finds the frames whose results an earlier run has written.
     FindDone,
-    /// Leaves such a frame out.
+    /// Skips such a frame.
     Skip,
-    /// Hands over the results of the next camera of a frame, or its film.
+    /// Delivers the results of the next camera of a frame, or its film.
     Deliver,
-    /// Nothing.
+    /// The run is complete.
     End,
 }
 
 /// The state of a run.
 pub(crate) struct Run<'a> {
-    /// With the passes that were done, where a time decides them.
+    /// The plan, with the passes done so far in a run of a given time.
     plan: Arc<Plan>,
-    /// Cameras of equal light, by their places in the plan; the light is that of the first.
+    /// Groups of cameras of equal light, by their indices in the plan; the light is that of the first.
     groups: Vec<Vec<usize>>,
     options: RenderOptions,
     shard: Shard,
     observer: &'a dyn Observer,
     films: RunFilms,
-    /// The passes, where a time decides them; else they are the plan's.
+    /// Passes of a run of a given time; otherwise they are the plan's.
     timed: Option<TimedPasses<'a>>,
-    /// True once the frames that an earlier run has written are known.
+    /// True once the frames written by an earlier run are known.
     knows_done: bool,
-    /// The frame of the next results, by its place among the films, and which camera of its group.
+    /// Frame of the next results, by its index among the films, and the camera within its group.
     entry: usize,
     camera: usize,
-    /// The light of that frame, once a camera of it has been handed over.
+    /// Light of that frame, once the results of one camera have been delivered.
     light: Vec<Film>,
-    /// By groups: the states of the sensors before their next frame.
+    /// By group: states of the sensors before their next frame.
     states: Vec<Vec<SensorState>>,
-    /// The same after the frame of the next results, of the cameras before the next.
+    /// States after the frame of the next results, of the cameras before the next.
     states_after: Vec<SensorState>,
-    /// Tiles of passes that are finished, and all, where the plan says the passes.
+    /// Number of finished tiles, and of all tiles, if the plan states the passes.
     done_tiles: usize,
     total_tiles: usize,
 }
 
 impl<'a> Run<'a> {
-    /// Begins a run of all cameras of a plan, for the time, s, where one is given.
+    /// Starts a run of all cameras of a plan; of a given time, s, if one is stated.
     ///
     /// # Errors
     /// Frames have no times, or the observer has no clock for a time.
@@ -108,7 +107,7 @@ impl<'a> Run<'a> {
         Ok(Self { timed, ..Self::of_films(plan, options, films, observer) })
     }
 
-    /// Begins a run of a shard: its films that are `wanted`.
+    /// Starts a run of a shard: its films that are `wanted`.
     ///
     /// # Errors
     /// Frames have no times.
@@ -148,8 +147,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Goes on until the results of the next camera are there: of a group of cameras of equal light one after the other, where light depends on time frame
-    /// after frame. `None` at the end.
+    /// Continues until the results of the next camera are ready: the cameras of a group of equal light one after the other, and, where light depends on time,
+    /// frame after frame. Returns `None` at the end.
     ///
     /// # Errors
     /// The observer cancels, light is not finite, or the store fails.
@@ -160,7 +159,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Goes on until the next film of a shard is there; `None` at the end.
+    /// Continues until the next film of a shard is ready; `None` at the end.
     ///
     /// # Errors
     /// The observer cancels, or light is not finite.
@@ -174,7 +173,7 @@ impl<'a> Run<'a> {
         Ok(light.into_iter().next().map(|film| (self.origin(place), film)))
     }
 
-    /// Does step after step until something can be handed over; returns false at the end.
+    /// Executes steps until something can be delivered; returns false at the end.
     fn go_on(&mut self, store: &mut dyn RunStore) -> Result<bool, Error> {
         loop {
             match self.next() {
@@ -191,7 +190,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Returns what comes next.
+    /// Returns the next step.
     fn next(&self) -> Step {
         if let Some(timed) = self.timed.as_ref().filter(|timed| !timed.is_over) {
             return self.next_timed(timed);
@@ -215,7 +214,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Returns what comes next before the time is up.
+    /// Returns the next step before the time is up.
     fn next_timed(&self, timed: &TimedPasses<'_>) -> Step {
         let places = self.films.by_light();
         if let Some(new) = places.iter().find(|place| self.films.at(**place).stage == FilmStage::New) {
@@ -224,7 +223,7 @@ impl<'a> Run<'a> {
         if !timed.has_rate() {
             return Step::Pilot;
         }
-        // Films that were behind when their run ended get the passes that they lack.
+        // Films that were behind when their run ended receive their missing passes.
         let wanted = timed.wanted();
         match places.into_iter().find(|place| self.films.at(*place).passes < wanted.list().len()) {
             Some(behind) => Step::Pass(behind, wanted.at(self.films.at(behind).passes)),
@@ -306,7 +305,7 @@ impl<'a> Run<'a> {
         self.entry += 1;
     }
 
-    /// Makes the results of the next camera of the next frame.
+    /// Computes the results of the next camera of the next frame.
     fn results(&mut self) -> Result<CameraResults, Error> {
         if self.camera == 0 {
             self.light = self.take_light()?;
@@ -331,7 +330,7 @@ impl<'a> Run<'a> {
         Ok(results)
     }
 
-    /// Takes the light of the next frame; refuses such as is not finite.
+    /// Takes the light of the next frame; refuses light that is not finite.
     fn take_light(&mut self) -> Result<Vec<Film>, Error> {
         let entry = &mut self.films.entries[self.entry];
         let camera = &self.plan.cameras[self.groups[entry.group][0]];
@@ -350,7 +349,7 @@ impl<'a> Run<'a> {
         FilmOrigin { plan: &self.plan, camera: self.first_camera(place), shot, shard: self.shard }
     }
 
-    /// A pass of a film among all of the run, or of the round.
+    /// A pass of a film, with its tile count within the run or the round.
     fn watched(&self, place: FilmPlace) -> WatchedPass<'_> {
         let (camera, shot) = (self.first_camera(place), self.films.at(place).shot);
         let request = Request { shot, simd: self.options.simd, shard: self.shard, keeping: FilmKeeping::Planned };

@@ -1,44 +1,44 @@
-//! How large the next pass is, where a time decides.
+//! Size of the next pass in a run of a given time.
 //!
-//! The rate at which samples are made is that of the last pass, so that it may change: other work on the machine, a lower clock. No
-//! pass but the last ones is foreseen to take more than [`MAX_FRACTION`] of the time that is left, and none is more than all before it, so
-//! that the picture refines evenly and a wrong rate is noticed in time. When [`LAST_FRACTION`] of the whole is left, a pass takes all of
-//! it. Passes are whole but where the least one, a sample a pixel in each replicate, is too much: then it takes a part of the pixels.
+//! The sample rate is that of the last pass, because it may change with other work on the machine or a lower clock. Except for the last passes, no pass is
+//! estimated to take more than [`MAX_FRACTION`] of the remaining time. No pass is larger than all passes before it, so that the image refines evenly and a
+//! wrong rate is noticed early. When [`LAST_FRACTION`] of the total time is left, a pass takes all of it. Passes are whole unless the smallest one, one
+//! sample per pixel in each replicate, is too large: then a pass takes a subset of the pixels.
 
 use etendue_pipeline::plan::{PARTS, Pass};
 
-/// Part of the time left that a pass may take.
+/// Maximum fraction of the remaining time for a pass.
 const MAX_FRACTION: f64 = 0.6;
-/// Part of the whole time that one pass may use up.
+/// Maximum fraction of the total time that one pass may use up.
 const LAST_FRACTION: f64 = 0.12;
-/// Part of the whole time that is not worth a pass.
+/// Fraction of the total time that is too short for a pass.
 const IDLE_FRACTION: f64 = 0.01;
 
-/// Samples that a job's passes may have together.
+/// Maximum total samples per pixel of a job's passes.
 const MOST_SPP: u32 = 1 << 20;
 
-/// How fast samples are made.
+/// Rate of sampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rate {
     /// Time of one sample of every pixel of all films, s.
     pub(crate) sample_s: f64,
-    /// Time of what a pass takes beside its samples, s.
+    /// Time of a pass without its samples, s.
     pub(crate) beside_s: f64,
 }
 
-/// How passes fill a time.
+/// Schedule of passes over a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pace {
-    /// The whole time, s.
+    /// Total time, s.
     pub(crate) total_s: f64,
-    /// Samples of the least whole pass: all passes are multiples of it.
+    /// Samples of the smallest whole pass; all passes are multiples of it.
     pub(crate) least: u32,
-    /// Whether a pass may take a part of the pixels.
+    /// True if a pass may take a subset of the pixels.
     pub(crate) has_parts: bool,
 }
 
 impl Pace {
-    /// The next pass after passes of `done_spp` samples of every pixel; `None` where the time is up.
+    /// Returns the next pass after passes of `done_spp` samples of every pixel; `None` if the time is up.
     pub(crate) fn next(&self, elapsed_s: f64, rate: Rate, done_spp: u32) -> Option<Pass> {
         let room_s = self.total_s - elapsed_s - rate.beside_s;
         if done_spp == 0 {
@@ -65,7 +65,7 @@ impl Pace {
         (self.has_parts && part > 0).then_some(Pass { samples: self.least, part })
     }
 
-    /// The most replicates, of these, that leave time for three passes; the fewest where none does.
+    /// Returns the largest number of replicates in `choice` that leaves time for three passes; the smallest if none does.
     pub(crate) fn replicates(&self, sample_s: f64, choice: &[u32]) -> u32 {
         let fits = |replicates: &&u32| sample_s * f64::from(**replicates) <= self.total_s / 3.0;
         choice.iter().find(fits).or(choice.last()).copied().unwrap_or(self.least)
@@ -76,7 +76,7 @@ impl Pace {
 mod tests {
     use super::*;
 
-    /// The time that a run takes on a machine whose speed at a time is `speed`, and its passes.
+    /// Simulates a run on a machine of the given speed over time; returns its time and its passes.
     fn run(pace: Pace, beside_s: f64, sample_s: f64, speed: impl Fn(f64) -> f64) -> (f64, Vec<Pass>) {
         let (mut now_s, mut spp, mut passes) = (0.0, 0, Vec::new());
         let mut rate = Rate { sample_s: sample_s / speed(0.0), beside_s };

@@ -1,7 +1,7 @@
-//! One pass of a film, watched: how far the run is, whether it is to stop, and tiles of light to look at.
+//! One observed pass of a film: progress, cancellation, and tiles of light for display.
 //!
-//! Where a spectrum is kept tiles are radiance in linear sRGB, (1, 1, 1) at 1 cd/m², the same numbers as the channels `R`, `G`, `B` of `radiance.exr`. Where pixels
-//! make electrons directly: `Y`, the mean electrons of the exposure, each pixel in the colour of its filter.
+//! If a spectrum is stored, tiles are radiance in linear sRGB, (1, 1, 1) at 1 cd/m², equal to the channels `R`, `G`, `B` of `radiance.exr`. If pixels
+//! accumulate electrons directly, tiles are `Y`, the mean electrons of the exposure, each pixel in the colour of its filter.
 
 use super::films::check_textures;
 use super::timed::Watch;
@@ -16,35 +16,35 @@ use etendue_pipeline::tile::Tile;
 use etendue_spectra::colour::linear_srgb_from_xyz;
 use etendue_spectra::observer::xyz_weights;
 
-/// The tiles of a pass among all that are counted.
+/// Position of a pass's tiles in the total count.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum TileCount {
-    /// Of the whole run: tiles before it, and all.
+    /// Within the whole run: tiles before it, and all tiles.
     OfRun { before: usize, total: usize },
-    /// Of one pass of all films: films before it, and all.
+    /// Within one pass of all films: films before it, and all films.
     OfRound { before: usize, films: usize },
 }
 
-/// A pass of a film, and who watches it.
+/// A pass of a film with its observer.
 pub(super) struct WatchedPass<'a> {
     pub(super) plan: &'a Plan,
     /// The first of the cameras that share the light.
     pub(super) camera: &'a CameraPlan,
-    /// Picture and tiles that are rendered.
+    /// Raster and tiles to render.
     pub(super) request: Request,
     pub(super) observer: &'a dyn Observer,
-    /// Heading of the progress.
+    /// Heading of the progress display.
     pub(super) heading: String,
     pub(super) frame: Option<FramePlace>,
     pub(super) count: TileCount,
-    /// The time of the run; `None` where the plan says the passes.
+    /// Clock of a run of a given time; `None` if the plan states the passes.
     pub(super) watch: Option<&'a Watch<'a>>,
-    /// False for a pilot, whose tiles are not shown.
+    /// False for a pilot: its tiles are not shown.
     pub(super) is_shown: bool,
 }
 
 impl WatchedPass<'_> {
-    /// Renders the pass and joins it with the light of the passes before it; `None` where the time is well over.
+    /// Renders the pass and adds it to the light of the passes before it; `None` if the time is far exceeded.
     ///
     /// # Errors
     /// The observer cancels, or a texture cannot be read.
@@ -90,7 +90,7 @@ impl etendue_pipeline::Observer for WatchedPass<'_> {
     }
 }
 
-/// Sends the observer, where noise decided the samples, how many it took, and whether the limit was reached.
+/// Reports the samples taken by noise-limited sampling, and whether the limit was reached.
 pub(super) fn report_noise(camera: &CameraPlan, shot: Shot, film: &Film, observer: &dyn Observer) {
     let Some((limit, tolerance)) = camera.settings.adaptive.zip(camera.tolerance()) else { return };
     let Some(reached) = NoiseReached::of(film, &tolerance, camera.settings.spp) else { return };
@@ -115,7 +115,7 @@ pub(super) fn report_noise(camera: &CameraPlan, shot: Shot, film: &Film, observe
     }
 }
 
-/// Shows a tile of a film to an observer that wants it.
+/// Shows a tile of a film to an observer that requests tiles.
 fn show(observer: &dyn Observer, camera: &CameraPlan, shot: Shot, tile: Tile, film: &Film) {
     if !observer.wants_tiles() {
         return;
@@ -123,7 +123,7 @@ fn show(observer: &dyn Observer, camera: &CameraPlan, shot: Shot, tile: Tile, fi
     let (channels, values) = match (&film.cube, &film.electron_rate) {
         (Some(_), _) => match radiance(film, tile) {
             Ok(values) => (&["R", "G", "B"][..], values),
-            // The run that cannot read its film tells so itself.
+            // The run reports the error when it reads the film.
             Err(_) => return,
         },
         (None, Some(_)) => (&["Y"][..], electrons(film, tile, camera.body.exposure.exposure_s)),
@@ -135,7 +135,7 @@ fn show(observer: &dyn Observer, camera: &CameraPlan, shot: Shot, tile: Tile, fi
     observer.tile(&ImageTile { image, size_px, first_px, tile_px, channels, values: &values });
 }
 
-/// Name of a film in a viewer.
+/// Name of a film in an image viewer.
 fn image_name(camera: &CameraPlan, shot: Shot) -> String {
     match (camera.time, shot.capture) {
         (TimeDependence::None, _) => camera.name.clone(),
@@ -161,7 +161,7 @@ fn radiance(film: &Film, tile: Tile) -> Result<Vec<f32>, String> {
     Ok(sums.into_iter().map(|sum| sum as f32).collect())
 }
 
-/// Mean electrons of an exposure, s.
+/// Mean electrons over an exposure, s.
 fn electrons(film: &Film, tile: Tile, exposure_s: f64) -> Vec<f32> {
     let Some(rate) = &film.electron_rate else { return Vec::new() };
     let of = |x: u32, y: u32| (f64::from(rate.mean.at(x as usize, y as usize)) * exposure_s) as f32;

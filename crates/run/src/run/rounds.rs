@@ -1,4 +1,4 @@
-//! What a run does beside the passes that its plan says: rounds of passes until a time is up, and what is stored after passes.
+//! Steps of a run in addition to the passes of its plan: rounds of passes until a time is up, and storage after passes.
 
 use super::Run;
 use super::films::{FilmPlace, FilmStage};
@@ -15,7 +15,7 @@ use etendue_sensor::SensorState;
 use std::sync::Arc;
 
 impl Run<'_> {
-    /// Renders some of the pixels of all films; their light is not kept.
+    /// Renders a subset of the pixels of all films; the light is discarded.
     pub(super) fn pilot(&mut self) -> Result<(), Error> {
         let Some(timed) = &self.timed else { return Ok(()) };
         let (pilot, begin) = (timed.pilot(&self.plan), timed.watch.moment());
@@ -37,7 +37,7 @@ impl Run<'_> {
             let from_s = timed.watch.elapsed_s();
             self.store_round(store)?;
             if let Some(timed) = &mut self.timed {
-                // The next round is stored as well.
+                // Includes the time of storage after the next round.
                 timed.add_beside(timed.watch.elapsed_s() - from_s);
             }
         }
@@ -50,7 +50,7 @@ impl Run<'_> {
         }
     }
 
-    /// All films have the light that they get.
+    /// Marks all films as complete.
     fn end_time(&mut self) {
         let Some(timed) = &mut self.timed else { return };
         timed.is_over = true;
@@ -67,7 +67,7 @@ impl Run<'_> {
         self.end_time();
     }
 
-    /// Stores a film after a pass that the plan says.
+    /// Stores a film after a pass of the plan.
     pub(super) fn store_pass(&self, place: FilmPlace, store: &mut dyn RunStore) -> Result<(), Error> {
         let (camera, film) = (self.first_camera(place), self.films.at(place));
         let Some(light) = film.light.as_ref().filter(|_| store.stores_passes()) else { return Ok(()) };
@@ -105,7 +105,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Refines the pictures of a frame, whose sensors had these states before it.
+    /// Refines the images of a frame; `states` are the sensors' states before it.
     fn refine(
         &self,
         plan: &Arc<Plan>,

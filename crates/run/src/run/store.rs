@@ -1,8 +1,8 @@
-//! What is stored of a run: what an earlier run has left, light after each pass, and the results, in an output folder.
+//! Storage of a run: results of an earlier run, light after each pass, and the results, in an output folder.
 //!
-//! A progressive run stores the state of its films after each pass and refines the pictures on disk. Those are the files of light and photographs that it
-//! writes at its end, made of the film so far: complete, and each replaced as a whole. Of light that serves many frames the first is refined. What comes of
-//! other captures of a frame, or of frames before it, is known by then: of a frame of several films the picture is refined with the last of them.
+//! A progressive run stores the state of its films after each pass and refines the images on disk. These are the final files of light and frames, made from
+//! the film so far: complete, and each replaced as a whole. Where one light serves many frames, the first frame is refined. Other captures of a frame and
+//! earlier frames are then known: a frame with several films is refined with the last of them.
 
 use super::films::check_finite;
 use crate::film_file::{self, FilmOrigin, StoredPasses, holds_state, state_name};
@@ -18,20 +18,20 @@ use etendue_pipeline::render::Shot;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The light that is stored of a film.
+/// Stored light of a film.
 #[derive(Debug)]
 pub(crate) enum StoredLight {
     /// None.
     None,
-    /// That of some passes, of an interrupted run.
+    /// Light of some passes, from an interrupted run.
     Passes(Film, StoredPasses),
-    /// All of it, of shards.
+    /// All of the light, from shards.
     Complete(Film),
 }
 
-/// Storage of a run: light and frames that other runs have left, and its own light after each pass.
+/// Storage of a run: light and frames of earlier runs, and its own light after each pass.
 pub(crate) trait RunStore {
-    /// Returns what is stored of a film.
+    /// Returns the stored light of a film.
     fn light(&self, _origin: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
         Ok(StoredLight::None)
     }
@@ -41,7 +41,7 @@ pub(crate) trait RunStore {
         Ok(DoneFrames::default())
     }
 
-    /// Returns true if anything is done after a pass.
+    /// Returns true if the store acts after each pass.
     fn stores_passes(&self) -> bool {
         false
     }
@@ -51,7 +51,7 @@ pub(crate) trait RunStore {
         Ok(())
     }
 
-    /// Refines the pictures of a frame by the results of its cameras so far.
+    /// Refines the images of a frame with the results of its cameras so far.
     fn refine(&mut self, _results: &mut dyn Iterator<Item = Result<CameraResults, Error>>) -> Result<(), Error> {
         Ok(())
     }
@@ -62,13 +62,13 @@ pub(crate) struct NoStore;
 
 impl RunStore for NoStore {}
 
-/// The folder that a run writes its results to.
+/// The output folder of a run.
 pub(crate) struct RunFolder<'a> {
     interruption: InterruptionNote<'a>,
     folder: OutputFolder,
-    /// Of runs that go on and can be gone on with: all but `merge`.
+    /// State of runs that can resume and be resumed: all except `merge`.
     state: Option<RunState>,
-    /// Frames that an earlier run has written; `None` where they are known after the light.
+    /// Frames written by an earlier run; `None` if they are known only after the light.
     done: Option<DoneFrames>,
     sequence: Sequence,
     written: Vec<PathBuf>,
@@ -77,17 +77,17 @@ pub(crate) struct RunFolder<'a> {
 
 /// The state of a run.
 struct RunState {
-    /// Folder in which it is stored and pictures are refined, of a progressive run.
+    /// Folder of the state and of the refined images, in a progressive run.
     progressive: Option<OutputFolder>,
-    /// Folder of the earlier run, of a run that resumes.
+    /// Folder of the earlier run, in a resumed run.
     resumed: Option<PathBuf>,
 }
 
 impl<'a> RunFolder<'a> {
-    /// Opens the folder of a run. One that replaces what is there begins anew.
+    /// Opens the folder of a run. A run that replaces existing files starts afresh.
     ///
     /// # Errors
-    /// Files are there that must not be replaced, the state is that of another run, or the folder cannot be written.
+    /// Files exist that must not be replaced, the state is that of another run, or the folder cannot be written.
     pub(crate) fn open(
         request: &JobRequest,
         plan: &Arc<Plan>,
@@ -99,7 +99,7 @@ impl<'a> RunFolder<'a> {
         let sequence = Sequence::new(plan, options.frames.clone());
         let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
         let resumed = (existing == Existing::Resume).then(|| root.to_path_buf());
-        // Where a time decides the passes, the plan of the frames is known when they are done.
+        // In a run of a given time, the plan of the frames is known after its passes.
         let done = match (&resumed, request.time_s) {
             (Some(root), None) => Some(DoneFrames::in_folder(root, plan, sequence.frames(), observer)?),
             _ => None,
@@ -116,10 +116,10 @@ impl<'a> RunFolder<'a> {
         Ok(Self { state, done, ..Self::new(folder, sequence, observer) })
     }
 
-    /// Opens the folder that takes the results of shards.
+    /// Opens the folder for the results of shards.
     ///
     /// # Errors
-    /// Files are there that must not be replaced, or the folder cannot be written.
+    /// Files exist that must not be replaced, or the folder cannot be written.
     pub(crate) fn of_shards(
         plan: &Arc<Plan>,
         options: &RenderOptions,
@@ -138,7 +138,7 @@ impl<'a> RunFolder<'a> {
         Self { interruption, folder, state: None, done: None, sequence, written: Vec::new(), observer }
     }
 
-    /// Writes a camera's results. The files of a frame that has a light of its own get their names at once.
+    /// Writes a camera's results. The files of a frame with its own light are published at once.
     ///
     /// # Errors
     /// A file cannot be made or written.
@@ -150,7 +150,7 @@ impl<'a> RunFolder<'a> {
         state.forget(results.camera(), results.frame_numbers().start)
     }
 
-    /// Writes what is made of all frames and cameras, gives all files their names, and removes the state; answers with the paths of all files.
+    /// Writes the files over all frames and cameras, publishes all files, and removes the state; returns the paths of all files.
     ///
     /// # Errors
     /// A file cannot be made, written or removed.
@@ -165,13 +165,13 @@ impl<'a> RunFolder<'a> {
     }
 }
 
-/// Refuses early where a result is already there.
+/// Fails early if a result already exists.
 fn claim(folder: &OutputFolder, plan: &Plan, sequence: &Sequence) -> Result<(), Error> {
     folder.claim(sequence.file_names(plan).iter().map(String::as_str)).map_err(Error::input)
 }
 
 impl RunState {
-    /// Removes what was stored of a frame that has its files.
+    /// Removes the stored state of a frame whose files are written.
     fn forget(&self, camera: &CameraPlan, frame: u32) -> Result<(), Error> {
         let Some(folder) = &self.progressive else { return Ok(()) };
         let captures = camera.body.exposure.distinct_captures();
@@ -232,18 +232,18 @@ impl RunStore for RunFolder<'_> {
     }
 }
 
-/// Sends the observer what a run that fails, is cancelled or panics leaves in its folder, when it is dropped before the run is complete.
+/// Reports, when dropped before the run is complete, what a failed, cancelled or panicked run leaves in its folder.
 pub(crate) struct InterruptionNote<'a> {
     root: PathBuf,
     observer: &'a dyn Observer,
-    /// Frames of cameras that have their files.
+    /// Number of written frames over all cameras.
     frames: usize,
-    /// True once all has been written.
+    /// True once all files are written.
     pub(crate) is_complete: bool,
 }
 
 impl<'a> InterruptionNote<'a> {
-    /// Of a run that writes into a folder from now on.
+    /// A note for a run that now starts to write into a folder.
     pub(crate) fn new(folder: &OutputFolder, observer: &'a dyn Observer) -> Self {
         Self { root: folder.path().to_path_buf(), observer, frames: 0, is_complete: false }
     }

@@ -1,8 +1,8 @@
-//! The passes of a run that lasts a given time: as many as the time allows.
+//! Passes of a run of a given time: as many as the time allows.
 //!
-//! The films of all cameras and frames get the same passes in turn, so that a list of them makes the same bits again; they are held in memory together.
-//! A pilot, a part of the pixels whose light is not kept, tells the rate first. Time counts from its first sample. A round, one pass of
-//! all films, that is not done when the time is well over is given up.
+//! The films of all cameras and frames receive the same passes in turn, so that a list of these passes reproduces the same bits; the films are held in memory
+//! together. A pilot, which renders a subset of the pixels and discards their light, measures the rate first. Time counts from its first sample. A round (one
+//! pass of all films) that exceeds the time by far is discarded.
 
 use super::pace::{Pace, Rate};
 use crate::film_file::StoredPasses;
@@ -14,43 +14,43 @@ use etendue_pipeline::plan::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
-/// A round is given up at this part of the time.
+/// A round is discarded at this multiple of the time.
 const GIVE_UP_RATIO: f64 = 1.05;
 
-/// Part of the time that the pilot is to take at least, and the most parts of the pixels for it.
+/// Minimum fraction of the time for the pilot, and its maximum part of the pixels.
 const PILOT_FRACTION: f64 = 0.01;
 const MAX_PILOT_PARTS: u32 = PARTS / 4;
 
-/// A moment of a run: time, and how much of it samples have taken, s.
+/// A point in a run: elapsed time, and the part of it spent on samples, s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moment {
     now_s: f64,
     light_s: f64,
 }
 
-/// One pass of all films that is under way.
+/// The current pass of all films.
 #[derive(Debug)]
 struct Round {
-    /// The passes, that of the round included.
+    /// The passes, including that of the round.
     passes: Passes,
     begin: Moment,
 }
 
-/// The passes of a run, where a time decides them.
+/// Passes of a run of a given time.
 pub(super) struct TimedPasses<'a> {
-    /// The plan as it was compiled, which knows no passes.
+    /// The plan as compiled, without passes.
     pub(super) compiled: Arc<Plan>,
     total_s: f64,
     observer: &'a dyn Observer,
     pub(super) watch: Watch<'a>,
-    /// Those that are done.
+    /// Completed passes.
     passes: Passes,
     round: Option<Round>,
-    /// Replicates of each pass: of an interrupted run, or as the time allows; `None` where the job says how many.
+    /// Replicates of each pass: those of an interrupted run, or as many as the time allows; `None` if the job states them.
     replicates: Option<u32>,
-    /// Part of the pixels that the next pilot takes, in 256ths.
+    /// Part of the pixels for the next pilot, in 256ths.
     pilot_part: u32,
-    /// Rate of samples; `None` before a pilot was long enough.
+    /// Rate of samples; `None` until a pilot has taken long enough.
     rate: Option<Rate>,
     has_warned: bool,
     /// True once the time is up.
@@ -58,7 +58,7 @@ pub(super) struct TimedPasses<'a> {
 }
 
 impl<'a> TimedPasses<'a> {
-    /// Returns no passes yet, of a run for `total_s`.
+    /// Returns no passes yet, for a run of `total_s`.
     ///
     /// # Errors
     /// The observer has no clock.
@@ -78,7 +78,7 @@ impl<'a> TimedPasses<'a> {
         })
     }
 
-    /// Takes over the passes of an interrupted run by one of its films: those of the film that has most.
+    /// Continues from the passes of an interrupted run, given one of its films: those of the film with most passes.
     pub(super) fn resume(&mut self, stored: &StoredPasses) {
         if stored.passes.list().len() >= self.passes.list().len() {
             self.passes = stored.passes.clone();
@@ -92,22 +92,22 @@ impl<'a> TimedPasses<'a> {
         self.rate.is_some()
     }
 
-    /// The passes that all films are to have: those that are done, and that of the round under way.
+    /// Passes that all films are to receive: the completed ones, and that of the current round.
     pub(super) fn wanted(&self) -> &Passes {
         self.round.as_ref().map_or(&self.passes, |round| &round.passes)
     }
 
-    /// The passes that are done.
+    /// The completed passes.
     pub(super) fn done(&self) -> &Passes {
         &self.passes
     }
 
-    /// Returns true if a round is under way.
+    /// Returns true during a round.
     pub(super) fn is_in_round(&self) -> bool {
         self.round.is_some()
     }
 
-    /// Returns the plan with the passes that are done.
+    /// Returns the plan with the completed passes.
     pub(super) fn plan_of_done(&self, plan: &Plan) -> Plan {
         plan.with_passes(&self.passes, self.replicates)
     }
@@ -117,8 +117,7 @@ impl<'a> TimedPasses<'a> {
         PassAt { pass: Pass { samples: least_samples(plan), part: self.pilot_part }, ..PassAt::only(0) }
     }
 
-    /// Ends a pilot that began at a moment. Returns the plan of the run, with its replicates, or `None` where another pilot, four times as large, is
-    /// needed.
+    /// Ends a pilot that began at `begin`. Returns the plan of the run, with its replicates, or `None` if another pilot, four times as large, is needed.
     pub(super) fn end_pilot(&mut self, plan: &Plan, pilot: PassAt, begin: Moment) -> Option<Plan> {
         let rate = self.watch.rate(pilot.pass, begin);
         let is_long = rate.sample_s * pilot.pass.number() >= PILOT_FRACTION * self.total_s;
@@ -135,7 +134,7 @@ impl<'a> TimedPasses<'a> {
         Some(self.plan_of_done(plan))
     }
 
-    /// Returns `most` replicates, or fewer where the time does not allow so many.
+    /// Returns `most` replicates, or fewer if the time does not allow so many.
     fn affordable_replicates(&self, plan: &Plan, most: u32, sample_s: f64) -> u32 {
         let fewest = if plan.cameras.iter().any(|camera| camera.products.variance) { 2 } else { 1 };
         let choice: Vec<u32> = (fewest..=most).rev().filter(|replicates| most.is_multiple_of(*replicates)).collect();
@@ -148,7 +147,7 @@ impl<'a> TimedPasses<'a> {
         replicates
     }
 
-    /// Begins the next round. Returns false where there is none.
+    /// Starts the next round. Returns false if there is none.
     pub(super) fn begin_round(&mut self, plan: &Plan) -> bool {
         let Some(rate) = self.rate else { return false };
         let pace = self.pace(plan);
@@ -169,19 +168,19 @@ impl<'a> TimedPasses<'a> {
         true
     }
 
-    /// Ends the round, whose pass all films have.
+    /// Ends the round: all films have its pass.
     pub(super) fn end_round(&mut self) {
         let Some(Round { passes, begin }) = self.round.take() else { return };
         self.rate = passes.list().last().map(|last| self.watch.rate(*last, begin));
         self.passes = passes;
     }
 
-    /// Gives the round up.
+    /// Discards the round.
     pub(super) fn give_up_round(&mut self) {
         self.round = None;
     }
 
-    /// Adds a time, s, to that of a round beside its samples.
+    /// Adds time, s, to that of a round outside its samples.
     pub(super) fn add_beside(&mut self, time_s: f64) {
         if let Some(rate) = &mut self.rate {
             rate.beside_s += time_s;
@@ -205,7 +204,7 @@ impl<'a> TimedPasses<'a> {
         }
     }
 
-    /// Sends the observer the time that was taken, and the keys that make the same bytes again.
+    /// Reports the elapsed time to the observer, and the keys that reproduce the same bytes.
     pub(super) fn report(&self, plan: &Plan) {
         let mut replicates: Vec<u32> = plan.replicates().collect();
         replicates.dedup();
@@ -223,23 +222,23 @@ impl<'a> TimedPasses<'a> {
     }
 }
 
-/// The samples that all cameras can share.
+/// Smallest sample count that all cameras can share.
 fn least_samples(plan: &Plan) -> u32 {
     plan.replicates().fold(1, least_common_multiple)
 }
 
-/// Measures the time that the light takes.
+/// Clock of the light's rendering.
 pub(super) struct Watch<'a> {
     observer: &'a dyn Observer,
-    /// Time that an interrupted run has taken, s.
+    /// Time taken by an interrupted run, s.
     before_s: f64,
-    /// When the first sample was begun.
+    /// Start of the first sample.
     start_s: OnceLock<f64>,
-    /// When the pass was begun that is under way, and the time of samples before it, s.
+    /// Start of the current pass, and the time of samples before it, s.
     pass: Mutex<(f64, f64)>,
-    /// When a pass is given up, s.
+    /// Time at which a pass is discarded, s.
     limit_s: Option<f64>,
-    /// True once a pass was given up.
+    /// True once a pass was discarded.
     is_over: AtomicBool,
 }
 
@@ -269,12 +268,12 @@ impl<'a> Watch<'a> {
         Moment { now_s: self.now_s(), light_s: self.light_s() }
     }
 
-    /// Time since the first sample, s, that of an interrupted run included.
+    /// Time since the first sample, s, including that of an interrupted run.
     pub(super) fn elapsed_s(&self) -> f64 {
         self.before_s + self.start_s.get().map_or(0.0, |start_s| self.now_s() - start_s)
     }
 
-    /// Time of samples alone.
+    /// Time spent on samples, s.
     fn light_s(&self) -> f64 {
         self.pass.lock().expect("no clock panics").1
     }
@@ -290,14 +289,14 @@ impl<'a> Watch<'a> {
         pass.1 += self.now_s() - pass.0;
     }
 
-    /// The rate of a pass of all films that began at a moment.
+    /// Rate of a pass of all films that began at `begin`.
     fn rate(&self, pass: Pass, begin: Moment) -> Rate {
         let light_s = self.light_s() - begin.light_s;
         let beside_s = (self.now_s() - begin.now_s - light_s).max(0.0);
         Rate { sample_s: (light_s / pass.number()).max(f64::MIN_POSITIVE), beside_s }
     }
 
-    /// Returns true if the pass under way is to be given up.
+    /// Returns true if the current pass must be discarded.
     pub(super) fn is_over(&self) -> bool {
         let is_over = self.limit_s.is_some_and(|limit_s| self.elapsed_s() > limit_s);
         if is_over {
@@ -306,7 +305,7 @@ impl<'a> Watch<'a> {
         is_over
     }
 
-    /// Returns true if a pass was given up.
+    /// Returns true if a pass was discarded.
     pub(super) fn was_over(&self) -> bool {
         self.is_over.load(Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! Whether the figures of a data sheet fit each other.
+//! Consistency of the figures of a data sheet.
 
 use super::digits::Span;
 use etendue_core::maths::f64::pow;
@@ -6,14 +6,14 @@ use etendue_scene::record::DataSheet;
 use etendue_scene::{ErrorCode, Fault, Placed};
 use etendue_sensor::figures::{QUANTISATION_DN2, bit, db, threshold_e};
 
-/// What is wrong, and what is doubtful.
+/// Errors and warnings of a data sheet.
 #[derive(Debug, Default)]
 pub(super) struct Found {
     pub(super) faults: Vec<Fault>,
     pub(super) warnings: Vec<String>,
 }
 
-/// What a figure is measured in.
+/// Unit of a figure.
 #[derive(Clone, Copy)]
 enum Scale {
     Plain(&'static str),
@@ -30,7 +30,7 @@ impl Scale {
         }
     }
 
-    /// A number of amplitude 1 and more on this scale.
+    /// Converts an amplitude ratio of at least 1 to this scale.
     fn of(self, ratio: f64) -> f64 {
         match self {
             Self::Plain(_) => ratio,
@@ -39,7 +39,7 @@ impl Scale {
         }
     }
 
-    /// Back to an amplitude.
+    /// Converts back to an amplitude ratio.
     fn ratio(self, value: f64) -> f64 {
         match self {
             Self::Plain(_) => value,
@@ -50,7 +50,7 @@ impl Scale {
 }
 
 impl Found {
-    /// Compares a stated figure with the one that follows from others.
+    /// Compares a stated figure with the value derived from others.
     fn compare(&mut self, stated: Option<&Placed<f64>>, scale: Scale, follows: Span, from: &str) {
         let Some(stated) = stated else { return };
         if Span::printed(stated.value).meets(follows.rising(|x| scale.of(x))) {
@@ -73,13 +73,13 @@ impl Found {
     }
 }
 
-/// A number with four digits, or all before its point.
+/// A number with four digits, or with all digits before the decimal point.
 fn four_digits(value: f64) -> String {
     let decimals = [1000.0, 100.0, 10.0].iter().filter(|bound| value < **bound).count();
     format!("{value:.decimals$}")
 }
 
-/// Compares all figures that follow from others.
+/// Compares all figures that can be derived from others.
 pub(super) fn check(sheet: &DataSheet, gain_dn_e: f64) -> Found {
     let mut found = Found::default();
     let gain = sheet.gain_dn_per_e.as_ref().map(|k| Span::printed(k.value));
@@ -108,7 +108,7 @@ pub(super) fn check(sheet: &DataSheet, gain_dn_e: f64) -> Found {
     found
 }
 
-/// σ_d, e⁻; where σ_y.dark is stated as well, both are compared in DN.
+/// σ_d, e⁻; if σ_y.dark is stated as well, both are compared in DN.
 fn dark_noise(sheet: &DataSheet, gain: Span, found: &mut Found) -> Span {
     if let Some(stated) = &sheet.temporal_dark_noise_e {
         let noise = Span::printed(stated.value);
@@ -122,7 +122,7 @@ fn dark_noise(sheet: &DataSheet, gain: Span, found: &mut Found) -> Span {
     dn.map_or(Span::printed(0.0), |dn| dn.rising(without).over(gain))
 }
 
-/// Figures in photons, by the efficiency at their wavelength.
+/// Figures in photons, by the quantum efficiency at their wavelength.
 fn photons(sheet: &DataSheet, capacity: Span, threshold: Span, found: &mut Found) {
     let figures = [(&sheet.saturation_capacity_p, capacity), (&sheet.sensitivity_threshold_p, threshold)];
     let Some(first) = figures.iter().find_map(|(stated, _)| stated.as_ref()) else { return };
@@ -138,7 +138,7 @@ fn photons(sheet: &DataSheet, capacity: Span, threshold: Span, found: &mut Found
     }
 }
 
-/// The efficiency of the only channel at the wavelength of the measurement, as a share.
+/// Quantum efficiency of the only channel at the wavelength of the measurement, as a fraction.
 fn efficiency(sheet: &DataSheet) -> Option<Span> {
     let curves = sheet.quantum_efficiency_percent.curves();
     let [(_, points)] = curves.as_slice() else { return None };
@@ -153,14 +153,14 @@ fn efficiency(sheet: &DataSheet) -> Option<Span> {
     }
 }
 
-/// Linear between two points.
+/// Interpolates linearly between two points.
 fn between(a: [f64; 2], b: [f64; 2], nm: f64, share: impl Fn(f64) -> Span) -> Option<Span> {
     let t = (nm - a[0]) / (b[0] - a[0]);
     let (a, b) = (share(a[1]), share(b[1]));
     (0.0..=1.0).contains(&t).then(|| a.with(b, |a, b| a + t * (b - a)))
 }
 
-/// The saturation capacity must have a digital number.
+/// Checks that the saturation capacity has a digital number.
 fn converter(sheet: &DataSheet, capacity_dn: Span, found: &mut Found) {
     let black = sheet.black_level_dn.as_ref().map_or(0.0, |black| black.value);
     let (largest, bits) = (largest_dn(sheet), sheet.bits.value);
@@ -185,17 +185,17 @@ fn converter(sheet: &DataSheet, capacity_dn: Span, found: &mut Found) {
     }
 }
 
-/// Relative difference (of amplitudes) up to which figures of a data sheet are told to differ and are taken.
+/// Relative difference (of amplitudes) up to which contradicting figures of a data sheet only give a warning.
 pub const LOOSE: f64 = 0.05;
 
-/// The figures that a camera is made of.
+/// Figures from which a camera is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Figures {
     /// K, DN/e⁻.
     pub(super) gain_dn_e: f64,
     /// σ_d, e⁻, without quantisation.
     pub(super) dark_noise_e: f64,
-    /// Digital number of no signal.
+    /// Black level, DN.
     pub(super) black_level_dn: f64,
 }
 

@@ -2,7 +2,7 @@
 
 use etendue_core::maths::f64::pow;
 
-/// Numbers that would be printed alike, and the printed one.
+/// Range of numbers with the same printed value, and that value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub(super) low: f64,
@@ -11,7 +11,7 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// What prints as `value`: half a unit of its last digit to both sides.
+    /// Range of the numbers that print as `value`: half a unit of its last digit to both sides.
     pub(super) fn printed(value: f64) -> Self {
         let text = format!("{value}");
         let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
@@ -19,17 +19,17 @@ impl Span {
         Self { low: (value - half).max(0.0), printed: value, high: value + half }
     }
 
-    /// Through a function that rises.
+    /// Maps the range by an increasing function.
     pub(super) fn rising(self, f: impl Fn(f64) -> f64) -> Self {
         Self { low: f(self.low), printed: f(self.printed), high: f(self.high) }
     }
 
-    /// Through a function that falls.
+    /// Maps the range by a decreasing function.
     pub(super) fn falling(self, f: impl Fn(f64) -> f64) -> Self {
         Self { low: f(self.high), printed: f(self.printed), high: f(self.low) }
     }
 
-    /// With another, through a function that rises with both.
+    /// Combines two ranges by a function that increases in both.
     pub(super) fn with(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         Self { low: f(self.low, other.low), printed: f(self.printed, other.printed), high: f(self.high, other.high) }
     }
@@ -42,7 +42,7 @@ impl Span {
         self.times(other.falling(|x| 1.0 / x))
     }
 
-    /// Whether both hold a number in common. Rounding of the bounds is no contradiction.
+    /// Returns true if both ranges have a number in common. Rounding of the bounds is no contradiction.
     pub(super) fn meets(self, other: Self) -> bool {
         let slack = 1e-9 * self.high.abs().max(other.high.abs());
         self.low <= other.high + slack && other.low <= self.high + slack

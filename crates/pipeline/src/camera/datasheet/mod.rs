@@ -1,10 +1,10 @@
-//! From an EMVA 1288 data sheet to a camera file.
+//! Converts an EMVA 1288 data sheet to a camera file.
 //!
-//! A data sheet's figures follow from each other (`etendue_sensor::figures`), so it can be read wrongly only in ways that show: K·1/K = 1,
-//! SNR_max² = μ_e.sat, DR = μ_e.sat/μ_e.min, μ_e.min from σ_d and K, photons times efficiency are electrons, and the saturation
-//! capacity has a digital number. Each pair is compared with the tolerance of its digits: half a unit of the last one, of the figure
-//! and of all that it is computed from (zeros at the end do not count as digits). Data sheets mix means of several specimens, so
-//! what differs by more but by at most [`LOOSE`] is told and taken; beyond, the sheet contradicts itself and is refused.
+//! A data sheet's figures follow from each other (`etendue_sensor::figures`), so that reading errors become visible: K·1/K = 1, SNR_max² = μ_e.sat, DR =
+//! μ_e.sat/μ_e.min, μ_e.min from σ_d and K, photons times efficiency are electrons, and the saturation capacity has a digital number. Each pair is compared
+//! with the tolerance of its digits: half a unit of the last one, of the figure and of all figures from which it is computed (trailing zeros do not count as
+//! digits). Data sheets mix means of several units of a camera. A larger difference of up to [`LOOSE`] is therefore accepted with a warning; beyond it, the
+//! sheet contradicts itself and is refused.
 
 mod consistency;
 mod digits;
@@ -17,18 +17,18 @@ use etendue_scene::record::DataSheet;
 use etendue_scene::{ErrorCode, Fault};
 use etendue_sensor::figures::{MIN_DARK_DN2, dark_noise_e};
 
-/// A camera file made of a data sheet.
+/// A camera file made from a data sheet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Imported {
     /// The camera file, TOML.
     pub camera: String,
-    /// The tables that it names: file name and text.
+    /// The tables that it names: file name and text of each.
     pub tables: Vec<(String, String)>,
-    /// What is doubtful or left out.
+    /// Doubtful or omitted figures.
     pub warnings: Vec<String>,
 }
 
-/// The camera file of a data sheet; the names of its tables begin with `stem`.
+/// Camera file of a data sheet; the names of its tables begin with `stem`.
 ///
 /// # Errors
 /// All contradictions, with their places.
@@ -45,7 +45,7 @@ pub fn imported(sheet: &DataSheet, stem: &str) -> Result<Imported, Vec<Fault>> {
     Ok(Imported { camera: write::camera(sheet, figures, stem), tables, warnings })
 }
 
-/// K; where its inverse is stated too, the direct one is taken.
+/// K; if its inverse is stated too, K itself is used.
 fn gain(sheet: &DataSheet) -> f64 {
     let inverse = sheet.inverse_gain_e_per_dn.as_ref().map(|k| 1.0 / k.value);
     sheet.gain_dn_per_e.as_ref().map(|k| k.value).or(inverse).expect("a record that was read has one")
@@ -68,7 +68,7 @@ fn noise(sheet: &DataSheet, gain_dn_e: f64) -> Result<f64, Fault> {
     })
 }
 
-/// As stated; else five deviations of the dark noise, as far as the converter holds the saturation capacity above it.
+/// Black level as stated; otherwise five standard deviations of the dark noise, if the ADC can hold the saturation capacity above it.
 fn black_level(sheet: &DataSheet, gain_dn_e: f64, noise_e: f64) -> f64 {
     if let Some(level) = &sheet.black_level_dn {
         return level.value;
@@ -77,7 +77,7 @@ fn black_level(sheet: &DataSheet, gain_dn_e: f64, noise_e: f64) -> f64 {
     (5.0 * gain_dn_e * noise_e + 1.0).ceil().min(room.floor()).max(0.0)
 }
 
-/// What the sheet leaves open, or the camera leaves out.
+/// Figures that the sheet does not state, or that the camera omits.
 fn remarks(sheet: &DataSheet) -> Vec<String> {
     let mut remarks = Vec::new();
     let missing = [

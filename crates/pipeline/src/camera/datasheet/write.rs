@@ -17,7 +17,7 @@ pub(super) fn camera(sheet: &DataSheet, figures: Figures, stem: &str) -> String 
     let name = &sheet.camera.value;
     let head =
         format!("{name}, from its EMVA 1288 data sheet by `etendue datasheet`. \"Stated\" is what the sheet says.");
-    // A comment of several lines would be none of the name's.
+    // A comment of several lines would not belong to the name.
     let file = File::new(Camera::new(lens, sensor).to_table()).head(head.replace('\n', " "));
     let file = origins(sheet).into_iter().fold(file, |file, (key, about)| file.above(key, about));
     match &sheet.linearity_error_percent {
@@ -45,7 +45,7 @@ fn electronics(sheet: &DataSheet, figures: Figures, stem: &str) -> Electronics {
     Electronics { dark_current_e_s, non_uniformity: pattern(sheet), dark: dark(sheet), ..needed }
 }
 
-/// What each number rests on, by its key.
+/// Source of each number, by its key.
 fn origins(sheet: &DataSheet) -> [(&'static str, &'static str); 10] {
     let stated = |is_stated: bool, otherwise: &'static str| if is_stated { "Stated." } else { otherwise };
     let noise = match sheet.temporal_dark_noise_e {
@@ -92,12 +92,12 @@ fn dark(sheet: &DataSheet) -> Option<Dark> {
     })
 }
 
-/// A percentage as a share, without the noise of a division.
+/// A percentage as a fraction, without the rounding error of a division.
 fn share(percent: f64) -> f64 {
     (percent * 1e9).round() / 1e11
 }
 
-/// One number, or a table, of each channel.
+/// One number, or a table, for each channel.
 fn efficiency(sheet: &DataSheet, stem: &str) -> QuantumEfficiency {
     let value = |channel: &str, points: &Points| match points.as_slice() {
         [only] => Curve::Constant(share(only.value[1]).into()),
@@ -116,7 +116,7 @@ fn table_name(stem: &str, channel: &str) -> String {
     format!("{stem}-{channel}.csv")
 }
 
-/// The curves of several points.
+/// The curves with several points.
 pub(super) fn tables(sheet: &DataSheet, stem: &str) -> Vec<(String, String)> {
     let curves = sheet.quantum_efficiency_percent.curves();
     let table = |(channel, points): &(&str, &Points)| {

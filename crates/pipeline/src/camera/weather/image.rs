@@ -15,26 +15,26 @@ pub(super) struct Image<'a> {
 }
 
 impl Image<'_> {
-    /// Where a pixel looks, in the camera's frame.
+    /// Direction of a pixel's ray, in the camera's frame.
     pub(super) fn direction(&self, i: usize) -> Option<DVec3> {
         let (x, y) = (i % self.distance.width(), i / self.distance.width());
         self.direction_at(DVec2::new(x as f64 + 0.5, y as f64 + 0.5))
     }
 
-    /// Where a point of the image looks, in the camera's frame.
+    /// Direction of an image point, in the camera's frame.
     pub(super) fn direction_at(&self, px: DVec2) -> Option<DVec3> {
         self.stored.projection.direction(px)
     }
 
-    /// The pixel that shows a direction of the camera's frame.
+    /// Pixel that contains a direction of the camera's frame.
     pub(super) fn pixel(&self, direction: DVec3) -> Option<usize> {
         let view = self.stored.projection.view(direction)?;
         let px = view.px(direction).filter(|px| view.holds(*px))?;
         Some(px.y as usize * self.distance.width() + px.x as usize)
     }
 
-    /// The pixel that shows a point (m from the camera, along the world's axes), and how many pixels a square metre there covers that stands
-    /// across the line of sight to a place `away_m` from the camera.
+    /// Pixel that contains a point (m from the camera, along the world's axes), and the number of pixels covered by a square metre there that is
+    /// perpendicular to the line of sight to a position `away_m` from the camera.
     pub(super) fn pixel_and_area(&self, point_m: DVec3, away_m: f64) -> Option<(usize, f64)> {
         let direction = self.pose.rotation.transpose() * point_m;
         let ahead_m = self.stored.projection.view(direction)?.face().axes()[2].dot(direction);
@@ -44,7 +44,7 @@ impl Image<'_> {
         self.pixel(direction).map(|pixel| (pixel, area_px))
     }
 
-    /// Solid angle of a pixel, sr, but for a factor that all have.
+    /// Solid angle of a pixel, sr, up to a factor that all pixels share.
     pub(super) fn solid_angle(&self, i: usize) -> f64 {
         let Some(direction) = self.direction(i) else { return 0.0 };
         let Some(view) = self.stored.projection.view(direction) else { return 0.0 };
@@ -52,7 +52,7 @@ impl Image<'_> {
         cos * cos * cos
     }
 
-    /// From the camera to what a pixel sees; of no length where there is no ray.
+    /// Ray from the camera to the surface that a pixel sees; of zero length without a ray.
     pub(super) fn ray(&self, i: usize) -> Ray {
         let (direction, distance) = (self.direction(i), self.distance.samples()[i]);
         let towards = self.pose.rotation * direction.unwrap_or(DVec3::Z);
@@ -61,7 +61,7 @@ impl Image<'_> {
         ray
     }
 
-    /// Pixels that show the sky up to a height, rad.
+    /// Pixels that show the sky up to an elevation, rad.
     pub(super) fn sky(&self, elevation_rad: f64) -> Vec<usize> {
         let shows = |i: &usize| {
             self.distance.samples()[*i] == f32::INFINITY

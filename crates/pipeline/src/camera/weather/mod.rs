@@ -1,10 +1,11 @@
-//! Weather laid over a stored radiance image.
+//! Weather applied to a stored radiance image.
 //!
-//! - Here: fog and far precipitation, L = L₀ T + L_air (1 − T), T = exp(−∫β dt) (Koschmieder 1924). Right where the air is lit evenly from all
-//!   around, and otherwise as far as one airlight stands for it. Left out: cones of lamps, haloes, shadows in the fog, and that the scene's own
-//!   light is dimmed by it.
-//! - `streaks`: near drops and flakes, those of the traced form, as shares of pixels that they cover during an exposure.
-//! - `shown_light`: what a drop or flake shows, of what the image shows.
+//! - Here: fog and far precipitation, L = L₀ T + L_air (1 − T), T = exp(−∫β dt) (Koschmieder 1924). Exact if the air is lit uniformly from all
+//!   sides, otherwise as far as one airlight represents it. Not included: light cones of lamps, haloes, shadows in the fog, and the dimming of the scene's
+//!   own
+//!   illumination by the fog.
+//! - `streaks`: near drops and flakes, the same as in traced weather, as fractions of pixels that they cover during an exposure.
+//! - `shown_light`: radiance of a drop or flake, from the radiance in the image.
 //! - `image`: pixels as rays of the world.
 
 mod image;
@@ -24,42 +25,42 @@ use etendue_tracer::media::Media;
 use image::Image;
 use rayon::prelude::*;
 
-/// An image with weather before it.
+/// An image seen through weather.
 #[derive(Clone, Debug)]
 pub struct Weathered {
-    /// What is seen.
+    /// Radiance seen through the weather.
     pub radiance: SpectralCube<Radiance>,
-    /// The share of the scene's light that comes through, by band.
+    /// Fraction of the scene's light that is transmitted, by band.
     pub transmittance: SpectralCube<Transmittance>,
-    /// What the weather adds.
+    /// Radiance that the weather adds.
     pub airlight: SpectralCube<Radiance>,
-    /// The share of each pixel and of the exposure that near drops or flakes cover; `None` where nothing falls.
+    /// Fraction of each pixel and of the exposure that near drops or flakes cover; `None` without precipitation.
     pub cover: Option<Plane<Cover>>,
-    /// Distance of the scene along the axis, m; +∞ the sky, NaN no ray.
+    /// Distance of the scene along the axis, m; +∞ for the sky, NaN without a ray.
     pub depth: Plane<Length>,
 }
 
-/// Why weather cannot be laid over an image.
+/// Reasons for which weather cannot be applied to an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WeatherError {
-    /// No distances.
+    /// The image has no distances.
     #[error("it has no distances (channel distance.Z), by which weather is laid over it; render it anew")]
     Distance,
-    /// No sky.
+    /// The image has no sky.
     #[error(
         "no pixel shows the sky between the horizon and {elevation_deg}° above it; give an airlight of type \"uniform\""
     )]
     Sky {
-        /// The height, rounded.
+        /// Elevation, rounded.
         elevation_deg: u32,
     },
 }
 
 impl Weather {
-    /// Lays the weather over an image that a camera at `pose` took at a moment.
+    /// Applies the weather to an image of a camera at `pose` at a time.
     ///
     /// # Errors
-    /// Where the image has no distances, or none of the sky that the airlight is to be taken from.
+    /// The image has no distances, or none of the sky from which the airlight is to be computed.
     pub fn over(
         &self,
         stored: &Stored<'_>,
@@ -78,7 +79,7 @@ impl Weather {
         Ok(seen)
     }
 
-    /// Koschmieder's law.
+    /// Applies Koschmieder's law.
     fn through_media(&self, image: &Image<'_>, media: &Media<'_>, airlight: &[f64]) -> Weathered {
         let (distance, bands) = (image.distance, image.stored.radiance.bands());
         let before = self.before(media, airlight, bands);
@@ -109,7 +110,7 @@ impl Weather {
         Before { media, extinctions, airlight }
     }
 
-    /// By band.
+    /// Airlight by band.
     fn airlight(&self, image: &Image<'_>) -> Result<Vec<f64>, WeatherError> {
         let radiance = image.stored.radiance;
         match &self.airlight {
@@ -128,19 +129,19 @@ impl Weather {
     }
 }
 
-/// What lies before something that is seen: media, and the radiance of the air in them.
+/// Weather before a surface: media, and the radiance of the air in them.
 struct Before<'a> {
     media: &'a Media<'a>,
-    /// By medium and band, 1/m.
+    /// Extinction by medium and band, 1/m.
     extinctions: Vec<Vec<f64>>,
-    /// By band.
+    /// Radiance by band.
     airlight: &'a [f64],
 }
 
 impl Before<'_> {
-    /// The share of a band's light that comes through lengths of each medium, m.
+    /// Transmittance in a band over path lengths in each medium, m.
     fn transmittance(&self, columns_m: &[f64], band: usize) -> f64 {
-        // No fog, no depth, however far.
+        // Zero extinction gives zero depth, even over an infinite length.
         let terms = self.extinctions.iter().zip(columns_m).map(|(of, column_m)| (of[band], *column_m));
         exp(-terms.filter(|(of, _)| *of > 0.0).map(|(of, column_m)| of * column_m).sum::<f64>())
     }

@@ -1,8 +1,8 @@
-//! What a drop or flake shows: the mean of the world about it by its phase function.
+//! Radiance of a drop or flake: the mean of the surrounding world weighted by its phase function.
 //!
-//! Rays to a drop go on by how it scatters light in the mean over its disc (of a falling drop a field of 165°, Garg and Nayar, "Vision and
-//! rain", IJCV 75, 2007): to pixels of the image where it shows what is there, else to the mean of its sky or of what it shows below the horizon.
-//! The drop stands at the camera: what is near is seen from there.
+//! Rays to a drop continue by its mean scattering over its disc (for a falling drop a field of 165°, Garg and Nayar, "Vision and rain", IJCV 75, 2007). They
+//! reach pixels of the image if it contains their direction, otherwise the mean of its sky or of its part below the horizon. The drop is assumed to be at the
+//! camera: near objects are seen from there.
 
 use super::image::Image;
 use etendue_core::Wavelengths;
@@ -11,16 +11,16 @@ use etendue_tracer::media::Phase;
 use glam::{DVec2, DVec3, Vec2};
 use rayon::prelude::*;
 
-/// Cells along the image's longer side, within which particles show the same.
+/// Cells along the image's longer side; particles within a cell have the same radiance.
 const CELLS: usize = 32;
 
-/// Directions that a cell's mean is taken over.
+/// Number of directions for a cell's mean.
 const DIRECTIONS: u32 = 1024;
 
-/// Of a turn, by which azimuths follow each other: the golden ratio's.
+/// Step between azimuths as a fraction of a full turn: the golden ratio's.
 const TURN: f32 = 0.618_034;
 
-/// What drops or flakes show, by the pixel that they stand before.
+/// Radiance of drops or flakes, by the pixel that they are in front of.
 pub(super) struct ShownLight {
     cell_px: usize,
     columns: usize,
@@ -29,7 +29,7 @@ pub(super) struct ShownLight {
     cells: Vec<Vec<f64>>,
 }
 
-/// Where a ray goes on to.
+/// Target of a continued ray.
 #[derive(Clone, Copy)]
 enum Onward {
     Pixel(usize),
@@ -38,7 +38,7 @@ enum Onward {
 }
 
 impl ShownLight {
-    /// Of an image with `airlight` by band where its sky is not seen.
+    /// For an image, with `airlight` by band where its sky is not visible.
     pub(super) fn new(image: &Image<'_>, phase: &Phase, airlight: &[f64]) -> Self {
         let (width, height) = (image.distance.width(), image.distance.height());
         let cell_px = width.max(height).div_ceil(CELLS);
@@ -53,18 +53,18 @@ impl ShownLight {
         Self { cell_px, columns, width, cells: (0..columns * rows).into_par_iter().map(cell).collect() }
     }
 
-    /// By band, before a pixel.
+    /// Radiance by band, in front of a pixel.
     pub(super) fn before(&self, pixel: usize) -> &[f64] {
         let (x, y) = (pixel % self.width / self.cell_px, pixel / self.width / self.cell_px);
         &self.cells[y * self.columns + x]
     }
 }
 
-/// Means of what the image shows, by band.
+/// Means of the radiance in the image, by band.
 struct About {
-    /// Of its sky.
+    /// Mean of the sky.
     above: Vec<f64>,
-    /// Below the horizon.
+    /// Mean below the horizon.
     below: Vec<f64>,
 }
 
@@ -91,7 +91,7 @@ impl About {
         Self { above, below }
     }
 
-    /// By band, of a particle that is seen along a direction of the camera's frame.
+    /// Radiance by band of a particle that is seen along a direction of the camera's frame.
     fn mean(&self, image: &Image<'_>, phase: &Phase, direction: DVec3) -> Vec<f64> {
         let rotation = image.pose.rotation;
         let along = (rotation * direction).as_vec3();

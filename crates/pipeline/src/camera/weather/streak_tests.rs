@@ -1,4 +1,4 @@
-//! Streaks over images of even walls, against closed forms and laws.
+//! Streaks over images of uniform walls, compared with closed forms and laws.
 
 use super::*;
 use crate::plan::{Falling, Precipitation};
@@ -14,7 +14,7 @@ use rayon::ThreadPoolBuilder;
 const SIZE: [usize; 2] = [120, 80];
 const PITCH: f64 = 3e-3;
 
-/// What a camera sees that looks along +x of the world.
+/// View of a camera that looks along +x of the world.
 struct Wall {
     projection: PupilProjection,
     radiance: SpectralCube<Radiance>,
@@ -23,7 +23,7 @@ struct Wall {
 }
 
 impl Wall {
-    /// Of a radiance, at a distance, m, by the pixel.
+    /// Wall with a radiance and a distance, m, by pixel.
     fn new(radiance: impl Fn(usize) -> f32, distance_m: impl Fn(usize) -> f32) -> Self {
         let [width, height] = SIZE;
         let bands = Bands::new(500.0, 100.0, 1).expect("bands");
@@ -60,7 +60,7 @@ fn precipitation(law: SizeLaw, seed: u32, smallest_px: f64) -> Precipitation {
 }
 
 fn weather(precipitation: Precipitation, exposure_s: f64, airlight: f64) -> Weather {
-    // Of even phase, so that the table of drops need not be made.
+    // With a uniform phase function, so that the table of drops need not be computed.
     let (extinction, albedo) = (Spectrum::constant(precipitation.field.extinction_per_m()), Spectrum::constant(1.0));
     let medium =
         Medium::new(extinction, albedo, Phase::Isotropic, Shape::Everywhere, Motion::still(DAffine3::IDENTITY));
@@ -85,8 +85,8 @@ fn moments(values: &[f64]) -> [f64; 2] {
     [mean, (square / (values.len() as f64 - 1.0)).sqrt()]
 }
 
-/// What near drops or flakes leave of a pixel is exp(−τ) in the mean, τ the sum over classes of extinction times the way on which each is drawn
-/// one by one: by nine fields, within four standard errors of them, which are below 3 %.
+/// Mean transmittance of near drops or flakes is exp(−τ), τ the sum over classes of extinction times the path on which each is modelled individually: over
+/// nine fields, within four standard errors of them, which are below 3 %.
 #[test]
 fn near_drops_and_flakes_take_what_their_cross_sections_say() {
     let laws = [
@@ -113,7 +113,7 @@ fn near_drops_and_flakes_take_what_their_cross_sections_say() {
     }
 }
 
-/// Garg and Nayar ("Vision and rain", IJCV 75, 2007), of the picture itself.
+/// Garg and Nayar ("Vision and rain", IJCV 75, 2007), measured on the image itself.
 #[test]
 fn rain_shows_less_by_the_root_of_the_exposure() {
     let wall = Wall::even(1.0);
@@ -166,15 +166,15 @@ fn threads_do_not_change_streaks() {
 fn in_even_light_rain_is_not_seen() {
     let wall = Wall::even(5.0);
     let seen = wall.seen(&rain(1, 0.01));
-    // Sums of some tens of f32.
+    // Sums of a few dozen f32.
     seen.radiance.planes()[0].samples().iter().for_each(|radiance| assert!((radiance - 5.0).abs() < 1e-5));
-    // What the weather adds and what it leaves are together what is seen.
+    // Added and transmitted light together are the visible light.
     let parts = seen.airlight.planes()[0].samples().iter().zip(seen.transmittance.planes()[0].samples());
     parts.for_each(|(added, share)| assert!((added + 5.0 * share - 5.0).abs() < 1e-5));
 }
 
-/// Under a sky of 1 over a black ground a drop before the horizon shows one half: its field is as far above as below. A tenth of a per cent of
-/// the sphere for each of 1 024 directions, and the band of what an image of 20° shows.
+/// Under a sky of 1 over a black ground a drop before the horizon shows one half: its field is symmetric above and below. The uncertainty is a tenth of a per
+/// cent of the sphere for each of 1 024 directions, and the band of an image of 20°.
 #[test]
 fn a_drop_shows_the_mean_of_its_field() {
     let is_sky = |i: usize| i / SIZE[0] < SIZE[1] / 2;

@@ -1,10 +1,10 @@
-//! Near drops and flakes over a stored image: the share of each pixel and of the exposure that each covers.
+//! Near drops and flakes over a stored image: the fraction of each pixel and of the exposure that each covers.
 //!
-//! The drops are those that the traced form has for a camera with the image's view. Each one's silhouette, an ellipse, is swept along its way by
-//! points that stand for equal parts of its area and of the exposure: spread evenly (Hammersley's points with Roberts' additive
-//! recurrence), so that edges are smooth and the area that is covered is exact in the mean. A point counts where it is nearer than what the pixel shows.
+//! The drops are those of traced weather for a camera with the image's view. The silhouette of each, an ellipse, is swept along its path by points that
+//! represent equal parts of its area and of the exposure. They are evenly distributed (Hammersley's points with Roberts' additive recurrence), so that edges
+//! are smooth and the covered area is exact in the mean. A point counts if it is nearer than the surface in its pixel.
 //!
-//! Left out: the camera's own motion (one pose stands for the exposure), and rows that are read in turn.
+//! Not included: the camera's own motion (one pose represents the exposure), and rolling shutters.
 
 use super::image::Image;
 use super::shown_light::ShownLight;
@@ -21,37 +21,37 @@ use etendue_tracer::precipitation::ChangeOver;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// Points for each pixel that a silhouette passes over.
+/// Number of points per pixel that a silhouette crosses.
 const DENSITY: f64 = 24.0;
 
-/// Points of one particle, at least and at most.
+/// Minimum and maximum number of points of one particle.
 const POINTS: [f64; 2] = [64.0, 4.0e6];
 
 /// Roberts' recurrence in two dimensions: the powers of the inverse of the plastic number.
 const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
-/// Particles that are composed together, to bound memory.
+/// Number of particles composed together, to limit memory.
 const TOGETHER: usize = 4096;
 
 /// The near particles of an image.
 pub(super) struct Streaks {
-    /// From near to far.
+    /// In order of increasing distance.
     streaks: Vec<Streak>,
     exposure_s: f64,
     hollow: Hollow,
-    /// The place of the medium beyond them.
+    /// Index of the medium beyond them.
     medium: usize,
 }
 
-/// The pixels that a particle covers, and the share of each.
+/// Pixels covered by a particle, with the fraction of each.
 struct Footprint {
     pixels: Vec<(u32, f32)>,
-    /// The radiance that is seen of it, by band.
+    /// Radiance of the particle, by band.
     light: Vec<f64>,
 }
 
 impl Falling {
-    /// The particles before an image, exposed from a time on.
+    /// Particles before an image, exposed from a start time on.
     pub(super) fn streaks(&self, image: &Image<'_>, start_s: f64) -> Streaks {
         let Self { precipitation, exposure_s } = self;
         let interval = TimeInterval::new(start_s, start_s + exposure_s).expect("both are finite");
@@ -71,12 +71,12 @@ impl Falling {
 }
 
 impl Streaks {
-    /// The media without what is drawn one by one.
+    /// Media without the individually modelled particles.
     pub(super) fn hollowed<'a>(&self, media: Media<'a>) -> Media<'a> {
         media.hollowed(self.medium, self.hollow.clone())
     }
 
-    /// Draws the particles before what is seen.
+    /// Composes the particles over the view.
     pub(super) fn compose(&self, seen: &mut Weathered, image: &Image<'_>, before: &Before<'_>) {
         let shown = ShownLight::new(image, before.media.phase(self.medium), before.airlight);
         let count = image.distance.samples().len();
@@ -121,7 +121,7 @@ impl Streaks {
         Footprint { light: before.seen(shown.before(*pixel as usize), &ray), pixels }
     }
 
-    /// The share of each pixel and of the exposure that a particle covers; `scratch` is 0 everywhere, before and after.
+    /// Fraction of each pixel and of the exposure that a particle covers; `scratch` is 0 everywhere, before and after.
     fn pixels(&self, streak: &Streak, image: &Image<'_>, scratch: &mut [f32]) -> Vec<(u32, f32)> {
         let n = self.points(streak, image.stored.projection.pitch_tan());
         let mut touched = vec![];
@@ -142,7 +142,7 @@ impl Streaks {
         touched.into_iter().map(taken).collect()
     }
 
-    /// How many points stand for a particle.
+    /// Number of points that represent a particle.
     fn points(&self, streak: &Streak, pitch: f64) -> u32 {
         let (start, velocity) = (streak.start_m.as_dvec3(), streak.velocity_mps.as_dvec3());
         let nearest_s = (-start.dot(velocity) / velocity.length_squared().max(1e-12)).clamp(0.0, self.exposure_s);
@@ -154,7 +154,7 @@ impl Streaks {
     }
 }
 
-/// Composes footprints, from near to far, over what is there of the light behind them and before.
+/// Composes footprints, from near to far, over the light behind and before them.
 fn compose(footprints: &[Footprint], through: &mut [f32], added: &mut [Vec<f32>]) {
     let mut weights = Vec::with_capacity(footprints.iter().map(|of| of.pixels.len()).sum());
     for (pixel, cover) in footprints.iter().flat_map(|of| &of.pixels) {
@@ -171,7 +171,7 @@ fn compose(footprints: &[Footprint], through: &mut [f32], added: &mut [Vec<f32>]
     });
 }
 
-/// A spheroid as seen from the camera: an ellipse across the line of sight.
+/// A spheroid seen from the camera: an ellipse perpendicular to the line of sight.
 struct Silhouette {
     /// Distance of its centre, m.
     away_m: f64,
@@ -181,7 +181,7 @@ struct Silhouette {
 }
 
 impl Silhouette {
-    /// That at a time of the exposure; `None` where the particle is not modelled there, or the camera is within it.
+    /// Silhouette at a time of the exposure; `None` if the particle is not modelled there, or contains the camera.
     fn new(streak: &Streak, time_s: f64) -> Option<Self> {
         let centre_m = streak.centre(time_s as f32).as_dvec3();
         let away_m = centre_m.length();
@@ -203,7 +203,7 @@ impl Silhouette {
         PI * self.half_m[0].length() * self.half_m[1].length()
     }
 
-    /// A point of the ellipse, even in area by two numbers in [0, 1), from the camera, m.
+    /// A point of the ellipse, uniform in area for two numbers in [0, 1), from the camera, m.
     fn point(&self, [u, turn]: [f64; 2]) -> DVec3 {
         let (sin, cos) = sin_cos(TAU * turn);
         self.centre_m + (self.half_m[0] * cos + self.half_m[1] * sin) * u.sqrt()

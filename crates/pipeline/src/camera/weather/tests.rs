@@ -1,4 +1,4 @@
-//! Weather over images of few pixels, against closed forms.
+//! Weather over images of few pixels, compared with closed forms.
 
 use super::*;
 use etendue_core::{Bands, Motion};
@@ -8,7 +8,7 @@ use etendue_tracer::media::{Medium, Noise, Phase, Shape, Unevenness};
 use glam::{DAffine3, DMat3};
 use glam::{DVec2, DVec3};
 
-/// Four pixels 45° wide in all, the axis along +x of the world: of the upper row one sees the sky.
+/// Four pixels with a field of 45° in all, the axis along +x of the world: one of the upper row sees the sky.
 fn seen(fog: Medium, airlight: Airlight) -> Result<Weathered, WeatherError> {
     let bands = Bands::new(400.0, 100.0, 2).expect("bands");
     let projection = PupilProjection::rectilinear(2, 2, 0.4, DVec2::ONE).expect("a view");
@@ -53,7 +53,7 @@ fn the_law_of_koschmieder() {
     agrees(of(&everywhere, 1), [2.0 * through + 4.0 * (1.0 - through), through, 4.0 * (1.0 - through)]);
     agrees(of(&everywhere, 0), [4.0, 0.0, 4.0]);
     agrees(of(&everywhere, 3), [0.0, 1.0, 0.0]);
-    // Half inside a box: 7 m of it before the camera, along x; a pixel's ray is aslant by tan 0.2 twice.
+    // Half inside a box: 7 m of it before the camera, along x; a pixel's ray is inclined by tan 0.2 twice.
     let within = seen(fog(0.1, Shape::Box { half_m: DVec3::splat(10.0) }), uniform).expect("fog");
     let through = exp(-0.1 * 7.0 * 1.08_f64.sqrt());
     agrees(of(&within, 1), [2.0 * through + 4.0 * (1.0 - through), through, 4.0 * (1.0 - through)]);
@@ -73,7 +73,7 @@ fn the_sky_gives_the_airlight() {
     );
 }
 
-/// Over 50 m of 3 m eddies the mean density is near 1, and where noise is summed it is the same as by finer steps.
+/// Over 50 m of 3 m eddies the mean density is near 1; the sum along the ray agrees with one in finer steps.
 #[test]
 fn noise_is_summed_along_the_ray() {
     let noise = Noise { scale_m: 3.0, octaves: 3, gain: 0.5, seed: 5 };

@@ -1,4 +1,4 @@
-//! A camera known by where its pixels look.
+//! A camera defined by the directions of its pixels.
 
 use super::super::context::{Context, ErrorCode};
 use super::super::scale::{divisor, full_raster};
@@ -12,7 +12,7 @@ use etendue_scene::record::Sensor;
 use etendue_scene::record::lens::calibrated::{Calibrated, IlluminationSource, Pupil, RelativeIllumination, View};
 use etendue_scene::record::lens::projection::CalibrationFile;
 
-/// The lens, and the pixel grid about the calibration's principal point.
+/// Lens, and the raster around the calibration's principal point.
 pub(super) fn lens(
     record: &Calibrated,
     sensor: &Sensor,
@@ -76,7 +76,7 @@ fn parameters(
     }
 }
 
-/// The table, or that of its file, with what was made of it remarked.
+/// The table, or that of its file, with notes on the conversion.
 fn falloff(table: &RelativeIllumination, context: &mut Context<'_>) -> Option<Falloff> {
     let (place, made) = match &table.source {
         IlluminationSource::Radii(radii) => {
@@ -96,7 +96,7 @@ fn falloff(table: &RelativeIllumination, context: &mut Context<'_>) -> Option<Fa
     context.accept(place, made)
 }
 
-/// The camera of a calibration file, with what of the file was passed over remarked.
+/// Camera of a calibration file, with notes on the parts of the file that are ignored.
 fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibration> {
     let assets = context.assets;
     let Some(asset) = assets.calibrations.get(&(file.file.value.clone(), file.camera_in_file())) else {
@@ -114,7 +114,7 @@ fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibra
     Some(asset.calibration.clone())
 }
 
-/// Refuses a calibration of another image size, both sizes as the sensor and the file state them.
+/// Refuses a calibration of another image size; the sensor's and the file's sizes are reported as stated.
 fn check_size(calibration: &Calibration, full: &Raster) -> Result<(), OpticsError> {
     let [width, height] = calibration.size_px();
     let (got_width, got_height) = (full.width(), full.height());
@@ -124,10 +124,11 @@ fn check_size(calibration: &Calibration, full: &Raster) -> Result<(), OpticsErro
     }
 }
 
-/// How far from the middle of the image, of its width or height, a principal point is taken for that of another image size.
+/// Distance of a principal point from the centre of the image, as a fraction of its width or height, above which the calibration is assumed to be for another
+/// image size.
 const FAR_SHARE: f64 = 0.25;
 
-/// Warns of a principal point outside the image, or far from its middle, as of a calibration of another resolution.
+/// Warns of a principal point outside the image, or far from its centre, as with a calibration of another resolution.
 fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut Context<'_>) {
     let size = glam::DVec2::new(raster.width() as f64, raster.height() as f64);
     let principal = raster.principal_px();
@@ -146,7 +147,7 @@ fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut C
     }
 }
 
-/// A calibration has a principal point of its own.
+/// Refuses a second principal point: a calibration has its own.
 fn one_principal_point(record: &Calibrated, sensor: &Sensor, context: &mut Context<'_>) -> Option<()> {
     let Some(stated) = &sensor.principal_point_px else { return Some(()) };
     let by: Option<&Place> = match &record.view {

@@ -1,4 +1,4 @@
-//! Clear semi-apertures that a lens program's file leaves to be found: as large as the light of its field points needs.
+//! Clear semi-apertures that a lens file does not state: as large as the light of its field points needs.
 
 use super::lens_file::of_file;
 use super::lens_file::{Stated, narrow_beside, reference_nm};
@@ -10,16 +10,16 @@ use etendue_spectra::glass::{GlassError, LINE_D_NM};
 
 const M: f64 = 1e3;
 
-/// The semi-apertures of all surfaces, and what is to be said of them.
+/// Semi-apertures of all surfaces, and a note on them.
 pub(super) struct Found {
     pub(super) semi_apertures_mm: Vec<f64>,
     pub(super) told: String,
 }
 
-/// Semi-apertures by chief and marginal rays, in place of those that the file does not state.
+/// Semi-apertures from chief and marginal rays, for surfaces without a stated one.
 ///
 /// # Errors
-/// Why they cannot be found, to follow "the file gives none, and".
+/// They cannot be found: the reason, to follow "the file gives none, and".
 pub(super) fn found(asset: &PrescriptionAsset) -> Result<Found, String> {
     let fields = asset.fields.as_ref().ok_or("no fields (YAN, YOB, YIM) from which they could be found")?;
     let own_mm = asset.surfaces.iter().find(|s| s.stop).and_then(|s| s.semi_aperture_mm);
@@ -46,7 +46,7 @@ fn told(asset: &PrescriptionAsset, semi_apertures_mm: &[f64]) -> String {
     )
 }
 
-/// A fault of the surfaces, or of the aperture with the file's line that states it.
+/// An error of the surfaces, or of the aperture with the line of the file that states it.
 fn of_line(asset: &PrescriptionAsset, error: &Fault) -> String {
     match error {
         Fault::Lens(cone @ PrescriptionError::Cone { .. }) => format!("{cone} (line {})", asset.opening_line),
@@ -64,13 +64,13 @@ fn lost(bundle: usize) -> String {
     }
 }
 
-/// The lens while its clear apertures are not known.
+/// The lens before its clear apertures are known.
 struct Provisional {
     stated: Stated,
     prescription: Prescription,
 }
 
-/// Why there is none.
+/// Reasons for which there is none.
 enum Fault {
     Lens(PrescriptionError),
     Glass(GlassError),
@@ -94,13 +94,13 @@ fn provisional(asset: &PrescriptionAsset) -> Result<Provisional, Fault> {
     Ok(Provisional { stated, prescription })
 }
 
-/// The bundle of the axis and those of the file's fields.
+/// Ray bundles of the axis and of the file's fields.
 fn bundles(asset: &PrescriptionAsset, fields: &LensFields, distance_m: f64) -> Result<Vec<FieldBundle>, String> {
     let near = distance_m.is_finite();
     let distance_mm = asset.object_distance_mm;
     let object = |height_mm: f64| FieldPoint::Object { height_mm, distance_mm };
     let points: Vec<FieldPoint> = match fields {
-        // The point of the near object in that direction from the entrance pupil: light that rises comes from below.
+        // The point of the near object in that direction from the entrance pupil: light that travels upwards comes from below.
         LensFields::AnglesDeg(list) if near => list.iter().map(|deg| object(-tangent(*deg) * distance_m * M)).collect(),
         LensFields::AnglesDeg(list) => list.iter().map(|deg| FieldPoint::Angle(deg.to_radians())).collect(),
         LensFields::ObjectMm(list) if near => list.iter().map(|height_mm| object(*height_mm)).collect(),

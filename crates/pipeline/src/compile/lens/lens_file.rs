@@ -1,6 +1,6 @@
-//! What a lens program's file says of its lens beside the surfaces: how far it opens, what is in focus, where the image stands.
+//! Statements of a lens file in addition to the surfaces: its aperture, its object, its image.
 //!
-//! The file governs where the description says nothing. What the description changes, and what the file leaves open, is remarked.
+//! The file applies where the description states nothing. Values that the description changes, and values that the file leaves open, are noted.
 
 use super::super::context::Context;
 use crate::compile::stated::focus_m;
@@ -10,26 +10,26 @@ use etendue_scene::asset::{GlassAsset, LensOpening, PrescriptionAsset, SurfaceAs
 use etendue_scene::record::lens::prescription as record;
 use etendue_spectra::glass::{self, Dispersion, GlassError};
 
-/// How much of its own opening the stop has while first-order quantities are found: nothing else clips then.
+/// Opening of the stop, relative to its own, for the computation of first-order quantities: no other surface then clips.
 const NARROW: f64 = 1e-4;
 const M: f64 = 1e3;
 
-/// The opening, the object and the image of a file, in terms of a [`PrescriptionParameters`].
+/// Aperture, object and image of a file, in terms of a [`PrescriptionParameters`].
 #[derive(Clone, Debug)]
 pub(super) struct Stated {
-    /// The stop for the file's own aperture, mm; `None` where that is the stop's size.
+    /// Stop for the file's own aperture, mm; `None` if that is the stop's size.
     pub(super) stop_mm: Option<f64>,
     /// Distance of the object from the entrance pupil, m.
     pub(super) distance_m: f64,
-    /// How far behind its paraxial image the file's image stands, mm; `None` where the file leaves it to be found.
+    /// Distance of the file's image behind its paraxial image, mm; `None` if the file leaves it open.
     pub(super) defocus_mm: Option<f64>,
 }
 
 impl Stated {
-    /// From the file's numbers and first-order quantities of its surfaces.
+    /// Computes them from the file's numbers and first-order quantities of its surfaces.
     ///
     /// # Errors
-    /// Where the surfaces are no lens.
+    /// The surfaces do not form a lens.
     pub(super) fn of(asset: &PrescriptionAsset, surfaces: &[Surface]) -> Result<Self, PrescriptionError> {
         let narrow = |focus: Focus| narrow_beside(surfaces, focus, 0.0, reference_nm(asset));
         let far = narrow(Focus::Sensor { distance_m: f64::INFINITY })
@@ -40,7 +40,7 @@ impl Stated {
         let near = if distance_m.is_finite() { narrow(Focus::Sensor { distance_m })? } else { far.clone() };
         let image_mm = near.sensor_position_mm() - near.last_vertex_mm();
         let stated = asset.back_focus_mm > 0.0;
-        // An opening at the pupil is an opening at the stop by the pupil's magnification.
+        // An aperture at the pupil corresponds to one at the stop by the pupil's magnification.
         let stop_per_pupil = far.stop_mm() / p.entrance_radius_mm;
         let pupil_mm = match asset.opening {
             None => None,
@@ -48,7 +48,7 @@ impl Stated {
             Some(LensOpening::FNumber { f_number }) => Some(0.5 * p.focal_length_mm / f_number),
             Some(LensOpening::ObjectCone { sine }) => Some(of_cone(sine, distance_m)?),
             Some(LensOpening::ImageCone { sine }) if distance_m.is_infinite() => Some(p.focal_length_mm * sine),
-            // By the sine condition, which lenses for wide cones are made to fulfil.
+            // By the sine condition, which lenses for wide cones are designed to fulfil.
             Some(LensOpening::ImageCone { sine }) => Some(of_cone(near.magnification() * sine, distance_m)?),
         };
         Ok(Self {
@@ -59,7 +59,7 @@ impl Stated {
     }
 }
 
-/// Radius of the entrance pupil that a cone of light from a distance fills, mm.
+/// Radius of the entrance pupil for a cone of light from a distance, mm.
 fn of_cone(sine: f64, distance_m: f64) -> Result<f64, PrescriptionError> {
     if sine < 1.0 && distance_m.is_finite() {
         Ok(sine / (1.0 - sine * sine).sqrt() * distance_m * M)
@@ -68,12 +68,12 @@ fn of_cone(sine: f64, distance_m: f64) -> Result<f64, PrescriptionError> {
     }
 }
 
-/// The wavelength of a file's first-order statements, nm.
+/// Wavelength of a file's first-order statements, nm.
 pub(super) fn reference_nm(asset: &PrescriptionAsset) -> f64 {
     asset.primary_nm.unwrap_or(PRINCIPAL_NM)
 }
 
-/// The lens with its stop nearly closed, its sensor beside the paraxial image.
+/// The lens with its stop nearly closed, and its sensor close to the paraxial image.
 pub(super) fn narrow_beside(
     surfaces: &[Surface],
     focus: Focus,
@@ -92,7 +92,7 @@ pub(super) fn narrow_beside(
     })
 }
 
-/// Remarks what of a file is not as it stands there, and what it leaves open.
+/// Notes differences from a file, and values that it leaves open.
 pub(super) fn remarks(
     record: &record::Prescription,
     asset: &PrescriptionAsset,
@@ -130,7 +130,7 @@ pub(super) fn remarks(
     tell_image(record, asset, stated, lens, &mut tell);
 }
 
-/// Where the sensor stands, if it is not at the paraxial image or not where the file has it.
+/// Notes the position of the sensor if it is not at the paraxial image or not where the file places it.
 fn tell_image(
     record: &record::Prescription,
     asset: &PrescriptionAsset,
@@ -166,7 +166,7 @@ fn tell_image(
 /// A surface of a file.
 ///
 /// # Errors
-/// Where its glass is none.
+/// Its glass is invalid.
 pub(super) fn of_file(surface: &SurfaceAsset, semi_aperture_mm: f64) -> Result<Surface, GlassError> {
     let glass = match &surface.glass {
         GlassAsset::Air => Dispersion::AIR,

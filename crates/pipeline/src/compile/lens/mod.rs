@@ -25,7 +25,7 @@ pub use projection_models::stated_projection;
 
 const UM_PER_MM: f64 = 1000.0;
 
-/// The lens of a camera, checked against its picture, and the pixel grid of its sensor.
+/// Lens of a camera, checked against its image, and the raster of its sensor.
 pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option<(Lens, Raster)> {
     let raster = raster(&camera.sensor, context)?;
     let lens = match &camera.lens {
@@ -49,7 +49,7 @@ pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option
     Some((coloured(lens?, lateral_colour(&camera.lens), context)?, raster))
 }
 
-/// The lateral colour that is laid over a lens.
+/// Lateral colour added to a lens.
 fn lateral_colour(record: &record::Lens) -> Option<&description::LateralColour> {
     match record {
         record::Lens::Pinhole(r) => r.lateral_colour.as_ref(),
@@ -75,7 +75,7 @@ fn telecentric(r: &description::Telecentric, raster: &Raster) -> Result<Lens, Op
     })
 }
 
-/// The pixel grid of a sensor.
+/// Raster of a sensor.
 fn raster(sensor: &record::Sensor, context: &mut Context<'_>) -> Option<Raster> {
     let (width, height) = (sensor.width_px.value as usize, sensor.height_px.value as usize);
     let middle = [width as f64 / 2.0, height as f64 / 2.0];
@@ -84,7 +84,7 @@ fn raster(sensor: &record::Sensor, context: &mut Context<'_>) -> Option<Raster> 
     context.accept(&sensor.place, Raster::new(width, height, pitch_mm, DVec2::from_array(principal)))
 }
 
-/// A pinhole, thin or thick lens; the others have no distortion laid over them.
+/// A pinhole, thin or thick lens; the other kinds have no added distortion.
 fn paraxial(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Lens> {
     let (place, focus, made, distortion) = match record {
         record::Lens::Pinhole(r) => (&r.place, None, pinhole(r), &r.distortion),

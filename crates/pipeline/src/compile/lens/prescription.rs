@@ -20,13 +20,13 @@ use etendue_spectra::glass::{self, Dispersion, GlassError};
 use etendue_spectra::{Outside, Spectrum};
 use std::path::PathBuf;
 
-/// Surfaces, and the file that they come from.
+/// Surfaces, and their source file, if any.
 struct Given<'a> {
     surfaces: Vec<Surface>,
     file: Option<&'a PrescriptionAsset>,
 }
 
-/// The lens for a picture, and for the film about it.
+/// Lens for an image, and for the film around it.
 pub(super) fn lens(
     record: &record::Prescription,
     raster: &Raster,
@@ -72,7 +72,7 @@ fn published<'a>(name: &Placed<String>, context: &mut Context<'a>) -> Option<Giv
     Some(Given { surfaces: lens.surfaces(), file: None })
 }
 
-/// The surfaces of a lens program's file.
+/// Surfaces of a lens file.
 fn from_lens_file<'a>(
     asset: &'a PrescriptionAsset,
     record: &record::Prescription,
@@ -137,7 +137,7 @@ fn surface(s: &record::Surface, context: &mut Context<'_>) -> Option<Surface> {
     })
 }
 
-/// The lens's coating on the surfaces against air that say nothing of their own.
+/// Applies the lens's coating to the surfaces against air that state none.
 fn coated(mut surfaces: Vec<Surface>, record: &record::Prescription) -> Vec<Surface> {
     let Some(coating) = record.coating.as_ref().map(coating) else { return surfaces };
     let own = |i: usize| match &record.source {
@@ -193,7 +193,7 @@ fn ir_cut(record: &record::IrCut, context: &mut Context<'_>) -> Option<Interfere
     context.accept(place, InterferenceFilter::new(normal, record.effective_index.value))
 }
 
-/// The lens, opened and focused, with remarks on what its file says.
+/// Lens with aperture and focus, and notes on its file.
 fn made(
     record: &record::Prescription,
     given: Given<'_>,
@@ -220,7 +220,7 @@ fn made(
     Ok(lens)
 }
 
-/// What holds where the description says nothing.
+/// Values where the description states nothing.
 struct Defaults {
     distance_m: f64,
     defocus_mm: f64,
@@ -233,7 +233,7 @@ impl Defaults {
         Self { distance_m: f64::INFINITY, defocus_mm: 0.0, reference_nm: PRINCIPAL_NM, other_rims: OtherRims::Refused };
 }
 
-/// The lens, opened and focused: by what the description says, else by the defaults.
+/// Lens with the description's aperture and focus, otherwise with the defaults.
 fn focused(
     record: &record::Prescription,
     surfaces: Vec<Surface>,
@@ -253,7 +253,7 @@ fn focused(
     Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm, reference_nm, other_rims })
 }
 
-/// Notes why the surfaces are no lens where the cause stands.
+/// Records, at the place of the cause, why the surfaces do not form a lens.
 fn refuse(record: &record::Prescription, error: &PrescriptionError, context: &mut Context<'_>) {
     let whole =
         |place: &Place, context: &mut Context<'_>| context.fault(ErrorCode::UnusableLens, place, error.to_string(), "");

@@ -1,4 +1,4 @@
-//! From a projection's numbers to a calibration.
+//! Converts a projection's numbers to a calibration.
 
 use super::super::context::{Context, ErrorCode};
 use super::projection_models::{Scaling, model, scale};
@@ -9,7 +9,7 @@ use etendue_scene::record::lens::projection::{Centre, Matrix, Projection, Scale,
 use etendue_scene::{Place, Placed};
 use glam::{DVec2, DVec3};
 
-/// The calibration of a projection for a picture.
+/// Calibration of a projection for an image.
 pub(super) fn calibration(
     record: &Projection,
     place: &Place,
@@ -29,7 +29,7 @@ pub(super) fn calibration(
     context.accept(place, Calibration::new(model, matrix, [raster.width(), raster.height()]))
 }
 
-/// Where the projection says its principal point, where it does.
+/// Place where the projection states its principal point, if it does.
 pub(super) fn stated_centre(record: &Projection) -> Option<&Place> {
     let centre = match scale(record) {
         Scaling::Matrix(matrix) => &matrix.centre,
@@ -44,7 +44,7 @@ fn centre(record: &Centre, raster: &Raster) -> DVec2 {
     DVec2::new(or(&record.cx_px, default.x), or(&record.cy_px, default.y))
 }
 
-/// Of a plane whose unit a pixel is so large in.
+/// Camera matrix of a plane in units in which a pixel has the size `pixel`.
 fn in_units(record: &Centre, pixel: DVec2, raster: &Raster) -> CameraMatrix {
     let at = centre(record, raster);
     CameraMatrix { fx: 1.0 / pixel.x, fy: 1.0 / pixel.y, skew: 0.0, cx: at.x, cy: at.y }
@@ -71,13 +71,12 @@ fn camera_matrix(record: &Matrix, model: &Model, raster: &Raster, context: &mut 
     Some(CameraMatrix { fx, fy, skew, cx: at.x, cy: at.y })
 }
 
-/// The farthest image of the edge of the field, in units of the camera matrix: that of an angle at which the image lies at
-/// infinity is beyond.
+/// Maximum radius of the edge of the field, in units of the camera matrix: it excludes an angle whose image is at infinity.
 const FARTHEST: f64 = 1e4;
 
-/// fx of a picture that sees a horizontal angle.
+/// fx of an image with a horizontal field angle.
 fn of_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut Context<'_>) -> Option<f64> {
-    // A whole turn ends behind the camera, where no direction has an image: 1e-12 of it is left out.
+    // A full turn ends behind the camera, where no direction has an image: 1e-12 of it is excluded.
     let half = 0.5 * angle.value.to_radians() * (1.0 - 1e-12);
     let (sin, cos) = etendue_core::maths::f64::sin_cos(half);
     let reach = model.project(DVec3::new(sin, 0.0, cos)).map(|point| point.x);
@@ -95,7 +94,7 @@ fn of_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut C
     Some(0.5 * raster.width() as f64 / reach?)
 }
 
-/// Field angle, rad, and radius, mm, without the axis; of a file with what was made of it remarked.
+/// Field angle, rad, and radius, mm, without the axis; with notes on the conversion of a file.
 pub(super) fn points(table: &Table, context: &mut Context<'_>) -> Option<Vec<(f64, f64)>> {
     let file = match &table.source {
         TableSource::Angles(angles) => {

@@ -1,5 +1,5 @@
-//! The models of calibrated cameras as `[lens] projection` states them, both ways: from a record to the model, and from the model to the record
-//! that a side-car or a camera file states.
+//! Models of calibrated cameras in `[lens] projection`, both ways: from a record to the model, and from the model to the record in a side-car or a camera
+//! file.
 
 use etendue_projection::model::{
     Division, DoubleSphere, ExtendedUnified, FTheta, FThetaSense, FieldOfView, Ideal, KannalaBrandt, ModelError, Ocam,
@@ -11,14 +11,14 @@ use etendue_scene::Placed;
 use etendue_scene::record::lens::Direction;
 use etendue_scene::record::lens::projection::{self as record, Centre, Matrix, Projection};
 
-/// Whether a projection's plane is in units of a camera matrix, in pixels or in mm.
+/// Scaling of a projection's plane: in units of a camera matrix, in pixels or in mm.
 pub(super) enum Scaling<'a> {
     Matrix(&'a Matrix),
     Pixels(&'a Centre),
     Millimetres(&'a Centre),
 }
 
-/// The scaling of a projection.
+/// Scaling of a projection.
 pub(super) fn scale(record: &Projection) -> Scaling<'_> {
     Scaling::Matrix(match record {
         Projection::Ocam(r) => return Scaling::Pixels(&r.centre),
@@ -43,10 +43,10 @@ pub(super) fn scale(record: &Projection) -> Scaling<'_> {
     })
 }
 
-/// The model of a projection; `points` are those of a table.
+/// Model of a projection; `points` are those of a table.
 ///
 /// # Errors
-/// Numbers that are not legal.
+/// Illegal numbers.
 pub(super) fn model(record: &Projection, points: &[(f64, f64)]) -> Result<Model, ModelError> {
     Ok(match record {
         Projection::OpenCv(r) => Model::Perspective(Perspective::from_opencv(&numbers(r.distortion.iter().flatten()))?),
@@ -79,7 +79,7 @@ fn four(list: &Placed<[Placed<f64>; 4]>) -> [f64; 4] {
     exact(Some(list))
 }
 
-/// So many numbers, 0 where none are given.
+/// A list of N numbers; zeros if none are stated.
 fn exact<const N: usize>(list: Option<&Placed<[Placed<f64>; N]>>) -> [f64; N] {
     list.map_or([0.0; N], |list| core::array::from_fn(|i| list.value[i].value))
 }
@@ -216,7 +216,7 @@ fn stated_f_theta(m: &FTheta, centre: Centre) -> record::FTheta {
     record::FTheta::new(centre, polynomial, maps, m.greatest_angle_rad().to_degrees(), stated_stretch(m.affine()))
 }
 
-/// Its radii are in mm, as all tables come from camera files.
+/// Radii are in mm, because all tables come from camera files.
 fn stated_table(m: &Tabulated, centre: Centre) -> record::Table {
     let angles = list(m.points().map(|(angle, _)| angle.to_degrees()));
     let radii = list(m.points().map(|(_, radius)| radius));

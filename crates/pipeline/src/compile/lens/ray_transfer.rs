@@ -1,4 +1,4 @@
-//! A lens known by its ray-transfer functions alone.
+//! A lens known only by its ray-transfer functions.
 
 use super::super::context::Context;
 use crate::compile::stated::{focus_m, transmittance};
@@ -12,7 +12,7 @@ use etendue_scene::asset::{PassAsset, RayTransferAsset, TermAsset, TransferAsset
 use etendue_scene::record::lens::ray_transfer::{self as record, SensorPlace as Stated};
 use glam::DVec2;
 
-/// The lens for a picture, and for the film about it.
+/// Lens for an image, and for the film around it.
 pub(super) fn lens(
     record: &record::RayTransfer,
     raster: &Raster,
@@ -49,7 +49,7 @@ fn sensor<'a>(stated: &'a Stated, whole: &'a Place) -> (SensorPlace, &'a Place) 
     }
 }
 
-/// How far the functions are known.
+/// Domain in which the functions are known.
 fn known(lens: &Transferred) -> String {
     let transfers = lens.transfer().transfers();
     let wavelengths = match transfers {

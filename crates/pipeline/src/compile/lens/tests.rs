@@ -1,4 +1,4 @@
-//! Lenses of descriptions: what they become, and what is refused where.
+//! Lenses of descriptions: their models, and the places of their errors.
 
 use crate::compile::{Choices, compile};
 use crate::plan::{CameraPlan, Plan};
@@ -120,7 +120,7 @@ fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
     assert!(served.is_ok(), "{:?}", served.map(|_| ()));
 }
 
-/// A singlet before its stop, its apertures to be found.
+/// A singlet before its stop, with unknown apertures.
 fn open_asset(opening: Option<LensOpening>, fields: Option<LensFields>) -> PrescriptionAsset {
     let glass = GlassAsset::Abbe { index: 1.5168, abbe: 64.17 };
     let surfaces = vec![
@@ -162,13 +162,13 @@ fn opened(asset: PrescriptionAsset) -> (Vec<f64>, f64) {
 fn clear_apertures_that_a_file_leaves_open_are_those_of_its_fields() {
     let pupil = Some(LensOpening::EntrancePupil { diameter_mm: 0.02 });
     let fields = |list: &[f64]| Some(LensFields::AnglesDeg(list.to_vec()));
-    // So narrow that the heights are those of the chief rays, and those so small that first order is all.
+    // Narrow enough that the heights are those of the chief rays, and small enough for first order.
     let [[near, _, _], [far, _, _]] =
         [1.0, 2.0].map(|deg| <[f64; 3]>::try_from(opened(open_asset(pupil, fields(&[0.0, deg]))).0).expect("three"));
     assert!(near > 0.05 && (far / near - 2.0).abs() < 0.1, "{near} {far}");
     let (axis, entrance_mm) = opened(open_asset(pupil, fields(&[0.0])));
     assert!((entrance_mm - 0.01).abs() < 1e-9 && (axis[0] - 0.01).abs() < 1e-6, "{axis:?}");
-    // Vignetting factors take the outer rays off.
+    // Vignetting factors remove the outer rays.
     let wide = Some(LensOpening::EntrancePupil { diameter_mm: 2.0 });
     let mut vignetted = open_asset(wide, fields(&[0.0, 8.0]));
     let whole = opened(vignetted.clone()).0;
@@ -177,7 +177,7 @@ fn clear_apertures_that_a_file_leaves_open_are_those_of_its_fields() {
     assert!(whole[0] - cut[0] > 0.3 && whole[2] == cut[2], "{whole:?} {cut:?}");
 }
 
-/// A baffle of 0.8 of the pupil's radius before the lens lets 0.64 of the light on the axis through.
+/// A baffle of 0.8 of the pupil's radius before the lens transmits 0.64 of the light on the axis.
 #[test]
 fn a_baffle_of_a_file_takes_light_on_the_axis() {
     let light = |baffle: bool| {
@@ -229,7 +229,7 @@ fn the_cone_to_the_image_opens_the_lens_for_its_object() {
     assert!(told.contains("(line 3)") && told.contains("cone of sine"), "{told}");
 }
 
-/// 64 × 48 px: outside the image, and as of a calibration of an image three times as small.
+/// 64 × 48 px: outside the image, and as with a calibration of an image a third of the size.
 #[test]
 fn principal_points_far_from_the_middle_are_warned_of() {
     let warnings = |cx: f64, cy: f64| {
@@ -280,7 +280,7 @@ fn faults_of_calibrations_name_their_place() {
     refused(parallel, "[render]\nroute = \"pupil\"", &["render.route", "telecentric camera"]);
 }
 
-/// The ray table puts any pixel back: it is the calibration's own direction, and NaN where nothing is seen.
+/// The ray table inverts any pixel: it has the calibration's own direction, and NaN where nothing is seen.
 #[test]
 fn the_ray_table_is_the_calibration() {
     let plan = camera(
@@ -297,7 +297,7 @@ fn the_ray_table_is_the_calibration() {
         }
         dark += usize::from(direction[0].is_nan());
     }
-    // 60° is a circle of 25 π/3 = 26.2 px about the middle of 64 × 48: some of the corners.
+    // 60° is a circle of 25 π/3 = 26.2 px around the centre of 64 × 48: it excludes some of the corners.
     let seen = 64 * 48 - dark;
     assert!((1700..2154).contains(&seen), "{seen}");
 }
@@ -313,7 +313,7 @@ fn no_lens_is_faster_than_half() {
     ];
     for model in models {
         refused(&format!("{model}f_number = 0.001\n"), "", &["f_number", "0.5"]);
-        // Light on the axis is at most all of the half space: E/L = π.
+        // Light on the axis is at most that of the whole half space: E/L = π.
         let light = camera(&format!("{model}f_number = 0.5\n")).body.lens.projected_solid_angle_sr(glam::DVec2::ZERO);
         assert!(light <= core::f64::consts::PI * (1.0 + 1e-12), "{model}: {light}");
     }

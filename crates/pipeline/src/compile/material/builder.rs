@@ -1,4 +1,4 @@
-//! The table of materials, as the scene and its meshes name them.
+//! Builds the table of materials, as the scene and its meshes name them.
 
 use super::super::context::{Context, ErrorCode};
 use super::super::modulation;
@@ -15,33 +15,33 @@ use etendue_tracer::materials::{Material, MaterialTable, Modulation, Reflectance
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Materials and textures as they are found, and where each was named.
+/// Materials and textures found so far, and the place where each was named.
 #[derive(Default)]
 pub(in super::super) struct MaterialTableBuilder {
     materials: Vec<Made>,
     by_name: BTreeMap<String, MaterialId>,
-    /// Materials that meshes bring themselves, by mesh file and slot name.
+    /// Materials from mesh files, by mesh file and slot name.
     by_slot: BTreeMap<(PathBuf, String), MaterialId>,
-    /// Materials of a flux, by the bits of the area that gives it.
+    /// Materials with a stated flux, by the bits of the area that emits it.
     by_area: BTreeMap<(u32, u64), MaterialId>,
-    /// Materials whose light goes up and down later than that of others, by the bits of the delay.
+    /// Materials with a delayed modulation, by the bits of the delay.
     by_delay: BTreeMap<(u32, u64), MaterialId>,
-    /// That of lamps' openings, once there are any.
+    /// Material of lamps' openings, once there are any.
     of_openings: Option<MaterialId>,
     pub(super) pictures: Pictures,
 }
 
-/// A material, and what is said of it.
+/// A material with its properties.
 struct Made {
     material: Material,
     place: Place,
     name: String,
-    /// Whether any of its textures is laid by texture coordinates.
+    /// True if any of its textures uses texture coordinates.
     needs_coordinates: bool,
-    /// Of a material whose light is stated as a flux: how many sides glow. Its radiance is that of an area of 1 m² in all
-    /// until [`MaterialTableBuilder::of_area`] knows better.
+    /// For a material with a stated flux: number of emissive sides. Its radiance is that of a total area of 1 m² until [`MaterialTableBuilder::of_area`]
+    /// replaces it.
     flux_sides: Option<f64>,
-    /// Of a material whose light goes up and down: whether each of its objects has a phase of its own.
+    /// For a modulated material: true if each of its objects has its own phase.
     has_random_phases: bool,
 }
 
@@ -50,7 +50,7 @@ impl Made {
         Self { material: self.material.clone(), place: self.place.clone(), name: self.name.clone(), ..*self }
     }
 
-    /// Black, in the place of a material that nothing uses and whose files are not read: ids of materials do not depend on what is used.
+    /// Black placeholder for an unused material whose files are not read: material ids do not depend on use.
     fn unused(record: &record::Material) -> Self {
         Self {
             material: Material::new(Reflectance::Spectrum(upsample::reflectance_spectrum([0.0; 3]))),
@@ -64,7 +64,7 @@ impl Made {
 }
 
 impl MaterialTableBuilder {
-    /// All materials of a scene; of those that nothing uses and whose files are not read, a place in the list.
+    /// All materials of a scene; unused ones whose files are not read have only a position in the list.
     pub(in super::super) fn of_scene(scene: &Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
         let mut builder = Self::default();
         for record in &scene.materials {
@@ -98,17 +98,17 @@ impl MaterialTableBuilder {
         builder
     }
 
-    /// The material of a name that the scene defines; `None` where it is faulty.
+    /// Material with a name of the scene; `None` if it is invalid.
     pub(in super::super) fn named(&self, name: &str) -> Option<MaterialId> {
         self.by_name.get(name).copied()
     }
 
-    /// The name of a material that has a texture laid by texture coordinates, or a part that has; `None` for others.
+    /// Name of a material that has, directly or in a part, a texture with texture coordinates; `None` for others.
     pub(in super::super) fn needs_coordinates(&self, id: MaterialId) -> Option<&str> {
         let mut visited = vec![false; self.materials.len()];
         let mut open = vec![id];
         while let Some(id) = open.pop() {
-            // A part that is faulty has no material.
+            // An invalid part has no material.
             let Some(made) = self.materials.get(id.0 as usize) else { continue };
             if made.needs_coordinates {
                 return Some(&made.name);
@@ -121,7 +121,7 @@ impl MaterialTableBuilder {
         None
     }
 
-    /// The material that a mesh's own file gives a slot. A fault at `place` where the file gives none.
+    /// Material that a mesh's own file states for a slot. Records an error at `place` if the file states none.
     pub(in super::super) fn of_slot(
         &mut self,
         file: &Path,
@@ -150,12 +150,12 @@ impl MaterialTableBuilder {
         Some(id)
     }
 
-    /// Whether a material's light is stated as a flux, so that [`MaterialTableBuilder::of_area`] has to make its like.
+    /// Returns true if a material's light is stated as a flux, so that [`MaterialTableBuilder::of_area`] must make a variant.
     pub(in super::super) fn gives_flux(&self, id: MaterialId) -> bool {
         self.materials.get(id.0 as usize).is_some_and(|made| made.flux_sides.is_some())
     }
 
-    /// The like of a material of a flux for an object whose surfaces of it have `area_m2` on one side.
+    /// Variant of a material with a stated flux for an object on which it has `area_m2` on one side.
     pub(in super::super) fn of_area(&mut self, id: MaterialId, area_m2: f64) -> MaterialId {
         let key = (id.0, area_m2.to_bits());
         if let Some(known) = self.by_area.get(&key) {
@@ -172,12 +172,12 @@ impl MaterialTableBuilder {
         made
     }
 
-    /// Whether a material gives light of its own.
+    /// Returns true if a material emits light.
     pub(in super::super) fn glows(&self, id: MaterialId) -> bool {
         self.materials.get(id.0 as usize).is_some_and(|made| made.material.emission.is_some())
     }
 
-    /// Whether the strength of a material's light changes over time.
+    /// Returns true if the strength of a material's light varies over time.
     pub(in super::super) fn is_modulated(&self, id: MaterialId) -> bool {
         self.modulation(id).is_some()
     }
@@ -186,8 +186,7 @@ impl MaterialTableBuilder {
         self.materials.get(id.0 as usize)?.material.emission.as_ref()?.modulation.as_ref()
     }
 
-    /// The like of a material whose light goes up and down for an object of this `name`, where it does so later by `own_s` and by
-    /// what the material's phases ask for.
+    /// Variant of a modulated material for an object `name`, delayed by `own_s` and by the phase that the material requires.
     pub(in super::super) fn of_delay(&mut self, id: MaterialId, own_s: f64, name: &str) -> MaterialId {
         let made = &self.materials[id.0 as usize];
         let waveform = self.modulation(id).filter(|_| made.has_random_phases).map(Modulation::waveform);
@@ -209,7 +208,7 @@ impl MaterialTableBuilder {
         made
     }
 
-    /// The black material of lamps' openings, which do not shine by their material.
+    /// Black material of lamps' openings, which do not emit by their material.
     pub(in super::super) fn of_openings(&mut self, place: &Place) -> MaterialId {
         if let Some(known) = self.of_openings {
             return known;
@@ -226,7 +225,7 @@ impl MaterialTableBuilder {
         made
     }
 
-    /// The material_table, and the materials' names in the order of their ids.
+    /// The material table, and the names of the materials in the order of their ids.
     pub(in super::super) fn finish(self, context: &mut Context<'_>) -> Option<(MaterialTable, Vec<String>)> {
         let names = self.materials.iter().map(|made| made.name.clone()).collect();
         let places: Vec<_> = self.materials.iter().map(|made| made.place.clone()).collect();
@@ -242,7 +241,7 @@ impl MaterialTableBuilder {
         }
     }
 
-    /// A part of a material of a mesh's file, which mixes of it name.
+    /// A part of a material of a mesh's file, referenced by its mixes.
     pub(super) fn add_part(
         &mut self,
         material: Material,
@@ -281,7 +280,7 @@ impl MaterialCompiler<'_, '_> {
     }
 }
 
-/// What is given and right, or not given; `None` where it is given and faulty.
+/// Distinguishes a valid or absent value from an invalid one (`None`).
 #[allow(clippy::option_option, reason = "the outer level tells faults, the inner what is not given")]
 fn whole<T>(given: Option<Option<T>>) -> Option<Option<T>> {
     match given {

@@ -1,4 +1,4 @@
-//! The compiler of materials: from records to the tracer's textures, numbers over a surface and normal maps.
+//! Compiler of materials: from records to the tracer's textures, numbers over a surface and normal maps.
 
 use super::super::context::{Context, ErrorCode};
 use super::picture::Pictures;
@@ -11,50 +11,50 @@ use etendue_tracer::textures::{Channel, Projection, Sampling, TextureId, Wrap};
 use etendue_tracer::{MaterialId, materials};
 use glam::Vec2;
 
-/// What materials are made with.
+/// Context of the compilation of materials.
 pub(super) struct MaterialCompiler<'w, 'a> {
     pub(super) scene: &'w Scene,
     pub(super) pictures: &'w mut Pictures,
     pub(super) context: &'w mut Context<'a>,
-    /// Whether a texture was used that is laid by texture coordinates.
+    /// True if a texture with texture coordinates was used.
     pub(super) needs_coordinates: bool,
-    /// Of a material whose light is stated as a flux: how many sides glow.
+    /// For a material with a stated flux: number of emissive sides.
     pub(super) flux_sides: Option<f64>,
-    /// Of a material whose light goes up and down: whether each of its objects has a phase of its own.
+    /// For a modulated material: true if each of its objects has its own phase.
     pub(super) has_random_phases: bool,
 }
 
 impl MaterialCompiler<'_, '_> {
-    /// The texture of a name; a description that was read names only what it has.
+    /// Finds a texture by name; a loaded description names only existing ones.
     pub(super) fn named_texture(&self, name: &str) -> Option<&record::Texture> {
         self.scene.textures.iter().find(|t| t.name.value == name)
     }
 
-    /// The id that a material of the scene has, or will have: that of its place, as no faulty material comes to a plan.
+    /// Id of a material of the scene, present or future: its position, because a plan contains no invalid material.
     pub(super) fn id_of(&self, name: &str) -> Option<MaterialId> {
         let place = self.scene.materials.iter().position(|m| m.name.value == name)?;
         Some(MaterialId(place as u32))
     }
 }
 
-/// How sharply pictures laid on from three sides meet, if it is not said.
+/// Default sharpness of the transitions of images projected from three sides.
 const SHARPNESS: f32 = 4.0;
 
-/// Use of a picture.
+/// Use of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
     /// Colours: reflectance, light.
     Colour,
-    /// A number for each texel.
+    /// A number per texel.
     Number,
-    /// The picture's opacity as a number.
+    /// Opacity of the image as a number.
     Alpha,
     /// Normals.
     Normal,
 }
 
 impl MaterialCompiler<'_, '_> {
-    /// The texture of a name for a use.
+    /// Texture of a name for a use.
     pub(super) fn texture(&mut self, name: &Placed<String>, usage: Use, scale: f64) -> Option<TextureId> {
         let record = self.named_texture(&name.value)?.clone();
         self.check_encoding(&record, name, usage)?;
@@ -65,7 +65,7 @@ impl MaterialCompiler<'_, '_> {
         self.pictures.picture(&record.file.value, &record.place, reading, sampling(&record), self.context)
     }
 
-    /// Colours are no plain numbers, and plain numbers are not encoded.
+    /// Refuses colours as plain numbers, and encoded plain numbers.
     fn check_encoding(&mut self, record: &Texture, name: &Placed<String>, usage: Use) -> Option<()> {
         let (problem, remedy) = match (usage, record.encoding.value) {
             (Use::Colour, Encoding::Data) => ("plain numbers, and colours are needed here", "\"srgb\" or \"linear\""),
@@ -114,7 +114,7 @@ impl MaterialCompiler<'_, '_> {
             Some(material::Channel::Red) => (Use::Number, Channel::Red),
             Some(material::Channel::Green) => (Use::Number, Channel::Green),
             Some(material::Channel::Blue) => (Use::Number, Channel::Blue),
-            // The plane of opacity is a grey picture of its own.
+            // The opacity plane is a separate single-channel image.
             Some(material::Channel::Alpha) => (Use::Alpha, Channel::Red),
             Some(material::Channel::Luminance) | None => (Use::Number, Channel::Luminance),
         };

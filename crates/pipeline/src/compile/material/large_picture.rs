@@ -1,4 +1,4 @@
-//! Textures of pictures that are too large to be held: in tiles, which are made once for all runs.
+//! Textures of images that are too large for memory: in tiles, which are made once for all runs.
 
 use super::texels::Reading;
 use etendue_core::storage::{BlockKey, BlockWriter};
@@ -7,26 +7,26 @@ use etendue_tracer::textures::{ImageTexture, PyramidWriter, Sampling, Texels, Te
 use sha2::{Digest as _, Sha256};
 use std::sync::Arc;
 
-/// Raised whenever the same picture gives other tiles.
+/// Increased whenever the same image gives other tiles.
 const TILES_REVISION: u32 = 1;
 
-/// Why a picture is not in tiles.
+/// Reasons for which an image is not in tiles.
 #[derive(Debug, PartialEq)]
 pub(super) enum Refusal {
-    /// The picture or its layout is at fault.
+    /// The image or its layout is invalid.
     Picture(String),
-    /// Its tiles cannot be kept.
+    /// Its tiles cannot be stored.
     Store(String),
 }
 
-/// How the texels of a picture are read, and how they are laid out and looked up.
+/// Interpretation of an image's texels, their layout and their lookup.
 #[derive(Clone, Copy)]
 pub(super) struct TexelUse {
     pub(super) reading: Reading,
     pub(super) sampling: Sampling,
 }
 
-/// A texture whose tiles are in the store, by now if they were not before.
+/// A texture with tiles in the store; makes the tiles if they are missing.
 pub(super) fn tiled(
     image: &LargeImage,
     usage: TexelUse,
@@ -40,7 +40,7 @@ pub(super) fn tiled(
     match store.blocks.find(&key, &lengths).map(texture) {
         Some(Ok(texture)) => return Ok(texture),
         Some(Err(TiledError::Texture(error))) => return Err(Refusal::Picture(error.to_string())),
-        // What is there is damaged: it is made again.
+        // The stored tiles are damaged: they are made again.
         Some(Err(TiledError::Tiles(_))) | None => {}
     }
     store.blocks.check_room(&key, &lengths).map_err(Refusal::Picture)?;
@@ -58,7 +58,7 @@ pub(super) fn tiled(
     }
 }
 
-/// The picture in memory, of all its pixels.
+/// The whole image in memory.
 pub(super) fn held(image: &LargeImage, usage: TexelUse) -> Result<ImageTexture, String> {
     let TexelUse { reading, sampling } = usage;
     let mut all: Option<Texels> = None;
@@ -75,7 +75,7 @@ pub(super) fn held(image: &LargeImage, usage: TexelUse) -> Result<ImageTexture, 
     ImageTexture::new(image.width, image.height, texels, sampling).map_err(|error| error.to_string())
 }
 
-/// Everything that decides the tiles.
+/// Everything that determines the tiles.
 fn key(image: &LargeImage, Reading { encoded, alpha, colour, scale }: Reading) -> BlockKey {
     let mut hash = Sha256::new();
     hash.update(b"etendue texels");

@@ -1,4 +1,4 @@
-//! Materials of glTF files: metal, coat and base, sheen, clear substances, side by side.
+//! Materials of glTF files: metal, coat and base, sheen, transparent substances, mixed.
 
 use super::super::context::Context;
 use super::super::spectrum::bright;
@@ -28,7 +28,7 @@ impl NamedSurface {
     }
 }
 
-/// What one material is made in.
+/// Context of the compilation of one material.
 struct Layering<'l, 'c, 'a> {
     builder: &'l mut MaterialTableBuilder,
     context: &'c mut Context<'a>,
@@ -64,7 +64,7 @@ impl Layering<'_, '_, '_> {
         Some(material)
     }
 
-    /// A surface with the normal map of the material; a mix has none, but its parts have.
+    /// A surface with the normal map of the material; a mix has none, but its parts do.
     fn with_normals(&mut self, surface: Surface, layers: &SlotLayers) -> Option<Material> {
         let is_mix = matches!(surface, Surface::Mix(_));
         let mut material = Material::new(surface);
@@ -154,7 +154,7 @@ impl Layering<'_, '_, '_> {
         self.context.accept(self.place, Dielectric::new(clear.index, alpha, absorption)).map(Surface::from)
     }
 
-    /// Two surfaces side by side.
+    /// A mix of two surfaces.
     fn mix(&mut self, a: NamedSurface, b: NamedSurface, weight: &SlotNumber, layers: &SlotLayers) -> Option<Surface> {
         let weight = self.number(weight)?;
         let mut part = |NamedSurface { surface, name }: NamedSurface| -> Option<_> {

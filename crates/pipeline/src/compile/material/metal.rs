@@ -8,7 +8,7 @@ use etendue_spectra::metal::{self, ComplexIndex};
 use etendue_spectra::{Outside, Spectrum};
 use std::path::PathBuf;
 
-/// The complex index of a metal.
+/// Complex refractive index of a metal.
 pub(in super::super) fn complex_index(metal: &Metal, context: &mut Context<'_>) -> Option<ComplexIndex> {
     match metal {
         Metal::Named(name) => named(name, context),

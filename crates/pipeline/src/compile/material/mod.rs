@@ -1,4 +1,4 @@
-//! Materials and textures: from records and from the meshes' own files to the tracer's material_table.
+//! Materials and textures: from records and from the meshes' own files to the tracer's material table.
 
 mod builder;
 mod compiler;

@@ -1,4 +1,4 @@
-//! Pictures as textures, each made once for every way in which it is laid out.
+//! Images as textures, each made once per layout.
 
 use super::super::context::{Context, ErrorCode};
 use super::large_picture::{Refusal, TexelUse, held, tiled};
@@ -10,28 +10,28 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Textures, and by what file, reading and layout each was made.
+/// Textures, with the file, interpretation and layout of each.
 #[derive(Default)]
 pub(super) struct Pictures {
     textures: Vec<ImageTexture>,
     made: BTreeMap<(PathBuf, String), TextureId>,
-    /// That of the tiles of all large pictures, once there are any.
+    /// Memory of the tiles of all large images, once there are any.
     tile_memory: Option<Arc<TileMemory>>,
 }
 
 impl Pictures {
-    /// A picture that a mesh's own file names: sRGB-encoded colours that repeat.
+    /// An image named by a mesh's own file: sRGB-encoded colours that repeat.
     pub(super) fn of_slot(&mut self, file: &Path, place: &Place, context: &mut Context<'_>) -> Option<TextureId> {
         let reading = Reading { encoded: true, alpha: false, colour: true, scale: 1.0 };
         self.picture(file, place, reading, Sampling::default(), context)
     }
 
-    /// The textures in the order of their ids.
+    /// Textures in the order of their ids.
     pub(super) fn into_textures(self) -> Vec<ImageTexture> {
         self.textures
     }
 
-    /// A picture read and laid out in a way; `place` names it.
+    /// An image with an interpretation and layout; `place` names it.
     pub(super) fn picture(
         &mut self,
         file: &Path,
@@ -81,7 +81,7 @@ impl Pictures {
         context.accept(place, ImageTexture::new(image.width, image.height, texels, sampling))
     }
 
-    /// In tiles; where these cannot be kept, in memory.
+    /// In tiles; in memory if these cannot be stored.
     fn large(
         &mut self,
         file: &Path,

@@ -21,7 +21,7 @@ impl MaterialCompiler<'_, '_> {
         let made = match &r.table {
             SheetingTable::Class(class) => {
                 let colour = r.colour.as_ref().map_or(SheetingColour::White, |c| c.value);
-                // Every class has every colour; a test of the model says so.
+                // Every class has every colour; a test of the model checks it.
                 let preset = SheetingPreset::named(class_name(class.value), colour_name(colour))?;
                 match print {
                     Some(print) => Sheeting::printed(preset.luminance_factor, print, preset.table),
@@ -68,7 +68,7 @@ impl MaterialCompiler<'_, '_> {
     pub(super) fn road_marking(&mut self, r: &record::RoadMarking) -> Option<Surface> {
         let r_l = match &r.night {
             MarkingNight::Coefficient(r_l) => r_l.value,
-            // Every class has its coefficient; a test says so.
+            // Every class has its coefficient; a test checks it.
             MarkingNight::Class(class) => marking_class(marking_name(class.value))?,
         };
         let day = match &r.day {

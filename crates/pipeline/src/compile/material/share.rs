@@ -1,4 +1,4 @@
-//! Shares of light over the wavelength, and what a surface emits.
+//! Reflectances and transmittances over wavelength, and the emission of a surface.
 
 use super::super::context::{Context, ErrorCode};
 use super::super::modulation;
@@ -11,7 +11,7 @@ use etendue_spectra::{Outside, Spectrum, colour, reflectance, upsample};
 use etendue_tracer::materials::{Emission, EmissionSides, Modulation, Reflectance};
 use std::num::NonZeroU32;
 
-/// A share of light over the wavelength.
+/// A fraction of light over wavelength.
 pub(in super::super) fn share(colour: &Colour, context: &mut Context<'_>) -> Option<Spectrum> {
     let rgb = |rgb: [f64; 3]| upsample::reflectance_spectrum(rgb.map(|v| v as f32));
     match colour {

@@ -1,4 +1,4 @@
-//! Materials that a mesh's own file brings.
+//! Materials from a mesh's own file.
 
 use super::super::context::{Context, ErrorCode};
 use super::picture::Pictures;
@@ -8,7 +8,7 @@ use etendue_spectra::upsample;
 use etendue_tracer::materials::{Coated, Reflectance, Surface};
 use std::path::Path;
 
-/// How a slot reflects. A fault at `place` where the file does not say it.
+/// Reflection of a slot. Records an error at `place` if the file does not state it.
 pub(super) fn surface(
     file: &Path,
     slot: &SlotMaterial,
@@ -40,7 +40,7 @@ pub(super) fn surface(
     }
 }
 
-/// Whether a slot's file gives it a picture.
+/// Returns true if a slot's file gives it an image.
 pub(in super::super) fn has_picture(slot: &SlotMaterial) -> bool {
     slot.surface.as_ref().is_some_and(|surface| match surface {
         SlotSurface::Layers(layers) => layers.has_picture(),

@@ -1,4 +1,4 @@
-//! How a surface scatters: from the record's type to the tracer's model.
+//! Scattering of a surface: from the record's type to the tracer's model.
 
 use super::super::spectrum::curve;
 use super::compiler::MaterialCompiler;
@@ -15,14 +15,14 @@ use etendue_tracer::materials::{
     Leaf, Lobe, Mix, Puddles, Reflectance, Surface, ThinSheet, WATER, absorption_of, flake_reflectance,
 };
 
-/// The index of a coat or a pane that does not state one.
+/// Default refractive index of a coat or a pane.
 const USUAL_INDEX: f64 = 1.5;
-/// How unevenly flakes lie, how rough a coat is, how much sheen cloth has and how wide, if it is not said.
+/// Defaults: unevenness of flakes, roughness of a coat, amount and width of the sheen of cloth.
 const FLAKE_ALPHA: f64 = 0.25;
 const COAT_ALPHA: f64 = 0.01;
 const SHEEN: f64 = 0.1;
 const SHEEN_ALPHA: f64 = 0.5;
-/// How rough a film of water over asphalt is, and the height of its grains, where nothing is said.
+/// Defaults: roughness of a water film on asphalt, and the height of its grains.
 const FILM_ALPHA: f64 = 0.06;
 const GRAIN_MM: f64 = 2.0;
 const MM_PER_M: f64 = 1000.0;
@@ -211,7 +211,7 @@ fn number(given: Option<&Placed<f64>>, default: f64) -> f64 {
     given.map_or(default, |v| v.value)
 }
 
-/// exp(−a d): what comes through a thickness `m` of a substance, reflections taken out.
+/// exp(−a d): internal transmittance of a thickness `m` of a substance, without reflections.
 fn beer_lambert(coefficient_per_m: &Spectrum, m: f64) -> Spectrum {
     let at = |nm: f64| etendue_core::maths::f64::exp(-f64::from(coefficient_per_m.at(nm as f32)) * m);
     Spectrum::from_fn(|nm| at(nm.clamp(SHORTEST_NM, MAX_NM)))

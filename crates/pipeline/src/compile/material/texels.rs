@@ -1,24 +1,24 @@
-//! Pixels of pictures as the tracer keeps them.
+//! Pixels of images as the tracer stores them.
 
 use etendue_scene::asset::{ColourMatrix, ImagePixels, PixelFormat};
 use etendue_spectra::colour;
 use etendue_tracer::textures::{TexelEncoding, Texels};
 
-/// How a picture becomes texels.
+/// Interpretation of an image as texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reading {
-    /// The numbers are encoded by the curve of sRGB.
+    /// The numbers are encoded with the curve of sRGB.
     pub(super) encoded: bool,
-    /// The opacity is read in place of the colours.
+    /// The opacity is read instead of the colours.
     pub(super) alpha: bool,
-    /// The numbers are colours, and not data.
+    /// The numbers are colours, not data.
     pub(super) colour: bool,
     /// A factor on the numbers.
     pub(super) scale: f32,
 }
 
 impl Reading {
-    /// What [`Reading::texels`] are of pixels of a format.
+    /// Encoding of [`Reading::texels`] for pixels of a format.
     pub(super) fn encoding(self, format: PixelFormat) -> TexelEncoding {
         match (format.is_bytes() && self.scale == 1.0, self.encoded && !self.alpha) {
             (true, true) => TexelEncoding::Srgb8,
@@ -27,14 +27,14 @@ impl Reading {
         }
     }
 
-    /// Pixels as texels, colours by what makes them those of Rec. 709; `None` where opacity is read and there is none.
+    /// Converts pixels to texels, colours with the matrix to Rec. 709; `None` if opacity is read and there is none.
     pub(super) fn texels(self, pixels: &ImagePixels, to_rec_709: Option<ColourMatrix>) -> Option<Texels> {
         let to_rec_709 = to_rec_709.filter(|_| self.colour);
         if self.alpha { opacity(pixels, self.scale) } else { Some(colours(pixels, self, to_rec_709)) }
     }
 }
 
-/// The colours; a factor other than 1 needs them as linear numbers.
+/// The colours; a factor other than 1 requires linear numbers.
 fn colours(pixels: &ImagePixels, Reading { encoded, scale, .. }: Reading, to_rec_709: Option<ColourMatrix>) -> Texels {
     let bytes = |pixels: Vec<[u8; 3]>| match (encoded, scale == 1.0) {
         (true, true) => Texels::Srgb8(pixels),
@@ -59,7 +59,7 @@ fn colours(pixels: &ImagePixels, Reading { encoded, scale, .. }: Reading, to_rec
     }
 }
 
-/// The opacity as grey; `None` where there is none. Opacity is linear in every file.
+/// Opacity as grey; `None` without opacity. Opacity is linear in every file.
 fn opacity(pixels: &ImagePixels, scale: f32) -> Option<Texels> {
     match pixels {
         ImagePixels::Rgba8(pixels) => {

@@ -12,7 +12,7 @@ use etendue_scene::{Place, Placed};
 use etendue_sensor::Sensor;
 use etendue_spectra::{Spectrum, reflectance};
 
-/// The sensor's filters in the words of development.
+/// The sensor's filters as processing represents them.
 pub(super) fn mosaic(record: &record::Processing, sensor: &Sensor, context: &mut Context<'_>) -> Option<Mosaic> {
     if sensor.responsivities().len() == 1 {
         return Some(Mosaic::Mono);
@@ -23,7 +23,7 @@ pub(super) fn mosaic(record: &record::Processing, sensor: &Sensor, context: &mut
     context.accept(&record.place, Mosaic::tile(cfa.width(), cfa.height(), tile))
 }
 
-/// The filter of each of the sensor's channels, by its name.
+/// Filter of each of the sensor's channels, by its name.
 fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'_>) -> Option<Vec<Filter>> {
     let filter = |name: &str| match name {
         "red" => Some(Filter::Red),
@@ -50,7 +50,7 @@ fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'
     Some(channels.iter().filter_map(|channel| filter(&channel.name)).collect())
 }
 
-/// What the sensor's picture measures, in the order of the picture's channels.
+/// Responsivities of the image's channels, in their order.
 fn responsivities(sensor: &Sensor, mosaic: &Mosaic) -> Vec<Spectrum> {
     let (cfa, measured) = (&sensor.parameters().cfa, sensor.picture_responsivities());
     let places = (0..cfa.channels().len()).map(|i| (i % cfa.width(), i / cfa.width()));
@@ -59,7 +59,7 @@ fn responsivities(sensor: &Sensor, mosaic: &Mosaic) -> Vec<Spectrum> {
     (0..mosaic.channels()).filter_map(of).collect()
 }
 
-/// White balance and matrix; `None` of a monochrome picture, or with the faults noted.
+/// White balance and matrix; `None` for a monochrome image, or with the errors recorded.
 pub(super) fn colour(
     record: &record::Processing,
     sensor: &Sensor,
@@ -77,7 +77,7 @@ pub(super) fn colour(
     Some(Colour { white_balance: white_balance?, matrix: matrix? })
 }
 
-/// A monochrome picture has no colour to process.
+/// Refuses colour settings for a monochrome image.
 fn refuse_colour(record: &record::Processing, context: &mut Context<'_>) {
     if record.white_balance.is_some() || record.colour_matrix.is_some() {
         let problem = "\"white_balance\" and \"colour_matrix\" have no effect on a monochrome sensor";
@@ -148,7 +148,7 @@ fn factors(factors: &[Placed<f64>], channels: usize, context: &mut Context<'_>) 
     Some(WhiteBalance::Gains(values))
 }
 
-/// One number a channel.
+/// Checks for one number per channel.
 fn check_count(name: &str, found: usize, channels: usize, place: &Place, context: &mut Context<'_>) -> Option<()> {
     if found == channels {
         return Some(());

@@ -102,7 +102,7 @@ pub(super) fn shading(
     context.accept(place, shading.check()).map(|()| Some(shading))
 }
 
-/// A table of so many columns.
+/// A table with a given number of columns.
 pub(super) fn table<'a>(
     file: &Placed<PathBuf>,
     columns: usize,
@@ -118,11 +118,11 @@ pub(super) fn table<'a>(
     None
 }
 
-/// The picture that a sensor delivers: its region, binned.
+/// Image that a sensor delivers: its region, binned.
 pub(super) struct Delivered {
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Where the optical axis meets it, px.
+    /// Position of the optical axis in it, px.
     pub(super) principal_px: [f64; 2],
     /// Number of pixels of the described sensor in a row and in a column of one pixel.
     pub(super) scale: u64,

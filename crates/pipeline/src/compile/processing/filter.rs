@@ -1,4 +1,4 @@
-//! The paper's filters.
+//! Image filters of Gruyer, Grapinet, De Souza (2012).
 
 use super::super::context::Context;
 use super::tone::tone_curve;

@@ -1,4 +1,4 @@
-//! `[isp]`: from the record to the settings of development.
+//! `[isp]`: from the record to the settings of processing.
 
 mod colour;
 mod correction;
@@ -50,7 +50,7 @@ pub(super) fn development(
         sharpening: record.sharpening.as_ref().map(sharpening),
         image_filters: image_filters?,
     };
-    // What is accepted here fails in no frame.
+    // Settings accepted here do not fail in any frame.
     context.accept(&record.place, processing.check(&mosaic, picture.width, picture.height))?;
     Some(Development { mosaic, processing, format: format(record, &picture, context)? })
 }
@@ -73,7 +73,7 @@ fn sharpening(record: &description::Sharpening) -> Unsharp {
     }
 }
 
-/// Columns or rows of a JPEG at most (ISO/IEC 10918-1, B.2.2).
+/// Maximum columns or rows of a JPEG (ISO/IEC 10918-1, B.2.2).
 const JPEG_PX: usize = 65_535;
 
 fn format(record: &record::Processing, picture: &Delivered, context: &mut Context<'_>) -> Option<PictureFormat> {

@@ -91,7 +91,7 @@ fn check(camera: &Camera, scale: &Placed<Scale>, context: &mut Context<'_>) -> O
         divides = false;
     }
     let region = sensor.electronics.as_ref().and_then(|electronics| electronics.roi_px.as_ref());
-    // A part of a pixel is refused where the key is read.
+    // A fraction of a pixel is refused where the key is read.
     if let Some(region) = region.filter(|region| region.value.iter().any(|side| side % k as f64 != 0.0)) {
         let [x, y, columns, rows] = region.value;
         let problem =

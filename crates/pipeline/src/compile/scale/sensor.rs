@@ -67,7 +67,7 @@ fn enlarge_electronics(electronics: &mut Electronics, k: f64) {
 
 /// Converts the fractions of an exchange with neighbouring pixels to those of pixels of k × k.
 ///
-/// Each of the k² parts of a pixel exchanges with its own neighbours as before, and all parts have the same signal. Only the k parts beside a border give
+/// Each of the k² parts of a pixel exchanges with its own neighbours as before, and all parts have the same signal. Only the k parts next to a border give
 /// signal to the pixel beyond it: the fraction h across the side and the fraction c across both corners of each part, except at the two corners of the border
 /// that lead to diagonal pixels: h′ = (k h + 2 (k − 1) c)/k² and c′ = c/k².
 fn enlarge_exchange(exchange: &mut Exchange, k: f64) {

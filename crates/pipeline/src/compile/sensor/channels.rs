@@ -1,4 +1,4 @@
-//! Which pixel measures what, and how well.
+//! Channels of the pixels, and their quantum efficiency.
 
 use super::super::context::{Context, ErrorCode};
 use super::super::spectrum::curve;
@@ -9,7 +9,7 @@ use etendue_scene::{Place, Placed};
 use etendue_sensor::{Cfa, Channel};
 use etendue_spectra::{Outside, Spectrum, camera};
 
-/// The tile, over the channels in their order.
+/// The colour filter tile, with indices into the channels.
 pub(super) fn cfa(source: &CfaSource, context: &mut Context<'_>) -> Option<Cfa> {
     let (columns, names) = source.tile();
     let channels = source.channels();
@@ -43,8 +43,7 @@ pub(super) fn channels(electronics: &record::Electronics, context: &mut Context<
     Some(names.iter().zip(spectra).map(channel).collect())
 }
 
-/// Measured relative sensitivities (per radiant power, so divided by the wavelength), scaled together so that the
-/// largest quantum efficiency is `peak`.
+/// Measured relative sensitivities (per radiant power, hence divided by the wavelength), scaled together so that the largest quantum efficiency is `peak`.
 fn measured(name: &Placed<String>, peak: f64, context: &mut Context<'_>) -> Option<[Spectrum; 3]> {
     let Some(found) = camera::named(&name.value) else {
         let known = camera::names().join(", ");

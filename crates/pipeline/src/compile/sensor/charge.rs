@@ -1,4 +1,4 @@
-//! What happens to charge in its pixel.
+//! Charge in its pixel.
 
 use crate::compile::stated::or;
 use etendue_scene::record;

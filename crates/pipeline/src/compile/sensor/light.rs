@@ -1,4 +1,4 @@
-//! What light meets before it is counted, and its time.
+//! Effects on light before detection, and its timing.
 
 use crate::compile::stated::or;
 use etendue_scene::record;
@@ -30,7 +30,7 @@ fn control(record: &AutoExposure) -> ExposureControl {
     }
 }
 
-/// `exit_pupil_mm` is the lens's own.
+/// `exit_pupil_mm` is that of the lens.
 pub(super) fn light(sensor: &record::Sensor, e: &record::Electronics, exit_pupil_mm: f64) -> LightEffects {
     let middle = [0.5 * sensor.width_px.value as f64, 0.5 * sensor.height_px.value as f64];
     let principal_px = sensor.principal_point_px.as_ref().map_or(middle, |p| p.value);
@@ -39,7 +39,7 @@ pub(super) fn light(sensor: &record::Sensor, e: &record::Electronics, exit_pupil
         exit_pupil_mm: or(record.exit_pupil_mm.as_ref(), exit_pupil_mm),
         principal_px,
     };
-    // From infinitely far all light comes at 0°, where the response is 1.
+    // From infinity all light is incident at 0°, where the response is 1.
     let angle_response = e.angle_response.as_ref().map(response).filter(|r| r.exit_pupil_mm.is_finite());
     LightEffects {
         angle_response,

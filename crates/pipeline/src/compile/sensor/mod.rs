@@ -11,8 +11,7 @@ use etendue_scene::record::sensor::read_out::OpticalBlack;
 use etendue_scene::{Placed, record};
 use etendue_sensor::{Pixel, Sensor, SensorError, SensorParameters};
 
-/// The sensor with its electronics, `exit_pupil_mm` behind its lens's exit pupil; `None` where the record has none or they are
-/// faulty.
+/// Sensor with its electronics, `exit_pupil_mm` behind its lens's exit pupil; `None` if the record has none or they are invalid.
 pub(in super::super) fn sensor(
     record: &record::Sensor,
     exit_pupil_mm: f64,
@@ -41,7 +40,7 @@ pub(in super::super) fn sensor(
     misfits.is_empty().then_some(sensor)
 }
 
-/// Optical black of no pixels says nothing.
+/// Refuses optical black of no pixels.
 fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
     let none = |key: Option<&Placed<u64>>| key.is_none_or(|k| k.value == 0);
     if let Some(dark) = record.filter(|d| none(d.rows_px.as_ref()) && none(d.columns_px.as_ref())) {
@@ -50,7 +49,7 @@ fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
     }
 }
 
-/// Each refusal stands where its key does, or the innermost table around it that is stated.
+/// Reports each error at its key, or at the innermost stated table around it.
 fn refuse(record: &record::Sensor, errors: &[SensorError], context: &mut Context<'_>) {
     let table = record.to_table();
     for error in errors {

@@ -1,4 +1,4 @@
-//! From charge to digital numbers: voltage, converter, layout, captures.
+//! From charge to digital numbers: voltage, ADC, layout, captures.
 
 use super::light::neighbours;
 use crate::compile::stated::or;

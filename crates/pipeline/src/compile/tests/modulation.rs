@@ -1,4 +1,4 @@
-//! Strengths that change over time, as the tracer gets them.
+//! Time-dependent strengths in the tracer.
 
 use super::plan;
 use crate::Plan;

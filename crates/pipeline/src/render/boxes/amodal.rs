@@ -1,4 +1,4 @@
-//! The image of a whole object, whatever hides it.
+//! Image of a whole object, including its occluded parts.
 
 use super::clipped;
 use super::edges::Edges;
@@ -10,21 +10,21 @@ use etendue_tracer::geometry::Instance;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// How far (of its size, and px) beyond the box of those points the pixels of an object are looked for.
+/// Margin around the box of those points (as a fraction of its size, and in px) in which pixels of an object are searched.
 const BULGE: f64 = 0.1;
 const MARGIN_PX: f64 = 1.0;
 
 /// The image of an object.
 pub(super) struct Amodal<'w> {
-    /// About the images of its points; `None` where none has one.
+    /// Box around the images of its points; `None` if none has one.
     pub(super) image: Option<PixelBox>,
-    /// Whether some points have no image.
+    /// True if some points have no image.
     pub(super) is_cut: bool,
     edges: Edges<'w>,
 }
 
 impl<'w> Amodal<'w> {
-    /// The image of an instance in a frame; a sphere's outline is that seen at `time_s`.
+    /// Image of an instance in a frame; the outline of a sphere is that seen at `time_s`.
     pub(super) fn of(plan: &'w Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) -> Self {
         let image = |own: OwnPoint<'_>| {
             image_of(frame, own, &instance.to_world).map(|at_px| PixelBox { low: at_px, high: at_px })
@@ -38,10 +38,10 @@ impl<'w> Amodal<'w> {
         Self { image: found.map(|(_, image)| image), is_cut, edges }
     }
 
-    /// The box about the part of the instance's image within the picture, given that about the pixels that show it alone; `None` where none is.
+    /// Box of the part of the instance's image within the image frame, given the box of the pixels that show it alone; `None` if there is none.
     ///
-    /// It is about its edges' images, cut at the border, and about the centres of those pixels; where the object covers the centre of an outermost
-    /// pixel and reaches beyond the picture there, it ends at the border.
+    /// It contains the images of its edges, clipped at the border, and the centres of those pixels. If the object covers the centre of an outermost pixel and
+    /// extends beyond the image there, the box ends at the border.
     pub(super) fn in_picture(
         &self,
         frame: &FrameView<'_>,
@@ -62,8 +62,7 @@ impl<'w> Amodal<'w> {
         PixelBox::union(edges.reduce(|| None, PixelBox::union), shown)
     }
 
-    /// Columns and rows of the pixels that may show the object: of the whole picture where a part of it has no image; `None` where it lies
-    /// outside.
+    /// Columns and rows of the pixels that may show the object: the whole image if a part of it has no image point; `None` if it lies outside.
     pub(super) fn pixels(&self, width: usize, height: usize) -> Option<[Range<usize>; 2]> {
         let Some(image) = self.image.filter(|_| !self.is_cut) else { return Some([0..width, 0..height]) };
         let margin = (image.high - image.low) * BULGE + MARGIN_PX;

@@ -1,17 +1,17 @@
-//! The part of a line's image that lies within the picture.
+//! Part of a line's image within the image frame.
 //!
-//! Images of the line's points are joined by straight segments, which are cut at the picture's border (Liang and Barsky 1984). Segments are halved
-//! until they follow the image: perspective keeps lines straight, distortion and motion bend them. Where one end of a segment has no image, as
-//! behind the camera, the last point that has one is found by halving.
+//! Image points of the line are connected by straight segments, which are clipped at the image border (Liang and Barsky 1984). Segments are halved until they
+//! follow the image: perspective keeps lines straight, distortion and motion bend them. If one end of a segment has no image, for example behind the camera,
+//! bisection finds the last point that has one.
 
 use super::pixel_box::PixelBox;
 use glam::DVec2;
 
-/// How far from a segment the image of its middle may lie, px.
+/// Maximum distance of the image of a segment's middle from the segment, px.
 const STRAIGHT_PX: f64 = 0.01;
-/// How often a segment is halved at most.
+/// Maximum number of times a segment is halved.
 const HALVINGS: u32 = 12;
-/// How often the stretch in which the image ends is halved: to 6e-8 of a segment.
+/// Number of bisections for the end of the image: to 6e-8 of a segment.
 const END_HALVINGS: u32 = 24;
 
 /// A point of the line and its image.
@@ -21,8 +21,8 @@ struct Imaged {
     at_px: DVec2,
 }
 
-/// The box about the images, within `picture`, of a line that is divided into `parts`; `image` gives the image of the point at a share of its length. `None`
-/// where no part of it lies in the picture. A line with images only between two neighbouring points of the division has none.
+/// Box around the images, within `picture`, of a line divided into `parts`; `image` returns the image of the point at a fraction of its length. `None` if no
+/// part of it lies in the image. A line with images only between two neighbouring points of the division has none.
 pub(super) fn within(image: &impl Fn(f64) -> Option<DVec2>, parts: usize, picture: &PixelBox) -> Option<PixelBox> {
     let share = |i: usize| i as f64 / parts as f64;
     let point = |share: f64| image(share).map(|at_px| Imaged { share, at_px });
@@ -43,7 +43,7 @@ pub(super) fn within(image: &impl Fn(f64) -> Option<DVec2>, parts: usize, pictur
     found
 }
 
-/// The last point with an image on the way from one that has one to one that has none.
+/// Last point with an image between a point that has one and a point that has none.
 fn last(image: &impl Fn(f64) -> Option<DVec2>, from: Imaged, mut without: f64) -> Imaged {
     let mut with = from;
     for _ in 0..END_HALVINGS {
@@ -77,7 +77,7 @@ fn segment_within(
     }
 }
 
-/// Whether a point lies on the segment between two others.
+/// Returns true if a point lies on the segment between two others.
 fn is_between(at: DVec2, from: DVec2, to: DVec2) -> bool {
     let along = to - from;
     let length = along.length();
@@ -86,12 +86,12 @@ fn is_between(at: DVec2, from: DVec2, to: DVec2) -> bool {
     }
     let towards = along / length;
     let reach = (at - from).dot(towards);
-    // Far outside the picture, rounding moves points by parts of their distance.
+    // Far outside the image, rounding errors are proportional to the distance of the points.
     let tolerance = STRAIGHT_PX.max(1e-9 * length);
     (at - from).perp_dot(towards).abs() <= tolerance && (-tolerance..=length + tolerance).contains(&reach)
 }
 
-/// The box about the part of a segment that lies in the picture.
+/// Box around the part of a segment within the image.
 fn cut(from: DVec2, to: DVec2, picture: &PixelBox) -> Option<PixelBox> {
     let along = to - from;
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
@@ -110,7 +110,7 @@ fn cut(from: DVec2, to: DVec2, picture: &PixelBox) -> Option<PixelBox> {
     if enters > leaves {
         return None;
     }
-    // Rounding may put a point on the border a little beyond it.
+    // Rounding may place a point on the border slightly beyond it.
     let at = |share: f64| {
         let at = if share <= 0.0 {
             from
@@ -141,12 +141,12 @@ mod tests {
         assert_eq!(edges(within(&line, 1, &PICTURE)), [0.0, 40.0, 100.0, 60.0]);
         let beside = |share: f64| Some(DVec2::new(-100.0, 20.0).lerp(DVec2::new(-1.0, 60.0), share));
         assert_eq!(within(&beside, 4, &PICTURE), None);
-        // It misses a corner, though its box does not.
+        // It misses a corner, although its box contains it.
         let past = |share: f64| Some(DVec2::new(-10.0, 5.0).lerp(DVec2::new(5.0, -10.0), share));
         assert_eq!(within(&past, 1, &PICTURE), None);
     }
 
-    /// A line along the ground from 10 m before a pinhole camera to 10 m behind it: it leaves the picture at the lower border.
+    /// A line along the ground from 10 m before a pinhole camera to 10 m behind it: it leaves the image at the lower border.
     #[test]
     fn a_line_that_passes_the_camera_ends_at_the_border() {
         let image = |share: f64| {
@@ -163,7 +163,7 @@ mod tests {
         }
     }
 
-    /// Half a circle that only reaches into the picture between its ends.
+    /// A semicircle that enters the image only between its ends.
     #[test]
     fn bent_lines_are_followed() {
         let image = |share: f64| {

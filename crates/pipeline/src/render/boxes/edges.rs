@@ -1,4 +1,4 @@
-//! Edges of an object, whose images bound its image.
+//! Edges of an object; their images bound its image.
 
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
@@ -6,9 +6,9 @@ use crate::render::motion::OwnPoint;
 use etendue_tracer::geometry::{Instance, Mesh, Shape};
 use glam::{DVec2, DVec3};
 
-/// Points on the outline of a sphere: a circle through 256 of its points is short by 7.5e-5 of its radius.
+/// Number of points on the outline of a sphere: the polygon of 256 points deviates from the circle by 7.5e-5 of its radius.
 const OUTLINE: u32 = 256;
-/// Points on the edges of a mesh of few triangles, of which distortion bends the images.
+/// Number of points on the edges of a mesh of few triangles, whose images distortion bends.
 const ON_EDGES: usize = 512;
 
 /// A straight edge in the instance's own frame.
@@ -20,7 +20,7 @@ pub(super) enum Edge<'w> {
 }
 
 impl<'w> Edge<'w> {
-    /// The point at this share of its length from its first end, 0 to 1.
+    /// Point at a fraction of its length from its first end, 0 to 1.
     pub(super) fn at(&self, share: f64) -> OwnPoint<'w> {
         let between = |[from, to]: [DVec3; 2]| {
             OwnPoint::Fixed(if share <= 0.0 {
@@ -44,15 +44,15 @@ impl<'w> Edge<'w> {
 /// The edges of an object.
 pub(super) struct Edges<'w> {
     pub(super) edges: Vec<Edge<'w>>,
-    /// Parts into which each is divided, as distortion bends its image.
+    /// Number of parts of each edge, because distortion bends its image.
     pub(super) parts: usize,
-    /// Vertices of the mesh that edges use, each once; none where the edges are a closed line.
+    /// Vertices of the mesh that edges use, each once; empty if the edges are a closed line.
     vertices: Vec<Edge<'w>>,
 }
 
 impl<'w> Edges<'w> {
-    /// A mesh's edges, or chords of a sphere's outline as the frame's camera sees it at `time_s`: none of a sphere about the camera. (An image is
-    /// bounded by images of edges: a lens maps directions one to one.)
+    /// Edges of a mesh, or chords of a sphere's outline as the frame's camera sees it at `time_s`; none for a sphere that contains the camera. (Images of
+    /// edges bound an image, because a lens maps directions one to one.)
     pub(super) fn of(plan: &'w Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) -> Self {
         match instance.shape {
             Shape::Mesh(id) => Self::of_mesh(plan.world.mesh(id)),
@@ -83,7 +83,7 @@ impl<'w> Edges<'w> {
         }
     }
 
-    /// Points on the edges, each once: their ends, and those that divide them.
+    /// Points on the edges, each once: their ends and division points.
     pub(super) fn points(&self) -> Vec<OwnPoint<'w>> {
         let ends = if self.vertices.is_empty() { &self.edges } else { &self.vertices };
         let mut points: Vec<OwnPoint<'w>> = ends.iter().map(|edge| edge.at(0.0)).collect();
@@ -94,8 +94,8 @@ impl<'w> Edges<'w> {
     }
 }
 
-/// Points of the circle in which rays from `eye` touch a sphere about the origin: affine maps keep what touches, so that it is the outline in
-/// a stretched instance as well.
+/// Points of the circle in which rays from `eye` touch a sphere at the origin. Affine maps preserve tangency, so that it is the outline in a scaled instance
+/// as well.
 fn outline(radius_m: f64, eye: DVec3) -> Vec<DVec3> {
     let distance_m = eye.length();
     if distance_m <= radius_m {

@@ -1,19 +1,20 @@
-//! Boxes of objects: in the picture around what is seen and around the whole object, and in space.
+//! Boxes of objects: in the image, of the visible pixels and of the whole object, and in space.
 //!
-//! Every instance with an identity whose pixels are seen, or would be if it stood alone, has an entry. A pixel is counted by its centre's
-//! principal ray at the middle of its row's exposure, as in the ground truth; what is smaller than that grid may have no entry.
+//! Every instance with an identity whose pixels are visible, or would be if it were alone, has an entry. A pixel is counted by its centre's
+//! principal ray at the middle of its row's exposure, as in the ground truth; objects smaller than that grid may have no entry.
 //!
 //! - **Visible**: the pixels that show the instance's identity.
-//! - **Alone**: the pixels that would show it were it the only instance; every pixel of its amodal box is asked.
-//! - **Amodal box**: about the images of its vertices and of points on its edges, at least some 500 (of a sphere: of its outline), and about
-//!   the centres of the pixels that it shows alone, which know how distortion bends an edge between; it may reach beyond the picture. Where a part has no image (behind the camera,
-//!   beyond the lens's field) it is about the rest, and `is_cut` says so.
-//! - **Amodal box in the picture**: about the part of the whole object's image that lies in the picture. Edges are cut at its border, not the box,
-//!   which of an object beside the camera reaches far above and below what is in the picture.
+//! - **Alone**: the pixels that would show it if it were the only instance; every pixel of its amodal box is tested.
+//! - **Amodal box**: contains the images of its vertices and of points on its edges, at least about 500 (of a sphere: of its outline), and
+//!   the centres of the pixels that it shows alone, which account for the bending of edges by distortion; it may extend beyond the image. If a part has no
+//!   image (behind the camera,
+//!   beyond the lens's field), the box contains the rest, and `is_cut` is true.
+//! - **Amodal box in the image**: contains the part of the whole object's image within the image frame. Edges are clipped at its border, not the box,
+//!   because the box of an object next to the camera extends far above and below the visible part.
 //! - **Box in space**: along the axes of the object (x forward, y left, z up), at the middle of the frame's exposure.
 //!
-//! Left out: amodal boxes by mirrors, where a point may have several images: they are those of the pixels that the object shows alone, and
-//! what is not seen has none. What has no point on its edges with an image, and is hidden, has no entry.
+//! Limitations: by mirrors, where a point may have several images, amodal boxes are those of the pixels that the object shows alone, and
+//! invisible objects have none. A hidden object without an image of any edge point has no entry.
 
 mod amodal;
 mod clipped;
@@ -39,37 +40,37 @@ use glam::DVec2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// The boxes of one object in one frame.
+/// Boxes of one object in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObjectBoxes {
-    /// Its identity in the ground truth.
+    /// Instance id in the ground truth.
     pub id: u32,
-    /// About the pixels that show it; `None` where none does.
+    /// Box of the pixels that show it; `None` if there are none.
     pub visible: Option<PixelBox>,
-    /// About the whole object; `None` where nothing of it has an image, or only by a mirror in which it is not seen.
+    /// Box of the whole object; `None` if nothing of it has an image, or only by a mirror in which it is not visible.
     pub amodal: Option<PixelBox>,
-    /// About the part of the whole object's image within the picture; `None` where none is.
+    /// Box of the part of the whole object's image within the image frame; `None` if there is none.
     pub amodal_in_picture: Option<PixelBox>,
-    /// Whether parts of it have no image, so that the amodal box is about the rest.
+    /// True if parts of it have no image, so that the amodal box contains only the rest.
     pub is_cut: bool,
-    /// Pixels that show it.
+    /// Number of pixels that show it.
     pub visible_pixels: usize,
-    /// Pixels that would show it were it alone.
+    /// Number of pixels that would show it if it were alone.
     pub alone_pixels: usize,
     /// Its box in space.
     pub solid: SolidBox,
 }
 
 impl ObjectBoxes {
-    /// The part of its pixels that nothing hides, 0 to 1.
+    /// Fraction of its pixels that are not occluded, 0 to 1.
     #[must_use]
     pub fn visible_fraction(&self) -> f64 {
-        // A pixel whose ray the alone object is found by differently (a silhouette) may be seen and not counted.
+        // A silhouette pixel may be visible but not counted, because the ray can find the lone object differently.
         let alone = self.alone_pixels.max(self.visible_pixels);
         if alone == 0 { 0.0 } else { self.visible_pixels as f64 / alone as f64 }
     }
 
-    /// The part of its amodal box's area that lies outside a picture, 0 to 1; `None` where parts have no image.
+    /// Fraction of its amodal box's area outside an image, 0 to 1; `None` if parts have no image.
     #[must_use]
     pub fn truncated_fraction(&self, width_px: usize, height_px: usize) -> Option<f64> {
         let whole = self.amodal.filter(|_| !self.is_cut)?;
@@ -78,8 +79,7 @@ impl ObjectBoxes {
     }
 }
 
-/// The boxes of the objects that a frame shows, in the order of their identities; `ids` are the identities of the frame's ground truth. On
-/// the caller's pool.
+/// Boxes of the objects in a frame, in the order of their identities; `ids` are the identities of the frame's ground truth. Runs on the caller's pool.
 #[must_use]
 pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, simd: Simd) -> Vec<ObjectBoxes> {
     let seen = visible(ids);
@@ -90,7 +90,7 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
     let boxes = numbered.collect::<Vec<_>>().into_par_iter().filter_map(|(index, instance)| {
         let amodal = Amodal::of(plan, frame, instance, time_s);
         if amodal.image.is_none() && !seen.contains_key(&instance.instance_id) {
-            return None; // Behind the camera, as far as its edges tell, and not seen: no pixel is asked.
+            return None; // Behind the camera, as far as its edges show, and not visible: no pixel is tested.
         }
         let alone = alone(&looks, index as u32, &amodal, ids);
         let (visible_pixels, visible) = seen.get(&instance.instance_id).map_or((0, None), |(n, b)| (*n, Some(*b)));
@@ -114,7 +114,7 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
     boxes
 }
 
-/// Number and box of the pixels of each identity.
+/// Number and box of the visible pixels of each identity.
 fn visible(ids: &Plane<Identity>) -> BTreeMap<u32, (usize, PixelBox)> {
     let mut found = BTreeMap::new();
     for (i, id) in ids.samples().iter().enumerate().filter(|(_, id)| **id > 0) {
@@ -125,8 +125,8 @@ fn visible(ids: &Plane<Identity>) -> BTreeMap<u32, (usize, PixelBox)> {
     found
 }
 
-/// The pixels (row by row from the top left) that would show each object of these identities were it alone, or that show it in the ground truth `ids`. On the
-/// caller's pool.
+/// Pixels (row by row from the top left) that would show each object of these identities if it were alone, or that show it in the ground truth `ids`. Runs on
+/// the caller's pool.
 #[must_use]
 pub fn silhouettes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, simd: Simd) -> BTreeMap<u32, Vec<usize>> {
     let looks = LookAt::new(plan, frame, simd);
@@ -155,14 +155,14 @@ pub fn silhouettes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, si
     found
 }
 
-/// Number and box of the pixels that would show an instance were it alone; `None` where none would.
+/// Number and box of the pixels that would show an instance if it were alone; `None` if there are none.
 fn alone(looks: &LookAt<'_>, index: u32, amodal: &Amodal, ids: &Plane<Identity>) -> Option<(usize, PixelBox)> {
     let counted = alone_pixels(looks, index, amodal, ids)?.map(|(x, y)| (1, PixelBox::of_pixel(x, y)));
-    // Least and greatest of whole numbers: the same in any order.
+    // Minimum and maximum of integers: independent of the order.
     counted.reduce_with(|a, b| (a.0 + b.0, a.1.about(&b.1)))
 }
 
-/// Columns and rows of these pixels; `None` where the object lies outside the picture.
+/// Columns and rows of these pixels; `None` if the object lies outside the image.
 fn alone_pixels<'a>(
     looks: &'a LookAt<'_>,
     index: u32,

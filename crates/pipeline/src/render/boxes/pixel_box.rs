@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-/// A box with upright edges in raster coordinates, px: a pixel (x, y) fills x to x + 1 and y to y + 1.
+/// An axis-aligned box in raster coordinates, px: a pixel (x, y) covers x to x + 1 and y to y + 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelBox {
     /// Left and upper edge.
@@ -17,23 +17,23 @@ impl PixelBox {
         Self { low, high: low + 1.0 }
     }
 
-    /// About all pixels of a picture.
+    /// Box of all pixels of an image.
     pub(super) fn of_picture(width_px: usize, height_px: usize) -> Self {
         Self { low: DVec2::ZERO, high: DVec2::new(width_px as f64, height_px as f64) }
     }
 
-    /// Whether the other box lies within this.
+    /// Returns true if the other box lies within this one.
     pub(super) fn holds(&self, other: &Self) -> bool {
         (self.low.cmple(other.low) & self.high.cmpge(other.high)).all()
     }
 
-    /// Of a box about pixels, that about their centres.
+    /// Converts a box around pixels to the box around their centres.
     pub(super) fn of_centres(&self) -> Self {
         Self { low: self.low + 0.5, high: self.high - 0.5 }
     }
 
-    /// Of a box about pixels of a picture, that about their centres, but up to the border where the box ends there and `whole` reaches beyond; `None`
-    /// reaches without end.
+    /// Converts a box around pixels of an image to the box around their centres, extended to the border where the box ends at the border and `whole` extends
+    /// beyond; `None` is unbounded.
     pub(super) fn to_border(self, whole: Option<&Self>, picture: &Self) -> Self {
         let centres = self.of_centres();
         let whole = whole.copied().unwrap_or(Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY });
@@ -45,7 +45,7 @@ impl PixelBox {
         }
     }
 
-    /// The least box about both.
+    /// Smallest box that contains both.
     #[must_use]
     pub fn about(&self, other: &Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
@@ -58,7 +58,7 @@ impl PixelBox {
         }
     }
 
-    /// The part within a picture; `None` where it lies outside.
+    /// Part within an image; `None` if it lies outside.
     #[must_use]
     pub fn within(&self, width_px: usize, height_px: usize) -> Option<Self> {
         let picture = Self::of_picture(width_px, height_px);
@@ -66,13 +66,13 @@ impl PixelBox {
         low.cmplt(high).all().then_some(Self { low, high })
     }
 
-    /// Its area, px².
+    /// Area, px².
     #[must_use]
     pub fn area_px2(&self) -> f64 {
         (self.high - self.low).element_product()
     }
 
-    /// Left, upper, right and lower edge, px.
+    /// Left, upper, right and lower edges, px.
     #[must_use]
     pub fn edges_px(&self) -> [f64; 4] {
         [self.low.x, self.low.y, self.high.x, self.high.y]

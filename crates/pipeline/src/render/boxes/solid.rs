@@ -5,29 +5,29 @@ use etendue_core::CameraPose;
 use etendue_tracer::geometry::{Instance, Shape};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// A box in space that stands as its object does.
+/// A box in space, oriented like its object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolidBox {
     /// Lengths along its own axes x, y, z, m.
     pub size_m: DVec3,
-    /// Its place in the world.
+    /// Pose in the world.
     pub world: Stance,
-    /// Its place in the camera's frame (x right, y down, z forward) at the same time.
+    /// Pose in the camera's frame (x right, y down, z forward) at the same time.
     pub camera: Stance,
 }
 
-/// Where a box stands.
+/// Pose of a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stance {
     /// Its centre, m.
     pub centre_m: DVec3,
-    /// From its own axes to those of the frame; of the two quaternions of the rotation that with w ≥ 0.
+    /// Rotation from its own axes to those of the frame; of the two equivalent quaternions the one with w ≥ 0.
     pub rotation: DQuat,
 }
 
 impl SolidBox {
-    /// The box about an instance's shape at a time, along the axes of its object (x forward, y left, z up; whatever axes a mesh's file has).
-    /// A frame that is scaled unevenly after it was turned has sheared axes: the box then stands along the first of them and about all of it.
+    /// Box of an instance's shape at a time, along the axes of its object (x forward, y left, z up; whatever the axes of a mesh's file). A frame with
+    /// non-uniform scale after a rotation has sheared axes: the box is then aligned to the first of them and contains the whole shape.
     pub(super) fn of(plan: &Plan, instance: &Instance, time_s: f64, pose: &CameraPose) -> Self {
         let (size_m, world) = Self::in_world(plan, instance, time_s);
         let axes = object_axes(plan, instance, time_s);
@@ -39,7 +39,7 @@ impl SolidBox {
         Self { size_m, world, camera }
     }
 
-    /// Size, m, and place in the world.
+    /// Size, m, and pose in the world.
     pub(crate) fn in_world(plan: &Plan, instance: &Instance, time_s: f64) -> (DVec3, Stance) {
         let to_world = instance.to_world.at(time_s);
         let axes = object_axes(plan, instance, time_s);
@@ -52,13 +52,13 @@ impl SolidBox {
     }
 }
 
-/// The rotation from an object's axes to the world at a time.
+/// Rotation from an object's axes to the world at a time.
 fn object_axes(plan: &Plan, instance: &Instance, time_s: f64) -> DMat3 {
     let axes = plan.identity(instance.instance_id).map_or(DMat3::IDENTITY, |identity| identity.axes);
     orthonormalised(&(instance.to_world.at(time_s).matrix3 * axes))
 }
 
-/// The corners of the box about a shape at a time, in its own frame.
+/// Corners of the box around a shape at a time, in its own frame.
 fn corners(plan: &Plan, instance: &Instance, time_s: f64) -> [DVec3; 8] {
     let (low, high) = match instance.shape {
         Shape::Mesh(id) => plan
@@ -72,7 +72,7 @@ fn corners(plan: &Plan, instance: &Instance, time_s: f64) -> [DVec3; 8] {
     core::array::from_fn(|i| DVec3::select(glam::BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), low, high))
 }
 
-/// The rotation whose axes are those of a matrix, made perpendicular one after the other; of a matrix that mirrors, z turned about.
+/// Rotation from the axes of a matrix, orthogonalised one after the other; z is reversed if the matrix mirrors.
 fn orthonormalised(matrix: &DMat3) -> DMat3 {
     let x = matrix.x_axis.normalize();
     let y = (matrix.y_axis - x * x.dot(matrix.y_axis)).normalize();

@@ -32,7 +32,7 @@ fn object(name: &str, shape: &str, keys: &str) -> String {
 
 #[test]
 fn a_board_has_the_boxes_of_its_pixels_and_of_its_corners() {
-    // 2 m in 5 m: 24 px about (16, 12), cut by nothing. The wall behind it fills the picture and reaches 1 200 px beyond to every side.
+    // 2 m at 5 m: 24 px around (16, 12), not clipped. The wall behind it fills the image and extends 1 200 px beyond each side.
     let found = boxes(&plan(PINHOLE, &format!("{WALL}{BOARD}")));
     let [wall, board] = &found[..] else { panic!("{found:?}") };
     assert_eq!((board.id, board.visible_pixels, board.alone_pixels), (2, 576, 576));
@@ -49,7 +49,7 @@ fn a_board_has_the_boxes_of_its_pixels_and_of_its_corners() {
 
 #[test]
 fn what_another_object_hides_is_no_part_of_the_visible_box() {
-    // A board of 1 m in 2.5 m before the left half of that in 5 m: 24 px wide, 12 px to the left.
+    // A board of 1 m at 2.5 m before the left half of that at 5 m: 24 px wide, 12 px to the left.
     let before =
         object("a", "type = \"quad\", size_m = [1, 1]", "position_m = [2.5, 0.5, 0]\nrotation_deg = [0, 90, 0]");
     let found = boxes(&plan(PINHOLE, &format!("{BOARD}{before}")));
@@ -57,7 +57,7 @@ fn what_another_object_hides_is_no_part_of_the_visible_box() {
     assert_eq!(board.visible.expect("seen").edges_px(), [16.0, 0.0, 28.0, 24.0]);
     assert!(close(board.amodal.expect("seen").edges_px(), [4.0, 0.0, 28.0, 24.0]));
     assert_eq!((board.visible_fraction(), before.visible_fraction()), (0.5, 1.0));
-    // From −8 to 16 px: a third lies outside.
+    // From −8 to 16 px: a third is outside.
     assert!(close(before.amodal.expect("seen").edges_px(), [-8.0, 0.0, 16.0, 24.0]), "{before:?}");
     assert!(before.truncated_fraction(32, 24).is_some_and(|part| (part - 1.0 / 3.0).abs() < 1e-9));
 }
@@ -69,7 +69,7 @@ fn a_hidden_object_has_an_entry_and_one_beside_the_picture_has_none() {
     let found = boxes(&plan(PINHOLE, &format!("{BOARD}{hidden}{beside}")));
     let [_, hidden] = &found[..] else { panic!("{found:?}") };
     assert_eq!((hidden.visible, hidden.visible_pixels, hidden.visible_fraction()), (None, 0, 0.0));
-    // The outline of a ball of radius r in the distance d is a circle of f r / √(d² − r²).
+    // The outline of a ball of radius r at distance d is a circle of f r / √(d² − r²).
     let radius_px = FOCAL_PX * 0.5 / (64.0_f64 - 0.25).sqrt();
     let [left, top, right, bottom] = hidden.amodal.expect("a ball").edges_px();
     // 256 points of the outline.
@@ -87,14 +87,14 @@ fn what_reaches_behind_the_camera_is_cut() {
     let found = boxes(&plan(PINHOLE, &floor));
     let [floor] = &found[..] else { panic!("{found:?}") };
     assert!(floor.is_cut && floor.truncated_fraction(32, 24).is_none());
-    // The horizon of 50 m is 1.5 / 50 · 60 px below the axis.
+    // The far edge at 50 m is 1.5 / 50 · 60 px below the axis.
     let visible = floor.visible.expect("seen");
     assert_eq!(visible.edges_px(), [0.0, 14.0, 32.0, 24.0]);
     assert!((floor.amodal.expect("seen").low.y - 13.8).abs() < 0.01, "{floor:?}");
 }
 
-/// A bar along the camera's axis, 0.5 m to 2.3 m to its right, from 1.2 m below the axis to 0.3 m above, that ends 5.05 m before it and leaves the
-/// picture to the right, wholly before the camera or reaching behind it.
+/// A bar along the camera's axis, 0.5 m to 2.3 m to its right, from 1.2 m below the axis to 0.3 m above. It ends 5.05 m before the camera and leaves the
+/// image to the right, either entirely before the camera or extending behind it.
 #[test]
 fn what_leaves_the_picture_sideways_ends_at_its_border() {
     for from_m in [0.55, -2.0] {
@@ -106,11 +106,11 @@ fn what_leaves_the_picture_sideways_ends_at_its_border() {
         );
         let found = boxes(&plan(PINHOLE, &bar));
         let in_picture = found[0].amodal_in_picture.expect("seen").edges_px();
-        // The upper inner edge meets the right border, 16 px from the axis, in a depth of 0.5 m · 60 / 16.
+        // The upper inner edge meets the right border, 16 px from the axis, at a depth of 0.5 m · 60 / 16.
         let expected = [16.0 + 60.0 * 0.5 / 5.05, 12.0 - 60.0 * 0.3 / 1.875, 32.0, 24.0];
         assert!(close(in_picture, expected), "{from_m}: {in_picture:?}");
         assert_eq!(found[0].is_cut, from_m < 0.0);
-        // The whole image, of that before the camera, reaches 20.7 px above the picture.
+        // The whole image, of the bar before the camera, extends 20.7 px above the frame.
         let top = 12.0 - 60.0 * 0.3 / 0.55;
         assert!(found[0].is_cut || (found[0].amodal.expect("seen").low.y - top).abs() < 1e-6);
     }
@@ -120,7 +120,7 @@ fn what_leaves_the_picture_sideways_ends_at_its_border() {
 fn what_covers_the_picture_has_its_borders() {
     let found = boxes(&plan(PINHOLE, WALL));
     assert_eq!(found[0].amodal_in_picture.expect("seen").edges_px(), [0.0, 0.0, 32.0, 24.0]);
-    // A ball about the camera has no outline.
+    // A ball around the camera has no outline.
     let about = object("h", "type = \"sphere\", radius_m = 3", "");
     let found = boxes(&plan(PINHOLE, &about));
     assert_eq!((found[0].amodal_in_picture.expect("seen").edges_px(), found[0].is_cut), ([0.0, 0.0, 32.0, 24.0], true));
@@ -129,7 +129,7 @@ fn what_covers_the_picture_has_its_borders() {
 #[test]
 fn edges_that_a_fisheye_bends_are_inside_the_box() {
     let lens = "type = \"calibrated\", f_number = 2, projection = { type = \"equidistant\", fx_px = 8 }";
-    // Corners at (±2, ±2, 1): 70.5° from the axis, on the diagonals; the middles of the edges at 63.4° reach farther to the sides.
+    // Corners at (±2, ±2, 1): 70.5° from the axis, on the diagonals; the middles of the edges at 63.4° extend farther to the sides.
     let board = object("e", "type = \"quad\", size_m = [4, 4]", "position_m = [1, 0, 0]\nrotation_deg = [0, 90, 0]");
     let found = boxes(&plan(lens, &board));
     let reach = 8.0 * etendue_core::maths::f64::atan(2.0);
@@ -155,7 +155,7 @@ fn boxes_in_space_stand_as_their_objects_do() {
 
 #[test]
 fn boxes_are_those_of_the_rows_times() {
-    // 3 m/s to the right in 5 m: 36 px/s. Rows of 2 ms: the last begins 46 ms after the first, 1.7 px later.
+    // 3 m/s to the right at 5 m: 36 px/s. Rows of 2 ms: the last starts 46 ms after the first, 1.7 px later.
     let moving = with_motion(plan(PINHOLE, BOARD), 0, &shifting(DVec3::Y * -3.0));
     let still = CameraPath::still(pose_of(&moving));
     let shutter = Shutter::Rolling(RowTiming { row_time_s: 2e-3, upwards: false, fields: 1 });
@@ -179,7 +179,7 @@ fn a_windscreen_shifts_boxes_and_a_mirror_has_those_of_pixels() {
     let camera = format!("lens = {{ {PINHOLE} }}\nexternal_optics = {{ windscreen = {{ {windscreen} }} }}\n");
     let found = boxes(&plan_of(&camera, 100.0, BOARD));
     let (amodal, visible) = (found[0].amodal.expect("seen"), found[0].visible.expect("seen"));
-    // Pixels are whole: their box and that of the corners differ by less than a pixel on every side.
+    // Pixels are whole: their box differs from that of the corners by less than a pixel on every side.
     let differences = amodal.edges_px().into_iter().zip(visible.edges_px()).map(|(a, b)| (a - b).abs());
     assert!(differences.fold(0.0, f64::max) < 1.0 && !found[0].is_cut, "{amodal:?} {visible:?}");
 }

@@ -1,30 +1,30 @@
-//! All objects of the world at a moment, whether a camera sees them or not.
+//! All objects of the world at a time, visible to a camera or not.
 
 use super::{SolidBox, Stance};
 use crate::plan::Plan;
 use etendue_tracer::geometry::Instance;
 use glam::DVec3;
 
-/// An object of the world at a moment.
+/// An object of the world at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorldObject {
-    /// Its identity in the ground truth.
+    /// Instance id in the ground truth.
     pub id: u32,
     /// Its name in the scene.
     pub name: String,
-    /// Its class; `None`: it has none.
+    /// Its class, if any.
     pub class: Option<String>,
     /// Lengths of its box along its own axes x, y, z, m.
     pub size_m: DVec3,
-    /// Where its box stands in the world.
+    /// Pose of its box in the world.
     pub stance: Stance,
-    /// Velocity of the box's centre in the world, m/s, by the object's motion; what a mesh deforms is left out.
+    /// Velocity of the box's centre in the world, m/s, by the object's motion, without deformation of a mesh.
     pub velocity_m_s: DVec3,
-    /// Whether it ever moves.
+    /// True if it moves at any time.
     pub moves: bool,
 }
 
-/// The objects with an identity at a simulated time, s, in the order of their identities.
+/// Objects with an identity at a simulated time, s, in the order of their identities.
 #[must_use]
 pub fn world_objects(plan: &Plan, time_s: f64) -> Vec<WorldObject> {
     let numbered = plan.world.instances().iter().filter(|instance| instance.instance_id > 0);

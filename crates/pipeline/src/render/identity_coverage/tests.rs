@@ -1,4 +1,4 @@
-//! Shares of pixels against geometry.
+//! Coverage of pixels compared with geometry.
 
 use super::*;
 use crate::{Choices, compile};
@@ -6,7 +6,7 @@ use etendue_scene::asset::Assets;
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
 
-/// A camera at the origin that looks along +x at a sheet 10 m away whose upper edge lies `edge_m` above the axis; 0.1 m of it are one of its pixels.
+/// A camera at the origin that looks along +x at a sheet 10 m away, with its upper edge `edge_m` above the axis; 0.1 m of it correspond to one pixel.
 fn plan(lens: &str, edge_m: f64, camera: &str, motion: &str) -> Plan {
     let place = if motion.is_empty() { format!("position_m = [10, 0, {}]", edge_m - 2.0) } else { motion.to_owned() };
     let text = format!(
@@ -26,7 +26,7 @@ fn shares(plan: &Plan) -> IdentityCoverage {
     identity_coverage(plan, &plan.cameras[0], 0, Simd::Auto)
 }
 
-/// The coverage of the sheet in the rows of a column.
+/// Coverage by the sheet in the rows of a column.
 fn column(found: &IdentityCoverage) -> Vec<f32> {
     (0..found.height)
         .map(|row| found.instances[row * found.width + 1].first().map_or(0.0, |share| share.coverage))
@@ -39,7 +39,7 @@ fn an_edge_covers_its_part_of_a_pixel() {
     let found = shares(&plan(PINHOLE, 0.1 / 3.0, SENSOR, ""));
     assert_eq!((found.width, found.height), (4, 8));
     let column = column(&found);
-    // 64 stratified samples know a straight edge to 1/64 and its face's distance to 5e-4.
+    // With 64 stratified samples the error of a straight edge is 1/64, that of its face's distance 5e-4.
     assert_eq!(column[..3], [0.0; 3]);
     assert!((column[3] - 1.0 / 3.0).abs() < 0.02, "{column:?}");
     assert_eq!(column[4..], [1.0; 4]);
@@ -50,20 +50,20 @@ fn an_edge_covers_its_part_of_a_pixel() {
 
 #[test]
 fn blur_and_motion_spread_an_edge_over_pixels() {
-    // An opening of 100 mm focused at 5 m: a point at 10 m blurs over 100 mm there, a pixel. Above the edge, over a radius R of half a pixel, the mean of what a disc covers
-    // beyond d is 2R/3π of the pixel: 0.106.
+    // An aperture of 100 mm focused at 5 m: a point at 10 m blurs over 100 mm there, one pixel. Above the edge, over a radius R of half a pixel, the mean of
+    // the disc's coverage beyond d is 2R/3π of the pixel: 0.106.
     let blurred = "{ type = \"thin\", focal_length_mm = 60, f_number = 0.6, focus_distance_m = 5 }";
     let sensor = SENSOR.replace("60", "607");
     let column_of = |plan: &Plan| column(&shares(plan));
     let blurred = column_of(&plan(blurred, 0.0, &sensor, ""));
-    // 64 points of pixel and pupil: a standard deviation of at most √(0.106 · 0.894/64) = 0.04 if they were independent.
+    // 64 points of pixel and pupil: a standard deviation of at most √(0.106 · 0.894/64) = 0.04 for independent points.
     assert!((blurred[3] - 0.106).abs() < 0.06, "light passes above the edge out of focus: {blurred:?}");
     assert!((blurred[4] - 0.894).abs() < 0.06, "and is missing below: {blurred:?}");
-    // The edge rises from the axis by a pixel while the shutter is open: half of the row on average.
+    // The edge rises from the axis by a pixel during the exposure: half of the row on average.
     let motion = "keys = [{ time_s = 0, position_m = [10, 0, -2] }, { time_s = 0.1, position_m = [10, 0, -1.9] }]";
     let sensor = SENSOR.replace(" }", ", shutter = { type = \"global\", exposure_s = 0.1 } }");
     let moved = column_of(&plan(PINHOLE, 0.0, &sensor, motion));
-    // 64 points of the pixel and the exposure together: a standard deviation of at most 0.5/8 if they were independent.
+    // 64 points of the pixel and the exposure together: a standard deviation of at most 0.5/8 for independent points.
     assert!((moved[3] - 0.5).abs() < 0.1, "{moved:?}");
     assert_eq!((moved[2], moved[4]), (0.0, 1.0));
 }

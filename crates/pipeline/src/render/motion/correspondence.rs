@@ -1,8 +1,8 @@
-//! Where and when a point is seen in a frame, whose rows are exposed one after the other.
+//! Position and time at which a point is seen in a frame whose rows are exposed one after the other.
 //!
-//! A point at p(t) is seen at the row y for which the image of p(t(y)) lies at y, t(y) being the middle of the exposure there
-//! ([`FrameView::middle_at_s`]). The iteration y ← image of p(t(y)) shrinks errors by |image velocity| × row time, far below 1 for whatever
-//! does not outrun the shutter; what does has no single image.
+//! A point at p(t) is seen in the row y for which the image of p(t(y)) lies at y, where t(y) is the middle of the exposure there
+//! ([`FrameView::middle_at_s`]). The iteration y ← image of p(t(y)) reduces errors by |image velocity| × row time, far below 1 for everything that does not
+//! outrun the shutter; what does has no single image.
 
 use super::image_point::{Target, image_point, unbent};
 use super::surface_path::{HALF_STEP_S, OwnPoint, SurfacePath};
@@ -10,33 +10,33 @@ use crate::render::frame_view::FrameView;
 use etendue_core::{CameraPose, Motion};
 use glam::DVec2;
 
-/// Where a pixel looks: its place, and whether its ray is off the pupil's centre.
+/// View of a pixel: its image position, and whether its ray is off the pupil's centre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sight {
-    /// Its place, px.
+    /// Image position, px.
     pub at_px: DVec2,
-    /// As `CameraBody::truth_ray` tells it.
+    /// Second value of `CameraBody::truth_ray`.
     pub off_centre: bool,
 }
 
 /// An image of a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Correspondence {
-    /// Where it is seen, px.
+    /// Image position, px.
     pub at_px: DVec2,
-    /// When, simulated time, s.
+    /// Simulated time, s.
     pub time_s: f64,
-    /// Where the camera stands then.
+    /// Pose of the camera at that time.
     pub pose: CameraPose,
-    /// The point in the camera's frame then.
+    /// The point in the camera's frame at that time.
     pub target: Target,
 }
 
 const MAX_STEPS: usize = 64;
-/// A step (px) after which the row is found.
+/// Step (px) below which the iteration has converged.
 const CLOSE_PX: f64 = 1e-9;
 
-/// Where a frame sees what is seen from `sight` in another; `None` where it has no image there.
+/// Image, in a frame, of the point that is seen from `sight` in another; `None` if it has no image there.
 pub(crate) fn correspondence(frame: &FrameView<'_>, surface: &SurfacePath<'_>, sight: Sight) -> Option<Correspondence> {
     let row = sight.at_px.y.max(0.0) as usize;
     let mut at_px = sight.at_px;
@@ -55,7 +55,7 @@ pub(crate) fn correspondence(frame: &FrameView<'_>, surface: &SurfacePath<'_>, s
     None
 }
 
-/// The velocity of a point's image at a time, px/s, of a camera that is open all the while; `None` where there is no image.
+/// Velocity of a point's image at a time, px/s, of a camera with an open shutter; `None` without an image.
 pub(crate) fn image_velocity(
     frame: &FrameView<'_>,
     surface: &SurfacePath<'_>,
@@ -69,8 +69,8 @@ pub(crate) fn image_velocity(
     Some((image(time_s + HALF_STEP_S)? - image(time_s - HALF_STEP_S)?) / (2.0 * HALF_STEP_S))
 }
 
-/// Where a frame sees a point of an instance's own frame, px, sought from where the bare lens would see it; `None` where it has no image, and
-/// by mirrors.
+/// Image position, px, of a point of an instance's own frame. The search starts where the bare lens would see it. `None` if it has no image, and with
+/// mirrors.
 pub(crate) fn image_of(frame: &FrameView<'_>, own: OwnPoint<'_>, to_world: &Motion) -> Option<DVec2> {
     let surface = SurfacePath::Point { own, to_world };
     let middle_s = frame.interval().middle_s();

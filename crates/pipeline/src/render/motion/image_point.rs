@@ -1,28 +1,28 @@
-//! Where a camera sees a point: the inverse of the ray by which ground truth looks.
+//! Image of a point: the inverse of the ground truth's ray.
 //!
-//! - Without wind-screen or mirror the lens's own projection of directions is used. A real pupil moves with the field, so that the
-//!   direction of a near point is not that from the pupil's centre: projection and the principal ray's origin are iterated, which
-//!   shrinks the error by the pupil's shift over the distance each time.
-//! - Behind a wind-screen, by a mirror, of a telecentric camera and through the open part of a clipped pupil there is no projection in closed
-//!   form: Newton's method finds the ray that meets the point, from the place where the point was seen last. Of several images it
-//!   follows that one; where the ray ends on the way (the rim of a mirror, the end of the field) there is none.
+//! - Without windscreen or mirror the lens's own projection of directions is used. A real pupil moves with the field, so that the
+//!   direction of a near point is not that from the pupil's centre: projection and the principal ray's origin are iterated. Each
+//!   iteration reduces the error by the ratio of the pupil's shift to the distance.
+//! - Behind a windscreen, by a mirror, of a telecentric camera and through the open part of a clipped pupil there is no closed-form
+//!   projection: Newton's method finds the ray that meets the point, from the position where the point was seen last. Of several images it
+//!   follows that one; where the ray ends on the way (the edge of a mirror, the end of the field) there is none.
 
 use crate::plan::CameraBody;
 use etendue_optics::front::Optic;
 use etendue_optics::{FrontRay, Lens};
 use glam::{DMat2, DVec2, DVec3};
 
-/// What is looked for, in the camera's frame.
+/// Target of the search, in the camera's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
     /// A point, m.
     Point(DVec3),
-    /// A direction: something infinitely far.
+    /// A direction: an infinitely distant point.
     Direction(DVec3),
 }
 
 impl Target {
-    /// The unit direction in which it is seen from a point (m).
+    /// Unit direction of the target from a point (m).
     pub(crate) fn direction_from(self, origin_m: DVec3) -> Option<DVec3> {
         match self {
             Self::Point(point_m) => (point_m - origin_m).try_normalize(),
@@ -32,11 +32,11 @@ impl Target {
 }
 
 const MAX_STEPS: usize = 32;
-/// A step (px) after which an image point is found.
+/// Step (px) below which the iteration has converged.
 const CLOSE_PX: f64 = 1e-9;
 
-/// Where a camera sees a target (raster, px), within the picture or beyond; `None` where it has no image. `near_px` is where it was seen
-/// last, by a ray `off_centre` as `CameraBody::truth_ray` tells it.
+/// Image position of a target (raster, px), inside or outside the image; `None` if it has no image. `near_px` is its last known position, seen by a ray with
+/// the value `off_centre` of `CameraBody::truth_ray`.
 pub(crate) fn image_point(body: &CameraBody, target: Target, near_px: DVec2, off_centre: bool) -> Option<DVec2> {
     let bends = body.front.as_ref().is_some_and(|front| front.optic().is_some());
     if bends || off_centre || matches!(body.lens, Lens::Telecentric(_)) {
@@ -46,8 +46,8 @@ pub(crate) fn image_point(body: &CameraBody, target: Target, near_px: DVec2, off
     }
 }
 
-/// Where the lens would see a target (px) if nothing stood before it; of a telecentric camera the middle of the picture. `None` where it has no
-/// image, and by a mirror, before which the target is elsewhere.
+/// Image position (px) of a target with nothing before the lens; for a telecentric camera the centre of the image. `None` if it has no image, and with a
+/// mirror, before which the target is elsewhere.
 pub(super) fn unbent(body: &CameraBody, target: Target) -> Option<DVec2> {
     let by_mirror = body.front.as_ref().is_some_and(|front| matches!(front.optic(), Some(Optic::Mirror(_))));
     match body.lens {
@@ -61,7 +61,7 @@ fn projected(body: &CameraBody, target: Target) -> Option<DVec2> {
     let mut at_mm = body.lens.project(target.direction_from(DVec3::ZERO)?)?;
     if matches!(body.lens, Lens::Prescription(_) | Lens::RayTransfer(_)) {
         for _ in 0..MAX_STEPS {
-            // Where the principal ray is clipped, that of the pupil's centre stays.
+            // If the principal ray is clipped, that of the pupil's centre is kept.
             let Some(ray) = body.lens.principal_ray(at_mm) else { break };
             let before_mm = at_mm;
             at_mm = body.lens.project(target.direction_from(ray.origin_m)?)?;
@@ -73,14 +73,14 @@ fn projected(body: &CameraBody, target: Target) -> Option<DVec2> {
     Some(body.raster.raster_px(at_mm))
 }
 
-/// Newton's method with differences over a hundredth of a pixel, about the place where the target was seen last.
+/// Newton's method with differences over a hundredth of a pixel, starting at the last known position.
 fn followed(body: &CameraBody, target: Target, near_px: DVec2) -> Option<DVec2> {
     const DIFFERENCE_PX: f64 = 0.01;
     let axes = {
         let (ray, _) = body.truth_ray(near_px)?;
         ray.ray.direction.any_orthonormal_pair()
     };
-    // How far a ray passes the target by, as the difference of unit directions.
+    // Miss of the target by a ray, as the difference of unit directions.
     let miss = |at_px: DVec2| {
         let (FrontRay { ray, .. }, _) = body.truth_ray(at_px)?;
         let miss = ray.direction - target.direction_from(ray.origin_m)?;

@@ -1,15 +1,15 @@
-//! Ground truth of motion: where what a pixel sees is seen in other frames, and how it moves.
+//! Ground truth of motion: positions, in other frames, of the surface points that a pixel sees, and their velocities.
 //!
-//! Along the same principal rays as the ground truth (587.56 nm, pixel centres), each at the middle of its row's exposure. What is seen there is
-//! held fast in its instance's own frame (on its triangle, where vertices move), moved with the instance to the time of the other frame, seen from where the camera then stands, and
-//! projected by the lens with its distortion. In a frame of a rolling shutter that time is that of the row where the point appears
-//! ([`FrameView::middle_at_s`]). What is not a number has no image: behind the camera, outside the lens's field, beside a mirror.
+//! Traced along the same principal rays as the ground truth (587.56 nm, pixel centres), each at the middle of its row's exposure. The hit point is fixed in
+//! its instance's own frame (on its triangle, if vertices move), moved with the instance to the time of the other frame, seen from the camera's pose at that
+//! time, and projected by the lens with its distortion. In a frame of a rolling shutter that time is that of the row where the point appears
+//! ([`FrameView::middle_at_s`]). NaN marks points without an image: behind the camera, outside the lens's field, outside a mirror.
 //!
-//! Of two frames of one camera this is optical flow; of two cameras whose views are rectified, disparity.
+//! For two frames of one camera this is optical flow; for two cameras with rectified views, disparity.
 //!
-//! Left out: motion of the background (it is infinitely far and does not turn: a camera's own turning moves it); reflections and what
-//! is seen through glass, whose images move otherwise (the pane's or mirror's own surface is followed); captures of a frame with several
-//! exposures (the first one's times are used).
+//! Not included: motion of the background (it is infinitely distant and does not rotate; only a rotation of the camera moves it); reflections and objects
+//! seen through glass, whose images move differently (the surface of the pane or mirror is followed); captures of a frame with several exposures (the times
+//! of the first are used).
 
 mod correspondence;
 mod image_point;
@@ -35,20 +35,20 @@ use rayon::prelude::*;
 pub(crate) use surface_path::OwnPoint;
 use surface_path::SurfacePath;
 
-/// The truth of motion of one frame.
+/// Ground truth of motion of one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionTruth {
-    /// In the frames asked for, in their order.
+    /// Motion to the requested frames, in their order.
     pub neighbours: Vec<NeighbourTruth>,
-    /// Velocity of the image of what a pixel sees, at its time, px/s; NaN where there is none.
+    /// Image velocity of the point that a pixel sees, at the pixel's time, px/s; NaN without one.
     pub motion_vector: Plane<ImageVelocity>,
-    /// Velocity in the world of what a pixel sees, m/s; NaN for the background.
+    /// World velocity of the point that a pixel sees, m/s; NaN for the background.
     pub velocity: Plane<Vector>,
-    /// The time at which the pixel looks, s from the frame's start.
+    /// Time of the pixel's ray, s from the frame's start.
     pub time: Plane<Time>,
 }
 
-/// What a pixel sees, and where it is seen in other frames.
+/// Hit of a pixel, and its images in other frames.
 struct Look {
     motion_vector: [f32; 2],
     velocity: [f32; 3],
@@ -64,7 +64,7 @@ pub(crate) fn bytes_of_pixel(neighbours: usize) -> f64 {
     (look + planes + (neighbours + 1) * size_of::<neighbour::Found>()) as f64
 }
 
-/// The truth of motion of a frame against others of the same world, on the caller's pool.
+/// Ground truth of motion of a frame relative to others of the same world. Runs on the caller's pool.
 #[must_use]
 pub fn motion_truth(plan: &Plan, frame: &FrameView<'_>, others: &[FrameView<'_>], simd: Simd) -> MotionTruth {
     let (width, height) = (frame.body().raster.width(), frame.body().raster.height());
@@ -84,8 +84,8 @@ pub fn motion_truth(plan: &Plan, frame: &FrameView<'_>, others: &[FrameView<'_>]
     }
 }
 
-/// Disparity: the column at which a frame of the left camera sees a point minus that at which one of the right camera does, px, whose views are
-/// rectified (parallel, alike, apart along their rows), with where the right camera sees it.
+/// Disparity: the column at which a frame of the left camera sees a point minus that at which a frame of the right camera does, px, for rectified views
+/// (parallel, equal, displaced along their rows); with the visibility in the right camera.
 #[must_use]
 pub fn disparity(
     plan: &Plan,

@@ -1,4 +1,4 @@
-//! The other frame: where it sees a point, and whether it does.
+//! Position and visibility of a point in the other frame.
 
 use super::correspondence::{Correspondence, Sight, correspondence};
 use super::image_point::Target;
@@ -11,31 +11,31 @@ use etendue_core::quantity::{Identity, OpticalFlow, Quantity, Vector};
 use etendue_tracer::accel::Simd;
 use glam::DVec2;
 
-/// Whether a point is seen in the other frame.
+/// Visibility of a point in the other frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Visibility {
     /// The pixel has no ray of its own.
     #[default]
     NotKnown = 0,
-    /// It is seen.
+    /// Visible.
     Seen = 1,
-    /// Something is before it.
+    /// Occluded.
     Hidden = 2,
-    /// It lies outside the picture.
+    /// Outside the image.
     Outside = 3,
-    /// The lens makes no image of it.
+    /// The lens forms no image of it.
     NoImage = 4,
 }
 
-/// Where what the pixels of a frame see is in another one.
+/// Positions, in another frame, of the points that the pixels of a frame see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NeighbourTruth {
-    /// Its place there minus its place here, px; NaN where it has no image there. Of what is hidden there or outside the picture it is where
-    /// it would be seen.
+    /// Position there minus position here, px; NaN if it has no image there. If it is occluded there or outside the image, the position is where it would be
+    /// seen.
     pub flow: Plane<OpticalFlow>,
-    /// The numbers of [`Visibility`].
+    /// Values of [`Visibility`].
     pub visibility: Plane<Identity>,
-    /// Its place in the camera's frame there minus its place in that here, m; NaN for the background.
+    /// Position in the camera's frame there minus that in the camera's frame here, m; NaN for the background.
     pub scene_flow: Plane<Vector>,
 }
 
@@ -49,7 +49,7 @@ impl NeighbourTruth {
     }
 }
 
-/// What one pixel's point is in the other frame.
+/// Result for one pixel's point in the other frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     flow: [f32; 2],
@@ -63,10 +63,10 @@ impl Default for Found {
     }
 }
 
-/// How much nearer (of its distance, over the cosine of incidence) something must be to hide a point: rays are found with 32-bit floats, which
-/// may name the triangle beside the right one.
+/// Minimum difference in distance, relative to the distance and over the cosine of incidence, by which a nearer surface occludes a point: rays are traced
+/// with 32-bit floats, which may hit the neighbouring triangle.
 const NEARER: f64 = 1e-6;
-/// The least cosine that is granted.
+/// Lower limit of the cosine.
 const GRAZING: f64 = 1e-3;
 
 /// Another frame with its world.
@@ -77,7 +77,7 @@ impl<'a> Neighbour<'a> {
         Self(LookAt::new(plan, frame, simd))
     }
 
-    /// Where and whether the frame sees what is seen from `sight` as `here`.
+    /// Position and visibility, in the frame, of the point seen from `sight` as `here`.
     pub(super) fn find(&self, surface: &SurfacePath<'_>, sight: Sight, here: Target) -> Found {
         let Some(there) = correspondence(&self.0.frame, surface, sight) else {
             return Found { visibility: Visibility::NoImage, ..Found::default() };
@@ -114,7 +114,7 @@ impl<'a> Neighbour<'a> {
     }
 }
 
-/// A plane of one property of `pixels`, `width` a row.
+/// A plane of one property of `pixels`, `width` per row.
 pub(super) fn plane<T, Q: Quantity>(pixels: &[T], width: usize, of: impl Fn(&T) -> Q::Sample) -> Plane<Q> {
     Plane::from_samples(width, pixels.len() / width, pixels.iter().map(of).collect()).expect("one sample a pixel")
 }

@@ -1,4 +1,4 @@
-//! What a pixel sees, over time.
+//! Path of the surface point that a pixel sees, over time.
 
 use super::image_point::Target;
 use crate::plan::Plan;
@@ -14,31 +14,31 @@ pub(crate) enum SurfacePath<'w> {
     Point {
         /// In the instance's own frame.
         own: OwnPoint<'w>,
-        /// From there to the world.
+        /// Transform from there to the world.
         to_world: &'w Motion,
     },
-    /// A direction of the world: the background is infinitely far and does not turn.
+    /// A direction of the world: the background is infinitely distant and does not rotate.
     Background(DVec3),
 }
 
-/// A point of a surface in the own frame of its instance.
+/// A surface point in its instance's own frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum OwnPoint<'w> {
-    /// Where it always is.
+    /// A constant position.
     Fixed(DVec3),
-    /// Of a triangle whose vertices move, by barycentric weights.
+    /// A point of a triangle with moving vertices, by barycentric weights.
     Between {
         /// The mesh.
         mesh: &'w Mesh,
         /// Its vertices.
         vertices: [u32; 3],
-        /// Their weights, 1 together.
+        /// Their weights, with sum 1.
         weights: [f64; 3],
     },
 }
 
 impl<'w> OwnPoint<'w> {
-    /// What is at a place of an instance's own frame at a time, on a triangle of its mesh or a sphere.
+    /// Point at a position of an instance's own frame at a time, on a triangle of its mesh or a sphere.
     fn at_place(place: DVec3, mesh: Option<&'w Mesh>, primitive: u32, time_s: f64) -> Self {
         let Some(mesh) = mesh.filter(|mesh| mesh.animation().is_some()) else { return Self::Fixed(place) };
         let (vertices, pose) = (mesh.triangles()[primitive as usize], mesh.at(time_s));
@@ -50,7 +50,7 @@ impl<'w> OwnPoint<'w> {
         Self::Between { mesh, vertices, weights: [1.0 - u - v, u, v] }
     }
 
-    /// Where it is at a time.
+    /// Position at a time.
     fn at(&self, time_s: f64) -> DVec3 {
         match self {
             Self::Fixed(place) => *place,
@@ -63,12 +63,12 @@ impl<'w> OwnPoint<'w> {
     }
 }
 
-/// Half the time between two places of which a velocity is the difference, s: at 100 turns a second on a wheel of 0.3 m it is right to 3e-4 of
-/// its 190 m/s; positions of 10⁶ m are rounded by 1e-10 m, which makes 6e-6 m/s.
+/// Half the time between two positions whose difference gives a velocity, s: at 100 revolutions per second on a wheel of 0.3 m the error is 3e-4 of its 190
+/// m/s; positions of 10⁶ m are rounded by 1e-10 m, which gives 6e-6 m/s.
 pub(super) const HALF_STEP_S: f64 = 2e-5;
 
 impl<'w> SurfacePath<'w> {
-    /// The path of what an instance shows at a place of the world (m) at a time.
+    /// Path of the point that an instance shows at a position in the world (m) at a time.
     pub(crate) fn of_point(plan: &'w Plan, truth: &Truth, time_s: f64) -> Self {
         let instance = &plan.world.instances()[truth.instance as usize];
         let mesh = match instance.shape {
@@ -80,7 +80,7 @@ impl<'w> SurfacePath<'w> {
         Self::Point { own: OwnPoint::at_place(place, mesh, truth.primitive, time_s), to_world }
     }
 
-    /// How it is seen by a camera at a time.
+    /// The target as seen by a camera at a time.
     pub(crate) fn seen_from(&self, pose: &CameraPose, time_s: f64) -> Target {
         match self {
             Self::Point { own, to_world } => {
@@ -90,8 +90,7 @@ impl<'w> SurfacePath<'w> {
         }
     }
 
-    /// Its velocity in the world at a time, m/s; `None` for the background. At a key, or a frame of moving vertices, where the velocity
-    /// jumps, the mean of both.
+    /// Velocity in the world at a time, m/s; `None` for the background. At a key, or a vertex frame, where the velocity jumps, the mean of both.
     pub(crate) fn velocity_m_s(&self, time_s: f64) -> Option<DVec3> {
         let Self::Point { own, to_world } = self else { return None };
         if to_world.as_still().is_some() && matches!(own, OwnPoint::Fixed(_)) {

@@ -1,4 +1,4 @@
-//! Motion against closed forms. Flow is stored in 32-bit floats, which keep 6e-8 of it; geometry is f64: 1e-5 px is granted.
+//! Motion compared with closed forms. Flow is stored in 32-bit floats with a relative error of 6e-8; geometry is f64: the tolerance is 1e-5 px.
 
 use super::{MotionTruth, Visibility, disparity, motion_truth};
 use crate::Plan;
@@ -13,7 +13,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 const CLOSE_PX: f32 = 1e-5;
 
-/// The truth of the frame at 0 against those 0.1 s later and before.
+/// Ground truth of the frame at 0 relative to those 0.1 s later and earlier.
 fn truth(plan: &Plan, path: &CameraPath, shutter: &Shutter) -> MotionTruth {
     let camera = camera(plan, path, shutter);
     let at = |frame: u32| FrameView { camera: &camera, frame };
@@ -39,7 +39,7 @@ fn counted(truth: &MotionTruth, neighbour: usize, visibility: Visibility) -> usi
 #[test]
 fn a_camera_that_moves_along_a_wall_sees_it_pass_by_f_v_over_z() {
     let plan = plan(PINHOLE, WALL);
-    // 3 m/s to the left (the picture goes right) and 1 m/s up (the picture goes down).
+    // 3 m/s to the left (the image moves right) and 1 m/s up (the image moves down).
     let path = path(pose_of(&plan), &shifting(DVec3::new(0.0, 3.0, 1.0)));
     let truth = truth(&plan, &path, &Shutter::Global);
     let velocity = DVec2::new(3.0, 1.0) * FOCAL_PX / 10.0;
@@ -51,7 +51,7 @@ fn a_camera_that_moves_along_a_wall_sees_it_pass_by_f_v_over_z() {
     }
     let scene_flow = truth.neighbours[0].scene_flow.samples();
     assert!(scene_flow.iter().all(|v| (DVec3::from(v.map(f64::from)) - DVec3::new(0.3, 0.1, 0.0)).length() < 1e-6));
-    // What has moved by 1.8 and 0.6 px is outside for two columns on the right and one row below.
+    // Displacements of 1.8 and 0.6 px leave two columns on the right and one row at the bottom outside.
     assert_eq!(counted(&truth, 0, Visibility::Outside), 24 * 2 + 32 - 2);
     assert_eq!(counted(&truth, 0, Visibility::Seen), 30 * 23);
     assert!(truth.time.samples().iter().all(|t| (*t - 0.005).abs() < 1e-9));
@@ -91,7 +91,7 @@ fn a_fisheye_that_turns_about_an_axis_sees_its_own_projection_turn() {
     let yaw = |time_s: f64| DQuat::from_rotation_z(-0.5 * time_s);
     let motion = track(&[(-1.0, DVec3::ZERO, yaw(-1.0)), (1.0, DVec3::ZERO, yaw(1.0))]);
     let flow = truth(&plan, &path(pose_of(&plan), &motion), &Shutter::Global).neighbours.remove(0).flow;
-    // On the middle row r = f θ: 0.05 rad to the right move everything 0.6 px to the left, and the row stays one.
+    // On the middle row r = f θ: 0.05 rad to the right shift everything 0.6 px to the left, and the row remains straight.
     let seen = |x: usize, y: usize| flow.at(x, y);
     let above_and_below: Vec<[f32; 2]> = (4..28).flat_map(|x| [seen(x, 11), seen(x, 12)]).collect();
     for pair in above_and_below.chunks(2) {
@@ -130,7 +130,7 @@ fn rolling_rows_see_a_point_when_it_comes_to_them() {
     }
 }
 
-/// Of every three rows one is read, so that a row of the sensor takes a third of a row time.
+/// One of every three rows is read, so that a row of the sensor takes a third of a row time.
 #[test]
 fn rows_between_those_that_are_read_take_no_time() {
     let plan = plan(PINHOLE, WALL);
@@ -156,7 +156,7 @@ fn interlaced_rows_follow_their_own_field() {
     let path = path(pose_of(&plan), &shifting(DVec3::new(0.0, 3.0, 5.0)));
     let velocity = DVec2::new(3.0, 5.0) * FOCAL_PX / 10.0;
     let shutter = Shutter::Rolling(RowTiming { row_time_s: 1e-3, upwards: false, fields: 2 });
-    // Within a field, a row of the picture is half a row time.
+    // Within a field, a row of the image is half a row time.
     assert_flow(&truth(&plan, &path, &shutter), 0, |_| velocity * (0.1 / (1.0 - velocity.y * 0.5e-3)));
 }
 
@@ -175,7 +175,7 @@ fn what_moves_and_turns_is_followed_in_its_own_frame() {
         let velocity = found.velocity.samples()[i];
         assert!(if is_board { (velocity[1] + 4.0).abs() < 1e-5 } else { velocity[1].is_nan() }, "{at}: {velocity:?}");
     }
-    // About the camera's axis: the wheel's own rotation.
+    // Around the camera's axis: the wheel's own rotation.
     let angle = |time_s: f64| DQuat::from_rotation_x(time_s);
     let spin = track(&[(-1.0, DVec3::ZERO, angle(-1.0)), (1.0, DVec3::ZERO, angle(1.0))]);
     let spun = with_motion(plan(PINHOLE, WALL), 0, &spin);
@@ -185,7 +185,7 @@ fn what_moves_and_turns_is_followed_in_its_own_frame() {
     assert_flow(&found, 0, |at| centre + turn * (at - centre) - at);
     for (vector, at) in found.motion_vector.samples().iter().zip(centres()) {
         let expected = (at - centre).perp();
-        // Differences over 40 µs of a turn: ω³ h²/6 of the radius, 5e-10, and rounding, 1e-12 px / 4e-5 s.
+        // Differences over 40 µs of a rotation: ω³ h²/6 of the radius, 5e-10, and rounding, 1e-12 px / 4e-5 s.
         assert!((0..2).all(|i| (f64::from(vector[i]) - expected[i]).abs() < 1e-4), "{at}: {vector:?} for {expected}");
     }
 }
@@ -208,7 +208,7 @@ fn what_another_surface_comes_before_is_hidden() {
         };
         assert_eq!((forward[i], backward[i]), (expected(4.8) as u32, expected(-4.8) as u32), "{at}");
     }
-    // 4.8 px of 24 rows each, and the background behind the board likewise.
+    // 4.8 px of 24 rows each, and the background behind the board as well.
     assert!(counted(&found, 0, Visibility::Hidden) >= 4 * 24);
     let alone = with_motion(plan(PINHOLE, BOARD), 0, &shifting(DVec3::new(0.0, -4.0, 0.0)));
     let alone = truth(&alone, &still, &Shutter::Global);
@@ -226,7 +226,7 @@ fn what_is_behind_the_camera_later_has_no_image() {
     assert!(none == board && board > 24 * 24, "{none} {board}");
 }
 
-/// Cameras of every kind with the pitch of their pixels, µm.
+/// Cameras of every kind with their pixel pitch, µm.
 fn cameras() -> Vec<(String, f64)> {
     let lens = |keys: &str, pitch_um: f64| (format!("lens = {{ {keys} }}\n"), pitch_um);
     let opencv = "type = \"opencv\", fx_px = 60, cx_px = 15, distortion = [-0.2, 0.05, 0.002, -0.001]";
@@ -273,7 +273,7 @@ fn the_ray_of_the_place_that_is_found_meets_the_point() {
         let (body, pose) = (&plan.cameras[0].body, pose_of(&plan));
         let path = path(pose, &shifting(DVec3::new(1.0, 2.0, -1.0)));
         let found = truth(&plan, &path, &Shutter::Global);
-        // Where the ray of a place at a time meets one of the walls, in the closed form of planes.
+        // Intersection of a pixel's ray at a time with one of the walls, in the closed form of planes.
         let meets = |at_px: DVec2, time_s: f64| {
             let (front, _) = body.truth_ray(at_px)?;
             let pose = path.at(time_s);
@@ -285,11 +285,11 @@ fn the_ray_of_the_place_that_is_found_meets_the_point() {
         for (flow, at_px) in found.neighbours[0].flow.samples().iter().zip(centres()) {
             let there_px = at_px + DVec2::new(f64::from(flow[0]), f64::from(flow[1]));
             let Some((here, there)) = meets(at_px, 0.005).zip(meets(there_px, 0.105)) else { continue };
-            // Beside the walls, or past the mirror's rim, where an image ends.
+            // Outside the walls, or beyond the mirror's edge, where an image ends.
             if here.y.abs().max(here.z.abs()) > 200.0 || flow[0].is_nan() {
                 continue;
             }
-            // 1e-6 px of rounded flow, seen as far away as the pixel's point is.
+            // 1e-6 px of rounded flow, at the distance of the pixel's point.
             let pixel_m = meets(at_px + DVec2::X, 0.005).map_or(f64::INFINITY, |beside| (beside - here).length());
             assert!((here - there).length() < 1e-6 + 1e-5 * pixel_m, "{camera} {at_px}: {here} {there}");
             checked += 1;
@@ -302,7 +302,7 @@ fn the_ray_of_the_place_that_is_found_meets_the_point() {
 fn a_telecentric_camera_sees_shifts_and_no_distance() {
     let plan = plan("type = \"telecentric\", f_number = 2, field_width_m = 3.2", &format!("{WALL}{BOARD}"));
     let path = path(pose_of(&plan), &shifting(DVec3::new(7.0, 1.0, -2.0)));
-    // 0.1 m a pixel; 0.1 m left and 0.2 m down in 0.1 s.
+    // 0.1 m per pixel; 0.1 m left and 0.2 m down in 0.1 s.
     assert_flow(&truth(&plan, &path, &Shutter::Global), 0, |_| DVec2::new(1.0, -2.0));
 }
 

@@ -1,14 +1,14 @@
-//! What weather does to each pixel: layers of their own beside the light, of which depth and identities know nothing.
+//! Effects of weather on each pixel: separate layers of the light, which depth and identities ignore.
 //!
-//! - **Transmittance**: the share of light at 587.56 nm, the wavelength of ground truth, that comes unscattered from the first surface (or from
-//!   infinity) through all media. Near drops and flakes, which are not in these, are left to the cover: both together let
-//!   transmittance · (1 − cover) through.
-//! - **Cover**: the share of a pixel, its pupil and its exposure before whose first surface a drop or flake is.
-//! - **Airlight**: the part of the spectral radiance that media scattered into the pixel's rays before they met a surface, a drop or a flake.
+//! - **Transmittance**: fraction of light at 587.56 nm, the wavelength of ground truth, that arrives unscattered from the first surface (or from
+//!   infinity) through all media. Near drops and flakes are not included; they are in the cover. Together they transmit
+//!   transmittance · (1 − cover).
+//! - **Cover**: fraction of a pixel, its pupil and its exposure with a drop or flake before the first surface.
+//! - **Airlight**: spectral radiance that media scattered into the pixel's rays before they hit a surface, a drop or a flake.
 //!
-//! They are means over as many samples as the light has, with its random addresses (wavelengths are drawn evenly here, and where the light's samples
-//! are adaptive there are 64): light less airlight is, but for noise, what comes from surfaces. In the raster of the film, without what the effects behind the lens do. Where surfaces are cut out they are there as in
-//! ground truth: where at least half of them is.
+//! They are means over as many samples as the light has, with its random addresses (wavelengths are sampled uniformly here; if the light's samples are
+//! adaptive, there are 64): light minus airlight is, except for noise, the light from surfaces. They have the raster of the film, without the effects behind
+//! the lens. Surfaces with opacity are present as in ground truth: where it is at least one half.
 
 use crate::plan::{CameraPlan, PassAt, Plan, Settings};
 use crate::render::camera_light::{SourceJob, lights, path_settings, region_and_change_over, render_job, with_source};
@@ -30,18 +30,18 @@ use etendue_tracer::media::{ForwardPeak, Media, MediaRay, RandomCounter};
 use etendue_tracer::precipitation::NearParticles;
 use etendue_tracer::render_space::RenderSpace;
 
-/// What weather does to the pixels of a film.
+/// Effects of weather on the pixels of a film.
 #[derive(Clone, Debug)]
 pub struct WeatherLayers {
-    /// The share of light that comes through media.
+    /// Fraction of light transmitted by media.
     pub transmittance: Plane<Transmittance>,
-    /// The share that near drops or flakes cover; `None` where nothing falls.
+    /// Fraction covered by near drops or flakes; `None` without precipitation.
     pub cover: Option<Plane<Cover>>,
-    /// The light that media scattered in, in the bands of the light; in a single one where it has none.
+    /// Light scattered in by media, in the bands of the light; in a single band if it has none.
     pub airlight: SpectralCube<Radiance>,
 }
 
-/// The layers of a camera's picture, on the caller's pool; as long as its light takes, and a little more.
+/// Layers of a camera's image; takes slightly longer than its light. Runs on the caller's pool.
 #[must_use]
 pub fn weather_layers(plan: &Plan, camera: &CameraPlan, shot: Shot, simd: Simd) -> WeatherLayers {
     with_source(camera, shot, LayersJob { plan, camera, request: Request { shot, simd, ..Request::default() } })
@@ -99,13 +99,13 @@ impl SourceJob for LayersJob<'_> {
     }
 }
 
-/// Samples a pixel: those of the light; where these are adaptive, 64, or as many as every pixel has.
+/// Samples per pixel: those of the light; if these are adaptive, 64, or as many as are common to all pixels.
 pub(crate) fn spp(camera: &CameraPlan) -> u32 {
     let Settings { spp, replicates, adaptive, .. } = camera.settings;
     adaptive.map_or(spp, |adaptive| adaptive.min_spp.max(64).next_multiple_of(replicates))
 }
 
-/// All that a camera's light is sampled over as one band.
+/// The wavelength range of a camera's light as a single band.
 fn whole(camera: &CameraPlan) -> Bands {
     let range = camera.settings.range;
     Bands::new(range.low_nm, range.width_nm(), 1).expect("a compiled plan has a range")
@@ -120,14 +120,14 @@ fn plane<Q: Quantity<Sample = f32>>(camera: &CameraPlan, samples: Vec<f32>) -> P
     Plane::from_samples(width as usize, height as usize, samples).expect("one sample a pixel")
 }
 
-/// Which share a ray is asked for.
+/// Fraction to evaluate.
 #[derive(Clone, Copy)]
 enum Share {
     Transmittance,
     Cover,
 }
 
-/// Shares in the place of radiance, so that they are averaged as it is.
+/// Fractions in place of radiance, so that they are averaged in the same way.
 struct Shares<'a> {
     view: &'a RenderSpace<'a>,
     material_table: &'a MaterialTable,

@@ -1,4 +1,4 @@
-//! Layers of weather against closed forms, and against the form over stored radiance.
+//! Layers of weather compared with closed forms, and with weather over stored radiance.
 
 use super::*;
 use crate::camera::stored::Stored;
@@ -44,7 +44,7 @@ fn slant(i: usize) -> f64 {
     (1.0 + (x * x + y * y) / (FOCAL_PX * FOCAL_PX)).sqrt()
 }
 
-/// Of a pixel's 16 samples the mean is not that of its centre: 1e-3 of the share.
+/// The mean of a pixel's 16 samples differs from the value at its centre: tolerance 1e-3.
 fn agree(plane: &Plane<Transmittance>, expected: impl Fn(usize) -> f64) {
     for (i, share) in plane.samples().iter().enumerate() {
         assert!((f64::from(*share) - expected(i)).abs() < 1e-3, "{i}: {share} {}", expected(i));
@@ -58,17 +58,17 @@ fn transmittance_to_a_wall_is_that_of_beer_and_lambert() {
     let everywhere = layers(&plan(EVEN, "spp = 16"));
     agree(&everywhere.transmittance, |i| exp(-0.05 * 10.0 * slant(i)));
     assert!(everywhere.cover.is_none());
-    // In a dark world the air has no light to scatter.
+    // In a world without light the air scatters none.
     assert!(everywhere.airlight.planes().iter().all(|plane| plane.samples().iter().all(|light| *light == 0.0)));
-    // From 4 m on 3 m of it; and a layer that the camera stands in the middle of.
+    // From 4 m on 3 m of it; and a layer with the camera at its centre.
     let within = "shape = { type = \"box\", size_m = [3, 90, 90] }\nposition_m = [5.5, 0, 0]\n";
     agree(&layers(&plan(&format!("{EVEN}{within}"), "spp = 16")).transmittance, |i| exp(-0.05 * 3.0 * slant(i)));
     let within = "shape = { type = \"box\", size_m = [14, 90, 90] }\n";
     agree(&layers(&plan(&format!("{EVEN}{within}"), "spp = 16")).transmittance, |i| exp(-0.05 * 7.0 * slant(i)));
 }
 
-/// The mean over the picture against exp(−∫β dt) by quadrature along the middles of its pixels. Ratio tracking scatters by at most 0.5 a
-/// sample: 1e-3 over 768 pixels of 64; and noise of 3 m is as even over a pixel.
+/// Mean over the image compared with exp(−∫β dt) by quadrature along the centres of its pixels. The scatter of ratio tracking is at most 0.5 per sample: 1e-3
+/// over 768 pixels of 64; and noise of 3 m is nearly uniform over a pixel.
 #[test]
 fn transmittance_of_uneven_fog_is_right_in_the_mean() {
     let uneven = format!("{EVEN}unevenness = {{ amplitude = 0.9, scale_m = 3, octaves = 2 }}\n");
@@ -88,8 +88,8 @@ fn transmittance_of_uneven_fog_is_right_in_the_mean() {
     assert!((mean - exp(-0.5)).abs() > 1e-3, "uneven: {mean}");
 }
 
-/// Streaks over stored radiance and the traced form's drops are the same ones in the same pixels: the nearest, of some tenths of a pixel's exposure, stand
-/// out from the noise of 1 024 samples (0.015).
+/// Streaks over stored radiance and traced drops are the same ones in the same pixels: the nearest, of some tenths of a pixel's exposure, exceed the noise of
+/// 1 024 samples (0.015).
 #[test]
 fn both_forms_of_rain_cover_the_same_pixels() {
     const RAIN: &str = "[scene.precipitation]\ntype = \"rain\"\nrate_mm_h = 100\nsmallest_px = 0.05\nclear_m = 0.1\nwind_m_s = [1, 2, 0]\n";

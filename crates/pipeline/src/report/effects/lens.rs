@@ -1,4 +1,4 @@
-//! From the scene to the sensor plane.
+//! Effects from the scene to the sensor plane.
 
 use super::lens_errors::{blur_px, distortion_px, lateral_colour_px, vignetting_percent};
 use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there, without};
@@ -105,7 +105,7 @@ fn defocus(camera: &CameraPlan) -> PlannedEffect {
     )
 }
 
-/// The pinhole of the same image size and brightness on the axis: π τ L/(4 N²) for π τ L/(1 + 4 N²).
+/// Changes to a pinhole of the same image size and brightness on the axis: π τ L/(4 N²) for π τ L/(1 + 4 N²).
 fn pinhole(camera: &CameraPlan) -> Vec<String> {
     let lens = &camera.body.lens;
     let working = lens.working_f_number();
@@ -163,7 +163,7 @@ fn optic(camera: &CameraPlan) -> Option<&Optic> {
     camera.body.front.as_ref().and_then(Front::optic)
 }
 
-/// A thing before the lens: the section goes with its last one.
+/// An element before the lens: dropping the last one removes the whole section.
 fn before_the_lens(camera: &CameraPlan, name: &'static str, key: &'static str, status: EffectStatus) -> PlannedEffect {
     let front = camera.body.front.as_ref();
     let things = front.map_or(0, |front| usize::from(front.dirt().is_some()) + usize::from(front.optic().is_some()));
@@ -205,7 +205,7 @@ fn dirt(camera: &CameraPlan) -> PlannedEffect {
     before_the_lens(camera, "dirt before the lens", "external_optics.dirt", status)
 }
 
-/// An effect on the irradiance: the section, with its margin, goes with the last one.
+/// An effect on the irradiance: dropping the last one removes the whole section, with its margin.
 fn on_irradiance(camera: &CameraPlan, effect: Effect, cost: &FrameCost) -> PlannedEffect {
     let effects = &camera.body.effects;
     let described = [
@@ -231,7 +231,7 @@ fn on_irradiance(camera: &CameraPlan, effect: Effect, cost: &FrameCost) -> Plann
         .saving(cpu_s + margin_s)
 }
 
-/// The paths of the margin, s.
+/// Time of the paths of the margin, s.
 fn margin_s(camera: &CameraPlan, cost: &FrameCost) -> f64 {
     if camera.settings.route != Route::Lens {
         return 0.0;
@@ -242,7 +242,7 @@ fn margin_s(camera: &CameraPlan, cost: &FrameCost) -> f64 {
     cost.paths * path_cpu_s(camera) * part
 }
 
-/// Returns whether a camera has an effect on the irradiance, why, and by what its point spread spreads light.
+/// Returns the status of an effect on the irradiance, with the reason and the method of the point spread.
 pub(in crate::report) fn irradiance_effect_status(camera: &CameraPlan, effect: Effect) -> EffectStatus {
     match (effect, camera.body.effects.status(effect)) {
         (Effect::PointSpread, EffectStatus::Modelled(of)) => EffectStatus::Modelled(of + &spread_by(camera)),
@@ -250,7 +250,7 @@ pub(in crate::report) fn irradiance_effect_status(camera: &CameraPlan, effect: E
     }
 }
 
-/// By what the point spread spreads light, and how much contrast a film would lack or add.
+/// Method of the point spread, and the contrast error of applying it to the film.
 fn spread_by(camera: &CameraPlan) -> String {
     let Some((by, width)) = camera.body.effects.spread_by() else { return String::new() };
     let by = if camera.settings.route == Route::Lens { by } else { SpreadBy::Film };

@@ -1,13 +1,13 @@
-//! Closed forms of what a picture without a property of its lens would be wrong by.
+//! Errors, in closed form, of an image without a property of its lens.
 
 use crate::plan::CameraBody;
 use etendue_core::WavelengthRange;
 use glam::DVec2;
 
-/// Steps of the distance from the axis at which a curve is looked at.
+/// Number of radii at which a curve is evaluated.
 const RADII: u32 = 64;
 
-/// The farthest that the radial distortion moves a point of the picture, px; `None` where the lens has none of its own.
+/// Maximum displacement of an image point by the radial distortion, px; `None` for a lens without it.
 pub(super) fn distortion_px(body: &CameraBody) -> Option<f64> {
     let distortion = body.lens.distortion()?;
     let (reach_mm, pitch_mm) = (body.raster.max_radius_mm(), body.raster.pitch_mm().x);
@@ -16,8 +16,8 @@ pub(super) fn distortion_px(body: &CameraBody) -> Option<f64> {
     Some(shifts.fold(0.0, f64::max))
 }
 
-/// By how much the corner farthest from the axis is darker than the axis, %, under even light: cos⁴ and what rims cut off. Of a prescription's quadrature to
-/// 1e-5.
+/// Darkening of the corner farthest from the axis relative to the axis, %, under uniform illumination: cos⁴ and clipping by clear apertures. For a
+/// prescription the error of the quadrature is 1e-5.
 pub(super) fn vignetting_percent(body: &CameraBody) -> Option<f64> {
     let axis_sr = body.lens.projected_solid_angle_sr(DVec2::ZERO);
     let corner_sr = body.lens.projected_solid_angle_sr(farthest_corner_mm(body));
@@ -31,13 +31,12 @@ fn farthest_corner_mm(body: &CameraBody) -> DVec2 {
     corners.into_iter().fold(DVec2::ZERO, |far, one| if one.length() > far.length() { one } else { far })
 }
 
-/// Diameter of the blur of a point on the axis at a depth (m), px.
+/// Blur diameter of a point on the axis at a depth (m), px.
 pub(super) fn blur_px(body: &CameraBody, depth_m: f64) -> f64 {
     body.lens.circle_of_confusion_mm(depth_m) / body.raster.pitch_mm().x
 }
 
-/// How far apart the sizes of the image are within wavelengths (nm), at the farthest corner, px; `None` where no lateral colour was laid
-/// over the lens.
+/// Range of the image size within wavelengths (nm), at the farthest corner, px; `None` if no lateral colour was added to the lens.
 pub(super) fn lateral_colour_px(body: &CameraBody, range: WavelengthRange) -> Option<f64> {
     let colour = body.lens.lateral_colour()?;
     let WavelengthRange { low_nm, high_nm } = range;
@@ -51,7 +50,7 @@ mod tests {
     use super::*;
     use crate::report::effects::tests::plan_of;
 
-    /// The corner of 120 × 80 px of 6 µm.
+    /// Corner of 120 × 80 px of 6 µm.
     const CORNER_MM: DVec2 = DVec2::new(0.36, 0.24);
 
     fn body(lens: &str) -> CameraBody {
@@ -82,7 +81,7 @@ mod tests {
         let lens = "lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8, lateral_colour = { wavelength_nm = [400, \
                     700], magnification = [1.001, 1.0] } }";
         let found = lateral_colour_px(&body(lens), WavelengthRange::new(400.0, 700.0)).expect("it has one");
-        // Sizes are over that at 587.56 nm, which is 1.000 37.
+        // Sizes are relative to that at 587.56 nm, which is 1.000 37.
         let expected = 1e-3 / (1.001 - 1e-3 * (587.56 - 400.0) / 300.0) * CORNER_MM.length() / 0.006;
         assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
     }

@@ -1,4 +1,4 @@
-//! How light is followed.
+//! Effects of light transport.
 
 use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there};
 use crate::plan::{CameraPlan, Plan, Settings};
@@ -67,12 +67,12 @@ fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
         .saving(saved_by(camera, paths, DIRECT_PATH_CPU_S))
 }
 
-/// What an integrator of so much time a sample would save: branches, and paths that learn before the picture, go with the paths.
+/// Time saved by an integrator of `sample_s` per sample, s: branches, and paths that train the guiding, go with the paths.
 fn saved_by(camera: &CameraPlan, paths: f64, sample_s: f64) -> f64 {
     paths * path_cpu_s(camera) + branches_cpu_s(camera, paths) - branched_paths(camera, paths) * sample_s
 }
 
-/// A limit of two surfaces: what a lamp lights, and what that lights.
+/// Limit of two surfaces: direct light, and light reflected once.
 const FEW_BOUNCES: u32 = 2;
 
 fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
@@ -134,13 +134,13 @@ fn guiding(camera: &CameraPlan) -> PlannedEffect {
     effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(paths as f64 * path_cpu_s(camera))
 }
 
-/// Of a camera's paths those that may branch: all but those that learn before the picture.
+/// Paths of a camera that may branch: all except those that train the guiding.
 fn branched_paths(camera: &CameraPlan, paths: f64) -> f64 {
     let learning = if camera.settings.guiding { training::paths_of(camera) as f64 } else { 0.0 };
     (paths - learning).max(0.0)
 }
 
-/// Processor time of all branches beside the first of each path, s.
+/// CPU time of all branches except the first of each path, s.
 fn branches_cpu_s(camera: &CameraPlan, paths: f64) -> f64 {
     branched_paths(camera, paths) * branches_share(camera) * path_cpu_s(camera)
 }

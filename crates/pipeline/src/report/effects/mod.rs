@@ -1,12 +1,12 @@
-//! Everything that can cost or change a frame of a camera: the closed list.
+//! Everything that can cost time or change a frame of a camera: the complete list.
 //!
-//! Each effect says whether it is required (modelled, always run), guarded (run where a cheap test asks for it) or skipped (absent at no
-//! cost), and why; what it takes; and what leaving it out would bring: by which keys, how much time, and, where there is a closed form, which
-//! error. Times are those of `report/cpu_time.rs` and of the street's paths; what was never measured is not known, and not guessed. Parts of
-//! others are in the list, too (bounces beyond the second are indirect light): times do not add up to the frame's.
+//! Each effect is required (modelled, always run), guarded (run only if a cheap test requires it) or skipped (absent at no cost), with a reason. It states
+//! its cost, and the result of leaving it out: the keys, the time saved, and, if there is a closed form, the error. Times are those of `report/cpu_time.rs`
+//! and of the street scene's paths; unmeasured times are unknown and not guessed. Some effects are parts of others (bounces beyond the second are indirect
+//! light): times do not add up to the frame's.
 //!
-//! Sensor effects come from the sensor's own list, those on the irradiance from that of the optics, so that none can be forgotten; a test
-//! drops every one of every job that ships by its keys and looks for it among what is skipped.
+//! Sensor effects come from the sensor's own list, those on the irradiance from that of the optics, so that none can be forgotten. A test drops each effect
+//! of every shipped job by its keys and checks that it is then skipped.
 
 pub(super) mod lens;
 mod lens_errors;
@@ -25,7 +25,7 @@ pub use planned_effect::{EffectGroup, IfDropped, PlannedEffect};
 use crate::plan::{CameraPlan, Plan};
 
 impl Plan {
-    /// Everything that can cost or change a frame of a camera of the plan, in the order of the light.
+    /// Everything that can cost time or change a frame of a camera of the plan, in the order of the light.
     #[must_use]
     pub fn effects(&self, camera: &CameraPlan) -> Vec<PlannedEffect> {
         let groups = [

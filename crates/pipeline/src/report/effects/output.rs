@@ -1,4 +1,4 @@
-//! What is delivered.
+//! Products.
 
 use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there};
 use crate::plan::{CameraPlan, ListedProduct, Plan, Products};
@@ -13,7 +13,7 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
     std::iter::once(cube(camera)).chain(products).collect()
 }
 
-/// The spectral bands that the film keeps.
+/// Spectral bands of the film.
 fn cube(camera: &CameraPlan) -> PlannedEffect {
     let bands = camera.settings.bands;
     let text =
@@ -34,13 +34,13 @@ fn effect(plan: &Plan, camera: &CameraPlan, product: ListedProduct) -> PlannedEf
         Some(cpu_s) => effect.taking(cpu_s),
         None => effect,
     };
-    // Words that name a thing are no flags: which of the job and the camera says them is not known here.
+    // Keys with a value that is a name are not flags: it is not known here whether the job or the camera states them.
     let can_go = is_flag && !camera.products.is_empty_without(key);
     let keys = std::iter::once(key).chain(dependents(&camera.products, key)).filter(|_| can_go);
     effect.dropped_by(keys.map(|key| of_camera(camera, key, "false")))
 }
 
-/// Processor time of a product, s; `None` where it is not known.
+/// CPU time of a product, s; `None` if unknown.
 fn cpu_s(plan: &Plan, camera: &CameraPlan, key: &str) -> Option<f64> {
     let p = &camera.products;
     let (flow, depth_png) = (p.annotations.optical_flow.is_some(), p.depth_png_per_m.is_some());
@@ -62,7 +62,7 @@ fn cpu_s(plan: &Plan, camera: &CameraPlan, key: &str) -> Option<f64> {
     })
 }
 
-/// The other keys that go with a product's.
+/// Other keys that are removed together with a product's.
 fn dependents(p: &Products, key: &str) -> Vec<&'static str> {
     match key {
         "output.picture" => twins(p.undistorted, !p.ground_truth && !p.rays),
@@ -73,7 +73,7 @@ fn dependents(p: &Products, key: &str) -> Vec<&'static str> {
     }
 }
 
-/// The twin goes where nothing of it would be left.
+/// Removes the rectified camera if nothing of it would remain.
 fn twins(undistorted: Option<f64>, is_last: bool) -> Vec<&'static str> {
     if undistorted.is_some() && is_last { vec!["output.undistorted"] } else { Vec::new() }
 }

@@ -1,16 +1,16 @@
-//! An effect of a camera's plan: whether it is modelled, what it takes, and what leaving it out would bring, by which changes of a job's keys
-//! (as `--set` takes them).
+//! An effect of a camera's plan: its status, its cost, and the result of leaving it out, with the changes of a job's keys (in the syntax of `--set`) that do
+//! so.
 
 use crate::plan::CameraPlan;
 use etendue_core::{EffectStatus, KeyChange, KnownError};
 
-/// The parts of a frame's making.
+/// Stages of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EffectGroup {
-    /// How light is followed.
+    /// Light transport.
     LightTransport,
-    /// What there is to see, and what shines.
+    /// Geometry, materials and light sources.
     Scene,
     /// Fog, rain and snow.
     Weather,
@@ -18,14 +18,14 @@ pub enum EffectGroup {
     Lens,
     /// From light to digital numbers.
     Sensor,
-    /// From digital numbers to the picture.
+    /// From digital numbers to the image.
     Processing,
-    /// What is delivered.
+    /// Products.
     Output,
 }
 
 impl EffectGroup {
-    /// All groups, in their order.
+    /// All groups, in order.
     pub const ALL: [Self; 7] =
         [Self::LightTransport, Self::Scene, Self::Weather, Self::Lens, Self::Sensor, Self::Processing, Self::Output];
 
@@ -44,56 +44,56 @@ impl EffectGroup {
     }
 }
 
-/// An effect, whether it is modelled, and what it takes of one frame.
+/// An effect, its status, and its cost in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedEffect {
-    /// Which part of the frame's making it belongs to.
+    /// Stage of the frame to which it belongs.
     pub group: EffectGroup,
-    /// Its name, alone of all.
+    /// Unique name.
     pub name: &'static str,
-    /// The key that describes it, after the camera's name where the group is a camera's; `None` where there is none.
+    /// Key that describes it, relative to the camera's name for groups of a camera; `None` without one.
     pub key: Option<&'static str>,
-    /// Whether it is modelled, and why.
+    /// Status, with the reason.
     pub status: EffectStatus,
-    /// Processor time of one frame that it is foretold to take, s; `None`: not known.
+    /// Estimated CPU time per frame, s; `None`: unknown.
     pub cpu_s: Option<f64>,
-    /// Memory that it takes while the frame is rendered, bytes; `None`: not known.
+    /// Memory during rendering of the frame, bytes; `None`: unknown.
     pub memory_bytes: Option<f64>,
-    /// What leaving it out would bring; `None` where it is not modelled.
+    /// Result of leaving it out; `None` if it is not modelled.
     pub if_dropped: Option<IfDropped>,
 }
 
-/// What leaving an effect out would bring.
+/// Result of leaving an effect out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IfDropped {
-    /// Changes of keys that leave it out, as `--set` takes them; `None` where no key does.
+    /// Changes of keys, in the syntax of `--set`, that leave it out; `None` if no key does.
     pub set: Option<Vec<String>>,
-    /// Processor time of one frame that this is foretold to save, s; below 0 where it costs; `None`: not known.
+    /// Estimated CPU time saved per frame, s; below 0 if it increases; `None`: unknown.
     pub cpu_saved_s: Option<f64>,
-    /// The errors that have a closed form; empty: only rendering without it tells.
+    /// Errors with a closed form; empty: only a render without the effect shows the error.
     pub errors: Vec<KnownError>,
 }
 
 impl PlannedEffect {
-    /// An effect of this status, of which nothing else is known.
+    /// An effect of this status, with everything else unknown.
     pub(super) fn new(group: EffectGroup, name: &'static str, status: EffectStatus) -> Self {
         let if_dropped = status.is_modelled().then(IfDropped::default);
         Self { group, name, key: None, status, cpu_s: None, memory_bytes: None, if_dropped }
     }
 
-    /// Its name in files: letters, digits and underscores.
+    /// Identifier in files: letters, digits and underscores.
     #[must_use]
     pub fn id(&self) -> String {
         let words = self.name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
         words.collect::<Vec<_>>().join("_").to_ascii_lowercase()
     }
 
-    /// The same, described by a key.
+    /// Sets the key that describes it.
     pub(super) fn described_by(self, key: &'static str) -> Self {
         Self { key: Some(key), ..self }
     }
 
-    /// The same, left out by these changes.
+    /// Sets the changes that leave it out.
     pub(super) fn dropped_by(mut self, set: impl IntoIterator<Item = String>) -> Self {
         let set: Vec<String> = set.into_iter().collect();
         if let Some(if_dropped) = self.if_dropped.as_mut().filter(|_| !set.is_empty()) {
@@ -102,17 +102,17 @@ impl PlannedEffect {
         self
     }
 
-    /// The same, left out by these changes of keys of its camera.
+    /// Sets the changes of keys of its camera that leave it out.
     pub(super) fn left_out_by(self, camera: &CameraPlan, changes: &[KeyChange]) -> Self {
         self.dropped_by(changes.iter().map(|change| of_camera(camera, change.key, change.value.unwrap_or(REMOVED))))
     }
 
-    /// The same, taking so many seconds, all of which its dropping saves.
+    /// Sets its CPU time, s, all of which is saved by leaving it out.
     pub(super) fn taking(self, cpu_s: f64) -> Self {
         Self { cpu_s: self.status.is_modelled().then_some(cpu_s), ..self }.saving(cpu_s)
     }
 
-    /// The same, whose dropping saves so many seconds.
+    /// Sets the CPU time saved by leaving it out, s.
     pub(super) fn saving(mut self, cpu_s: f64) -> Self {
         if let Some(if_dropped) = &mut self.if_dropped {
             if_dropped.cpu_saved_s = Some(cpu_s);
@@ -120,12 +120,12 @@ impl PlannedEffect {
         self
     }
 
-    /// The same, taking so many bytes.
+    /// Sets its memory, bytes.
     pub(super) fn holding(self, bytes: f64) -> Self {
         Self { memory_bytes: self.status.is_modelled().then_some(bytes), ..self }
     }
 
-    /// The same with an error of a closed form.
+    /// Adds an error with a closed form.
     pub(super) fn erring(mut self, quantity: &'static str, value: f64, unit: &'static str) -> Self {
         if let Some(if_dropped) = self.if_dropped.as_mut().filter(|_| value.is_finite()) {
             if_dropped.errors.push(KnownError { quantity, value, unit });
@@ -134,12 +134,12 @@ impl PlannedEffect {
     }
 }
 
-/// Modelled where it is there, else left out, each with its reason.
+/// Required if present, otherwise skipped, each with its reason.
 pub(super) fn where_there(is_there: bool, reason: impl Into<String>, lack: impl Into<String>) -> EffectStatus {
     if is_there { EffectStatus::Modelled(reason.into()) } else { EffectStatus::LeftOut(lack.into()) }
 }
 
-/// The value that takes a key out.
+/// Value that removes a key.
 pub(super) const REMOVED: &str = "null";
 
 /// A change of a key of a camera: of `lens.distortion`, `render.caustics` …
@@ -150,7 +150,7 @@ pub(super) fn of_camera(camera: &CameraPlan, key: &str, value: &str) -> String {
     format!("cameras.{entry}.{key}={value}")
 }
 
-/// Takes a key of a camera out.
+/// Removes a key of a camera.
 pub(super) fn without(camera: &CameraPlan, key: &str) -> String {
     of_camera(camera, key, REMOVED)
 }

@@ -1,4 +1,4 @@
-//! From digital numbers to the picture, step by step.
+//! Processing steps from digital numbers to the image.
 
 use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there, without};
 use crate::plan::{CameraPlan, PictureFormat};
@@ -31,7 +31,7 @@ pub(super) fn effects(camera: &CameraPlan) -> Vec<PlannedEffect> {
     ]
 }
 
-/// A step that is there only where its key asks for it.
+/// A step that is present only if its key requests it.
 fn step(camera: &CameraPlan, name: &'static str, key: &'static str, is_there: bool, text: &str) -> PlannedEffect {
     let status = where_there(is_there, text, "not asked for");
     PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by([without(camera, key)])
@@ -75,7 +75,7 @@ fn demosaic(p: &Processing) -> PlannedEffect {
     PlannedEffect::new(GROUP, "demosaic", status).described_by("isp.demosaic")
 }
 
-/// Three channels may be taken for red, green and blue; others need a matrix.
+/// Three channels can be interpreted as red, green and blue; other numbers need a matrix.
 fn colour_matrix(camera: &CameraPlan, p: &Processing, channels: usize) -> PlannedEffect {
     let is_there = p.colour.as_ref().is_some_and(|colour| colour.matrix != ColourMatrix::identity());
     let status = where_there(is_there, "from the sensor's colours to sRGB's", "red, green and blue are the sensor's");

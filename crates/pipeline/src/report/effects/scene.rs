@@ -1,4 +1,4 @@
-//! What there is to see, and what shines.
+//! Geometry, materials and light sources.
 
 use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
 use crate::plan::{CameraPlan, Plan, TimeDependence};
@@ -26,7 +26,7 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
     ]
 }
 
-/// Guarded by a cheap test where it is there.
+/// Guarded if present.
 fn where_needed(is_there: bool, reason: impl Into<String>, lack: &str) -> EffectStatus {
     if is_there { EffectStatus::WhereNeeded(reason.into()) } else { EffectStatus::LeftOut(lack.to_owned()) }
 }
@@ -79,7 +79,7 @@ fn modulation(plan: &Plan) -> PlannedEffect {
     PlannedEffect::new(GROUP, "lights that change", status).described_by("scene.lights.modulation")
 }
 
-/// The sun of a sky, or suns among the lights. One key leaves out a sky's; those among lights are named in their list.
+/// The sun of a sky, or suns among the lights. One key leaves out a sky's; those among the lights are named in their list.
 fn sun(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
     let status =
         where_there(lights.suns > 0, format!("{} drawn for each surface", discs(lights.suns)), "there is none");
@@ -103,7 +103,7 @@ fn environment(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
     effect.dropped_by(plan.sources.environment.is_some().then(|| "scene.environment=null".to_owned()))
 }
 
-/// The list of lights is taken out as a whole: its suns and the openings of its lamps with it.
+/// The list of lights is removed as a whole, including its suns and its luminous openings.
 fn lamps(lights: &LightCounts) -> PlannedEffect {
     let count = lights.lamps + lights.openings;
     let text = format!("{count} of them, drawn by what they give to each surface");

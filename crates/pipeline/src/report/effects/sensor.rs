@@ -17,7 +17,7 @@ pub(super) fn effects(camera: &CameraPlan) -> Vec<PlannedEffect> {
     std::iter::once(rolling_shutter(camera)).chain(listed).collect()
 }
 
-/// When rows are exposed.
+/// Exposure of the rows.
 fn rolling_shutter(camera: &CameraPlan) -> PlannedEffect {
     let rows = &camera.body.exposure;
     let depends = camera.time != TimeDependence::None;

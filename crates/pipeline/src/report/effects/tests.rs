@@ -1,4 +1,4 @@
-//! The list of effects as a whole.
+//! Tests of the whole list of effects.
 
 use super::*;
 use crate::report::FrameCost;
@@ -8,7 +8,7 @@ use etendue_scene::{Description, Overrides};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The plan of a job of one camera that looks along +x, under changes.
+/// Plan of a job of one camera that looks along +x, with changes.
 pub(super) fn plan_of(lens: &str, camera: &str, render: &str, set: &str) -> Plan {
     let plain = "sensor = { width_px = 120, height_px = 80, pixel_pitch_um = 6.0 }";
     let sensor = if camera.starts_with("sensor") { "" } else { plain };
@@ -49,7 +49,7 @@ fn what_is_skipped_takes_nothing_and_cannot_be_dropped() {
     }
 }
 
-/// Where dropping has a foretold saving, it is the difference of the frames' foretold times.
+/// The estimated saving of dropping an effect is the difference of the frames' estimated times.
 #[test]
 fn savings_are_differences_of_whole_frames() {
     let effects =

@@ -11,7 +11,7 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
     vec![media(plan), falling(plan), near(plan, camera)]
 }
 
-/// The layers of weather, which need one: left out with the last.
+/// The layers of weather, which require at least one element: removed together with the last.
 fn layers(plan: &Plan, is_last: bool) -> impl Iterator<Item = String> {
     let asked = plan.cameras.iter().filter(move |camera| is_last && camera.products.weather);
     asked.map(|camera| of_camera(camera, "output.weather", "false"))
@@ -35,7 +35,7 @@ fn falling(plan: &Plan) -> PlannedEffect {
     PlannedEffect::new(GROUP, "rain and snow", status).described_by("scene.precipitation").dropped_by(set)
 }
 
-/// Drops or flakes that are resolved.
+/// Resolved drops or flakes.
 fn near(plan: &Plan, camera: &CameraPlan) -> PlannedEffect {
     let expected = change_over(plan, camera).map_or(0.0, |change_over| change_over.expected);
     let status = if expected >= 0.5 {

@@ -33,7 +33,7 @@ pub struct StageMemory {
 pub struct CameraMemory {
     /// Memory of its film alone.
     pub film: f64,
-    /// Memory of each stage, with all that is stored during it.
+    /// Memory of each stage, with everything stored during it.
     pub stages: Vec<StageMemory>,
 }
 
@@ -41,7 +41,7 @@ impl CameraMemory {
     pub(super) fn new(plan: &Plan, camera: &CameraPlan, view: &ViewMemory, threads: usize) -> Self {
         let sizes = Sizes::new(plan, camera);
         let frame = FrameMemory::new(camera);
-        // A sensor with memory keeps the frame while the other files are made.
+        // A sensor with a state keeps the frame while the other files are made.
         let remembers = camera.body.sensor.as_ref().is_some_and(|sensor| sensor.remembers());
         let remembered_frame = if remembers && camera.time != TimeDependence::None { frame.held } else { 0.0 };
         let light = sizes.light() + remembered_frame + sizes.shared_films();
@@ -110,7 +110,7 @@ impl<'a> Sizes<'a> {
         }
     }
 
-    /// Returns the memory of the films while light is gathered: those of the captures so far, and in further passes that of the previous passes.
+    /// Returns the memory of the films during rendering: those of the captures so far, and in further passes that of the previous passes.
     fn films(&self) -> f64 {
         let passes = if self.camera.pass_count() > 1 { 2.0 } else { 1.0 };
         self.film * (self.captures - 1.0 + passes)

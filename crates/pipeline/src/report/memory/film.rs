@@ -5,19 +5,19 @@ use crate::plan::{CameraPlan, Plan, Route};
 use crate::sizes::film::{has_variance, scratch_bytes};
 use crate::sizes::tile::Shard;
 
-/// What the film of a camera takes, bytes.
+/// Bytes of the film of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmBytes {
     /// In memory.
     pub memory: f64,
-    /// In scratch files, the most at a time; 0 where the bands are in memory.
+    /// In scratch files, maximum at any time; 0 if the bands are in memory.
     pub disk: f64,
-    /// For what bands on the disk are read into memory all at once, in words; these, and what is made of them, count as memory.
+    /// Purpose for which bands on disk are read into memory all at once, as text; these, and the results computed from them, count as memory.
     pub all_bands_for: Option<&'static str>,
 }
 
 impl Plan {
-    /// What the film of a camera takes.
+    /// Bytes of the film of a camera.
     #[must_use]
     pub fn film_bytes(&self, camera: &CameraPlan) -> FilmBytes {
         let ((width, height), layout) = (camera.film_size(), camera.film_layout());
@@ -29,7 +29,7 @@ impl Plan {
         let all_bands_for = needs_all_bands(camera);
         let means = scratch_bytes(pixels, bands, false);
         let film = scratch_bytes(pixels, bands, has_variance(camera.settings.replicates, Shard::WHOLE));
-        // A further pass has a file of its own beside the one before.
+        // A further pass has its own file in addition to that of the pass before.
         let films = if camera.pass_count() > 1 { 2.0 } else { 1.0 };
         let (loaded, made) =
             if all_bands_for.is_some() { (cubes_in_memory(camera), 0.0) } else { (0.0, cubes_made(camera)) };
@@ -41,8 +41,8 @@ impl Plan {
     }
 }
 
-/// Cubes that are in memory at the same time where all bands are read: the film's (radiance and what passes the lens, at the pupil), what effects leave of it,
-/// ghosts, and the variances of the film's.
+/// Cubes in memory at the same time if all bands are read: the film's (radiance and the light that passes the lens, at the pupil), the result of effects,
+/// ghosts, and the variances of the film.
 fn cubes_in_memory(camera: &CameraPlan) -> f64 {
     let effects = &camera.body.effects;
     let of_film = if is_at_pupil(camera) { 3 } else { 1 };
@@ -50,7 +50,8 @@ fn cubes_in_memory(camera: &CameraPlan) -> f64 {
     (means + 2 * usize::from(delivers_variance(camera))) as f64
 }
 
-/// Cubes that are made of a film band after band and kept on the disk: what passes the lens at the pupil, and what effects leave of it and of its variance.
+/// Cubes computed from a film band after band and stored on disk: the light that passes the lens at the pupil, and the result of effects on it and on its
+/// variance.
 fn cubes_made(camera: &CameraPlan) -> f64 {
     if !needs_irradiance(camera) {
         return 0.0;
@@ -63,7 +64,7 @@ fn is_at_pupil(camera: &CameraPlan) -> bool {
     matches!(camera.settings.route, Route::Pupil(_))
 }
 
-/// Whether the irradiance's variance is delivered, which is known through the lens alone.
+/// Returns true if the irradiance's variance is delivered, which is known only on the lens route.
 fn delivers_variance(camera: &CameraPlan) -> bool {
     camera.products.irradiance && camera.products.variance && !is_at_pupil(camera)
 }

@@ -19,8 +19,8 @@ use scene::ViewMemory;
 /// Memory of the program before a job is read, bytes: its resident pages, tables of spectra and the stacks of its threads. `etendue plan` of an
 /// empty scene takes 31 MB (VmHWM, x86-64, two threads).
 const PROGRAM_BYTES: f64 = 36e6;
-/// Memory of freed blocks that the C library keeps for later ones, bytes: glibc keeps blocks of up to 32 MiB (M_MMAP_THRESHOLD_MAX), and runs of
-/// several cameras were seen to keep up to two of them, or half of what a camera takes.
+/// Memory of freed blocks that the C library retains, bytes: glibc retains blocks of up to 32 MiB (M_MMAP_THRESHOLD_MAX), and runs of several cameras were
+/// observed to retain up to two of them, or half of a camera's memory.
 const KEPT_BYTES: f64 = (64 << 20) as f64;
 const KEPT_FRACTION: f64 = 0.5;
 /// Number of threads that a plan assumes, the same on all machines.
@@ -60,7 +60,7 @@ impl RunMemory {
         Self::new(plan, PLANNED_THREADS)
     }
 
-    /// Adds the films of all cameras, which are in memory together, with this number of moments of each camera whose light depends on time.
+    /// Adds the films of all cameras, which are in memory together, with this number of time points of each camera whose light depends on time.
     #[must_use]
     pub fn holding_films(self, plan: &Plan, moments: usize) -> Self {
         let films = plan.by_light().into_iter().map(|group| {
@@ -70,7 +70,7 @@ impl RunMemory {
         Self { held_films: films.sum(), ..self }
     }
 
-    /// Returns the memory of a run that gathers films and makes nothing of them.
+    /// Returns the memory of a run that renders films and computes nothing from them.
     #[must_use]
     pub fn films_only(mut self) -> Self {
         self.cameras.iter_mut().for_each(|(_, camera)| camera.stages.truncate(1));
@@ -86,7 +86,7 @@ impl RunMemory {
     /// Returns the peak memory without the program itself.
     #[must_use]
     pub fn beyond_program(&self) -> f64 {
-        // The film of the largest camera is one of those that are held.
+        // The film of the largest camera is one of the stored ones.
         let camera = self.largest().map_or(0.0, |(_, camera)| camera.most().bytes - camera.film.min(self.held_films));
         self.scene + self.held_films + camera + (KEPT_FRACTION * camera).min(KEPT_BYTES)
     }

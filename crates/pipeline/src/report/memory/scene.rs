@@ -41,16 +41,16 @@ impl ViewMemory {
     }
 }
 
-/// Bytes of texels, and where they are.
+/// Bytes of texels, and their storage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::report) struct TextureUse {
-    /// Of textures that are in memory, bytes.
+    /// Bytes of the textures in memory.
     held_bytes: u64,
-    /// Textures that are in tiles on the disk.
+    /// Number of textures in tiles on disk.
     tiled: usize,
-    /// Of these, bytes on the disk.
+    /// Bytes of these on disk.
     tiled_bytes: u64,
-    /// Of these, most bytes in memory.
+    /// Maximum bytes of these in memory.
     limit_bytes: u64,
 }
 
@@ -62,19 +62,19 @@ impl TextureUse {
             if let Some((bytes, memory)) = texture.tiles() {
                 all.tiled += 1;
                 all.tiled_bytes += bytes;
-                // All textures share one memory.
+                // All textures share one memory limit.
                 all.limit_bytes = memory.limit_bytes();
             }
         }
         all
     }
 
-    /// Most memory, bytes.
+    /// Maximum memory, bytes.
     pub(in crate::report) fn memory_bytes(&self) -> u64 {
         self.held_bytes + self.limit_bytes.min(self.tiled_bytes)
     }
 
-    /// What is on the disk, in words; `None` where nothing is.
+    /// Textures on disk, as text; `None` without any.
     pub(in crate::report) fn tiles(&self) -> Option<String> {
         let [tiled, limit] = [self.tiled_bytes, self.limit_bytes].map(|bytes| bytes.div_ceil(1_000_000));
         let count = self.tiled;

@@ -1,4 +1,4 @@
-//! What each effect of a camera takes, and what dropping it would bring: a table of those that have a figure, lists of the others.
+//! Cost of each effect of a camera, and the result of dropping it: a table of those with figures, lists of the others.
 
 use super::words::seconds;
 use crate::plan::{CameraPlan, Plan};
@@ -9,11 +9,11 @@ use std::fmt::{self, Formatter};
 
 /// Columns of a line of a list.
 const WIDTH: usize = 110;
-/// Where lists begin.
+/// Column at which lists begin.
 const INDENT: usize = 17;
-/// Where the last column of the table begins.
+/// Column at which the last column of the table begins.
 const DROPPED: usize = 62;
-/// What a row takes at least if nothing else is known of it: this share of the frame.
+/// Minimum fraction of the frame's time for a row, if nothing else is known of the effect.
 const LISTED_SHARE: f64 = 0.005;
 
 pub(super) fn effects_table(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
@@ -32,12 +32,12 @@ pub(super) fn effects_table(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<
     list("skipped", &named(|effect| !effect.status.is_modelled() && !is_said_above(effect)), f)
 }
 
-/// Whether the lines of the sensor, of processing and of what is delivered say already that it is left out.
+/// Returns true if the lines of the sensor, of processing and of products already state that it is left out.
 fn is_said_above(effect: &PlannedEffect) -> bool {
     matches!(effect.group, EffectGroup::Sensor | EffectGroup::Processing | EffectGroup::Output)
 }
 
-/// Whether a row would say more than the name.
+/// Returns true if a row would state more than the name.
 fn has_figures(effect: &PlannedEffect, frame_s: f64) -> bool {
     let has_errors = effect.if_dropped.as_ref().is_some_and(|dropped| !dropped.errors.is_empty());
     let takes = effect.cpu_s.is_some_and(|s| s > LISTED_SHARE * frame_s);
@@ -56,7 +56,7 @@ fn row(effect: &PlannedEffect, frame_s: f64, f: &mut Formatter<'_>) -> fmt::Resu
     writeln!(f, "{}", wrapped(&parts, DROPPED))
 }
 
-/// What dropping it would bring, part by part; what is not delivered changes nothing else.
+/// Result of dropping it, part by part; the removal of a product changes nothing else.
 fn dropped(group: EffectGroup, dropped: &IfDropped) -> Vec<String> {
     let saved = match (&dropped.set, dropped.cpu_saved_s) {
         (None, _) => Some("no key".to_owned()),
@@ -68,7 +68,7 @@ fn dropped(group: EffectGroup, dropped: &IfDropped) -> Vec<String> {
     saved.into_iter().chain(errors).chain(is_unknown.then(|| "error ?".to_owned())).collect()
 }
 
-/// Parts with commas between, in lines that begin at a column and end within the width.
+/// Parts separated by commas, in lines that begin at a column and end within the width.
 fn wrapped(parts: &[String], column: usize) -> String {
     let (mut text, mut length) = (String::new(), column);
     for (i, part) in parts.iter().enumerate() {
@@ -89,7 +89,7 @@ fn wrapped(parts: &[String], column: usize) -> String {
     text
 }
 
-/// Names after a word, within the width; nothing where there are none.
+/// Names after a word, within the width; empty without names.
 fn list(word: &str, names: &[&str], f: &mut Formatter<'_>) -> fmt::Result {
     let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
     if names.is_empty() { Ok(()) } else { writeln!(f, "  {word:<14} {}", wrapped(&names, INDENT)) }

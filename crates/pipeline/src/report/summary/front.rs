@@ -1,10 +1,10 @@
-//! What is said of the things in front of a lens.
+//! Text on the elements in front of a lens.
 
 use super::{count, figure};
 use etendue_core::maths::f64::acos;
 use etendue_optics::front::{Cap, Course, Drops, Front, Mirror, MirrorShape, Optic, Reflectance, Windscreen};
 
-/// What stands there, and what of it is left out.
+/// The elements, and their omissions.
 pub(super) fn front(front: &Front) -> Vec<String> {
     let dirt = front.dirt().map(|dirt| {
         let p = dirt.parameters();
@@ -86,7 +86,7 @@ fn reflectance(mirror: &Mirror) -> String {
     }
 }
 
-/// What lies there, and what of it is left out.
+/// The drops, and their omissions.
 pub(super) fn drops(drops: &Drops) -> Vec<String> {
     let p = drops.parameters();
     let [least, greatest] = p.radius_mm.map(figure);
@@ -112,7 +112,7 @@ pub(super) fn drops(drops: &Drops) -> Vec<String> {
     there.into_iter().chain(p.course.as_ref().map(course)).collect()
 }
 
-/// Returns the changes of the drops over time, in words.
+/// Returns the changes of the drops over time, as text.
 fn course(course: &Course) -> String {
     let Course { start_s, sliding, drying_s, arrivals_hz, wiper } = course;
     let slide = sliding

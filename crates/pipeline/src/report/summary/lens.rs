@@ -1,4 +1,4 @@
-//! What a plan says of a lens: figures, distortion, field of view, and what is left out.
+//! Text of a plan on a lens: figures, distortion, field of view, and omissions.
 
 use super::{figure, front, line, list};
 use crate::plan::{CameraPlan, Route};
@@ -112,14 +112,14 @@ fn field_of_view(camera: &CameraPlan) -> String {
     }
 }
 
-/// The angle across the picture in its principal row, rad; `None` where the lens does not see all of it.
+/// Angle across the image in its principal row, rad; `None` if the lens does not see all of it.
 pub(in crate::report) fn field_of_view_rad(camera: &CameraPlan) -> Option<f64> {
     let size = camera.body.raster.size_mm();
     let middle = camera.body.raster.principal_px() * camera.body.raster.pitch_mm();
     let left = glam::DVec2::new(-middle.x, 0.0);
     let right = glam::DVec2::new(size.x - middle.x, 0.0);
     let lens = &camera.body.lens;
-    // Beyond a half turn the angle between two directions is not the one across the picture.
+    // Above 180° the angle between two directions is not that across the image.
     match lens {
         Lens::Calibrated(_) => lens
             .angle_between_rad(left, glam::DVec2::ZERO)
@@ -147,7 +147,7 @@ fn distortion(lens: &Lens) -> String {
     }
 }
 
-/// What becomes of defocus at the pupil.
+/// Treatment of defocus on the pupil route.
 pub(super) fn depth_of_field(camera: &CameraPlan) -> String {
     match &camera.depth_of_field {
         DepthOfField::None => format!("defocus is left out ({})", blur(camera)),

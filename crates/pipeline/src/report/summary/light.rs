@@ -1,4 +1,4 @@
-//! The light of a camera: whose it is, why one that looks the same way has its own, and by what its wavelengths are drawn.
+//! Text on the light of a camera: its owner, the reason for which a camera with the same view has its own, and the density of its wavelengths.
 
 use super::list;
 use super::words::ratio;
@@ -10,12 +10,12 @@ use crate::plan::{SpectralGain, WavelengthSampling};
 use crate::sizes::spectrum_spread::SpectrumSpread;
 use etendue_core::Bands;
 
-/// The camera of the plan whose film serves this one, where that is another.
+/// Another camera of the plan whose film serves this one; `None` if it has its own.
 pub(super) fn server<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<&'a CameraPlan> {
     plan.cameras.iter().find(|other| other.light == camera.light).filter(|other| other.index != camera.index)
 }
 
-/// What is said of a camera's light; `None` where it is its own and no other camera's is nearly the same.
+/// Text on a camera's light; `None` if it is its own and no other camera's is nearly the same.
 pub(super) fn light(plan: &Plan, camera: &CameraPlan) -> Option<String> {
     if !camera.owns_light() {
         let owner = &camera.light.camera;
@@ -28,7 +28,7 @@ pub(super) fn light(plan: &Plan, camera: &CameraPlan) -> Option<String> {
         .map(|(other, unlike)| format!("its own: camera {other} looks the same way, but differs in {}", list(&unlike)))
 }
 
-/// The cameras that a film serves beside its own, as a part of a sentence.
+/// Further cameras that a film serves, as a part of a sentence.
 pub(super) fn served(plan: &Plan, camera: &CameraPlan) -> String {
     let others: Vec<&str> = plan
         .cameras
@@ -43,8 +43,8 @@ pub(super) fn served(plan: &Plan, camera: &CameraPlan) -> String {
     }
 }
 
-/// Returns by what the wavelengths of pixels that sum electrons are drawn, and what the light's spectrum saves there or would; `None` where no
-/// electrons are summed.
+/// Returns the density of wavelengths of pixels that accumulate electrons, and the actual or possible gain of the light's spectrum there; `None` if no
+/// electrons are accumulated.
 pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
     camera.summing_sensor()?;
     let gain = camera.settings.spectral_gain.as_ref();
@@ -66,13 +66,13 @@ pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
     })
 }
 
-/// What it does to the variance of pixels whose samples differ much.
+/// Effect on the variance of pixels whose samples differ much.
 fn saves(gain: &SpectralGain) -> String {
     let SpectralGain { mean, least, most } = gain;
     format!("the variance of noisy pixels by {} ({} to {})", ratio(*mean), ratio(*least), ratio(*most))
 }
 
-/// Returns the noise that the choice of wavelengths alone leaves in a band of even light, as a part of a sentence.
+/// Returns the noise from the choice of wavelengths alone in a band of uniform light, as a part of a sentence.
 pub(super) fn band_noise(camera: &CameraPlan, bands: Bands) -> String {
     let s = &camera.settings;
     // Each pass is spread by itself.
@@ -86,8 +86,8 @@ pub(super) fn band_noise(camera: &CameraPlan, bands: Bands) -> String {
     format!(", each with {most}{:.1} % of noise in even light by the choice of wavelengths", 100.0 * noise)
 }
 
-/// The least part of the density of wavelengths that falls in a band: where electrons are folded beside bands, half of the
-/// density is by the pixel's response, which may be nothing there.
+/// Minimum fraction of the density of wavelengths in a band: if electrons are accumulated in addition to bands, half of the density follows the pixel's
+/// response, which may be zero there.
 fn band_share(settings: &Settings, bands: Bands) -> f64 {
     let even = bands.width_nm() / settings.range.width_nm();
     if settings.folded { UNIFORM_SHARE_WITH_BANDS * even } else { even }

@@ -1,4 +1,4 @@
-//! The plan in words: what is modelled, what is left out and why, what it will cost.
+//! The plan as text: what is modelled, what is left out and why, and the estimated cost.
 
 mod effects_table;
 mod front;
@@ -29,7 +29,7 @@ use etendue_tracer::geometry::Shape;
 use std::fmt::{self, Display, Formatter};
 use words::{count, figure, line, list, seconds};
 
-/// Displays a plan for people.
+/// Displays a plan as text.
 #[derive(Clone, Copy, Debug)]
 pub struct Summary<'a>(pub &'a Plan);
 
@@ -64,7 +64,7 @@ fn section(f: &mut Formatter<'_>, heading: &str, sentences: &[String]) -> fmt::R
     sentences.iter().try_for_each(|sentence| writeln!(f, "  {sentence}"))
 }
 
-/// What the tables leave open.
+/// Explanation of the tables.
 const LEGEND: &str = "no key: nothing leaves it out. error ?: etendue tradeoff JOB --ablate renders with and without it.\n\
                       Keys, reasons, and all that is skipped: etendue plan JOB --json";
 
@@ -116,7 +116,7 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     }
 }
 
-/// Meshes that are listed at most.
+/// Maximum number of listed meshes.
 const LISTED_MESHES: usize = 12;
 
 fn meshes(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
@@ -277,7 +277,7 @@ fn path_depth(settings: &Settings) -> String {
     }
 }
 
-/// The irradiance effects, each with its need.
+/// Irradiance effects, each with its status.
 fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let effects = &camera.body.effects;
     let [columns, rows] = effects.margin_px();
@@ -331,7 +331,7 @@ fn scale(camera: &CameraPlan) -> String {
     if k == 1 { String::new() } else { format!(" (scale 1/{k} of {width} × {height} px)") }
 }
 
-/// What range of light a frame holds.
+/// Dynamic range of a frame.
 fn range(range: &DynamicRange) -> String {
     if range.most_e <= range.least_e {
         return "dynamic range: none; the well or the converter ends below the noise".into();
@@ -349,10 +349,10 @@ fn products(products: &Products) -> String {
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }
 }
 
-/// What is listed beside the paths: what takes longer than this, s, or more than this share of the whole.
+/// Minimum time, s, or fraction of the whole, of the listed work in addition to the paths.
 const LISTED_CPU_S: f64 = 0.5;
 const LISTED_SHARE: f64 = 0.05;
-/// A whole that is too short for shares, s.
+/// Total time below which no fractions are stated, s.
 const SHORT_CPU_S: f64 = 1.0;
 
 fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
@@ -376,7 +376,7 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
     cost_beside(&cost.parts, cost.cpu_s(), f)
 }
 
-/// Where a film is.
+/// Storage of a film.
 fn film(bytes: FilmBytes) -> String {
     let memory = format!("{:.1} MB", bytes.memory / 1e6);
     if bytes.disk == 0.0 {
@@ -387,7 +387,7 @@ fn film(bytes: FilmBytes) -> String {
     format!("{memory} in memory, its bands {:.1} MB on the disk{read}", bytes.disk / 1e6)
 }
 
-/// What takes time beside the paths, and the whole; nothing where it is little.
+/// Work in addition to the paths, and the total time; empty if it is short.
 fn cost_beside(shares: &[Share], whole_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
     let least_s = LISTED_CPU_S.min(LISTED_SHARE * whole_s);
     let listed = |share: &&Share| whole_s > SHORT_CPU_S && share.cpu_s > least_s;

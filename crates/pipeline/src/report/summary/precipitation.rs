@@ -1,10 +1,10 @@
-//! What is said of rain and snow.
+//! Text on rain and snow.
 
 use crate::plan::{CameraPlan, Plan, Precipitation};
 use crate::render::change_over;
 use etendue_core::maths::f64::{log10, pow};
 
-/// What falls.
+/// The drops or flakes.
 pub(super) fn field(precipitation: &Precipitation) -> String {
     let law = precipitation.field.law();
     let (what, number) = if law.is_snow() { ("snow", "flakes") } else { ("rain", "drops") };
@@ -21,7 +21,7 @@ pub(super) fn field(precipitation: &Precipitation) -> String {
     )
 }
 
-/// What a camera models of it.
+/// The part that a camera models individually.
 pub(super) fn near(plan: &Plan, camera: &CameraPlan) -> Option<String> {
     let precipitation = plan.precipitation.as_ref()?;
     let change_over = change_over(plan, camera)?;

@@ -1,4 +1,4 @@
-//! Development in words: which steps there are, and why others are not.
+//! Text on processing: its steps, and the reasons for which others are absent.
 
 use super::line;
 use crate::plan::{CameraPlan, Development, PictureFormat};
@@ -8,7 +8,7 @@ use etendue_isp::{
 };
 use std::fmt::{self, Formatter};
 
-/// Writes the lines of a camera's development.
+/// Writes the lines of a camera's processing.
 pub(super) fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let Some(development) = &camera.body.development else {
         return line(f, "processing", "none: no picture is made");
@@ -17,7 +17,7 @@ pub(super) fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Res
     line(f, "left out", left_out(&development.processing))
 }
 
-/// The steps, in their order.
+/// The steps, in order.
 impl fmt::Display for Development {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { mosaic, processing, format } = self;
@@ -72,7 +72,7 @@ fn colour(p: &Processing, mosaic: &Mosaic) -> Vec<String> {
     [balance, demosaic.to_owned()].into_iter().chain(noise_reduction(p)).chain(matrix).collect()
 }
 
-/// Whether red, green and blue are left as the sensor has them.
+/// Returns true if red, green and blue remain as the sensor has them.
 fn has_own_colours(p: &Processing) -> bool {
     p.colour.as_ref().is_some_and(|colour| colour.matrix == ColourMatrix::identity())
 }

@@ -1,11 +1,11 @@
-//! What of a plan depends on time, and when its frames and rows are exposed.
+//! Text on the time dependence of a plan, and on the exposure of its frames and rows.
 
 use super::words::figure;
 use crate::plan::{CameraPlan, Plan, RowExposure, RowSkipping, TimeDependence};
 use etendue_core::{RowTiming, Shutter};
 use etendue_tracer::geometry::{Instance, Shape};
 
-/// What moves; `None` where nothing does.
+/// Moving parts; `None` without any.
 pub(super) fn motion(plan: &Plan) -> Option<String> {
     let instances = plan.world.instances().iter().filter(|i| i.to_world.as_still().is_none()).count();
     let cameras = plan.cameras.iter().filter(|camera| !camera.path.is_still()).count();
@@ -31,7 +31,7 @@ pub(super) fn motion(plan: &Plan) -> Option<String> {
     (!moving.is_empty()).then(|| moving.join(", "))
 }
 
-/// When a camera's frames are taken; `None` where nothing depends on it.
+/// Times of a camera's frames; `None` if nothing depends on them.
 pub(super) fn frames(camera: &CameraPlan) -> Option<String> {
     let why = match camera.time {
         TimeDependence::None => return None,
@@ -47,7 +47,7 @@ pub(super) fn frames(camera: &CameraPlan) -> Option<String> {
     Some(format!("{rate}, from {} s on{jitter}; {why}", timing.epoch.time(timing.start_s)))
 }
 
-/// The shutter in words; `None` where nobody describes one and nothing depends on it.
+/// The shutter as text; `None` if none is described and nothing depends on it.
 pub(super) fn shutter(camera: &CameraPlan) -> Option<String> {
     let rows = &camera.body.exposure;
     if rows.shutter == Shutter::Global && camera.time == TimeDependence::None {

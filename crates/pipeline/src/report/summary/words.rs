@@ -11,22 +11,22 @@ pub(super) fn list(words: &[&str]) -> String {
     }
 }
 
-/// A number of things: "1 sphere", "2 spheres".
+/// A number with a noun: "1 sphere", "2 spheres".
 pub(super) fn count(n: usize, thing: &str) -> String {
     if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }
 
-/// One line: a name and what is said of it.
+/// One line: a name and its text.
 pub(super) fn line(f: &mut Formatter<'_>, name: &str, text: impl Display) -> fmt::Result {
     writeln!(f, "  {name:<14} {text}")
 }
 
-/// A number as the user would write it: to four decimals.
+/// A number rounded to four decimals.
 pub(super) fn figure(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }
 
-/// A ratio: three digits, none after the point from 100 on.
+/// A ratio to three digits, without decimals from 100 on.
 pub(super) fn ratio(x: f64) -> String {
     match x {
         x if x < 10.0 => format!("{x:.2}"),
@@ -35,7 +35,7 @@ pub(super) fn ratio(x: f64) -> String {
     }
 }
 
-/// Seconds in words: to a tenth below ten.
+/// Seconds as text: to a tenth below ten.
 pub(super) fn seconds(s: f64) -> String {
     if s < 10.0 { format!("{s:.1}") } else { format!("{s:.0}") }
 }

@@ -1,4 +1,4 @@
-//! What is said of a frame that has a light of its own.
+//! Facts of a frame with its own light.
 
 use crate::results::levels;
 use etendue_core::{CameraPose, ExactTime};
@@ -10,14 +10,14 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The keys of what the sensor remembers, and of the first frame that it remembers anything of.
+/// Keys of the sensor's state, and of the first frame that contributed to it.
 const STATE: &str = "sensor_state";
 const SINCE: &str = "sensor_since_frame";
-/// The keys of the digests of the frame's files, by name, and of the hash of all else that the file says.
+/// Keys of the digests of the frame's files, by name, and of the hash of the rest of the file.
 const FILES: &str = "files";
 const SHA256: &str = "sha256";
 
-/// Returns a frame's facts of its raw: file, exposure and gain, levels, where overflowing charge went, mean level and clipped pixels.
+/// Returns a raw frame's facts: file, exposure and gain, levels, destination of overflowing charge, mean level and clipped pixels.
 pub(crate) fn raw_frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
     let area = raw.picture;
     let account = |(capture, a): &(usize, ChargeAccount)| {
@@ -44,7 +44,7 @@ pub(crate) fn raw_frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
     })
 }
 
-/// A frame with its times and poses, and what is said of its `photograph`, where there is one.
+/// Facts of a frame with its times and poses, and of its `photograph`, if any.
 pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph: Option<Value>) -> Value {
     let exposure = camera.timing.capture(frame, 0);
     let pose = |time_s: f64| pose_rows(&camera.path.at(time_s));
@@ -64,21 +64,24 @@ pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph
     facts
 }
 
-/// The same with what the sensor remembers afterwards of the frames since the run's first.
+/// Adds the state of the sensor after the frame, accumulated from the run's first frame on.
 pub(crate) fn with_state(mut facts: Value, after: &SensorState, since: u32) -> Value {
     facts[STATE] = serde_json::to_value(after).unwrap_or(Value::Null);
     facts[SINCE] = since.into();
     facts
 }
 
-/// The same with the digests of the frame's files and a hash of all that it says: what [`check_whole`] looks at.
+/// Adds the digests of the frame's files and a hash of all facts, for [`check_whole`].
 pub(crate) fn sealed(mut facts: Value, files: &BTreeMap<String, FileDigest>) -> Value {
     facts[FILES] = json!(files);
     facts[SHA256] = seal(&facts).into();
     facts
 }
 
-/// Whether the facts are those of a frame as they were written, and the files in `folder` that they name too; the first that is not, in words.
+/// Checks that the facts of a frame and the files in `folder` that they name are unchanged.
+///
+/// # Errors
+/// Describes the first that differs.
 pub(crate) fn check_whole(facts: &Value, frame: u32, folder: &Path) -> Result<(), String> {
     if facts["frame"] != frame {
         return Err("it is the file of another frame".to_owned());
@@ -96,12 +99,12 @@ pub(crate) fn check_whole(facts: &Value, frame: u32, folder: &Path) -> Result<()
     }
 }
 
-/// The hash of facts, by their bytes in a file.
+/// Hash of facts, over their bytes in a file.
 fn seal(facts: &Value) -> String {
     FileDigest::from_bytes(&sidecar::encode(facts).unwrap_or_default()).sha256
 }
 
-/// The facts without what only a run that goes on needs.
+/// Facts without those that only a resumed run needs.
 pub(crate) fn without_state(mut facts: Value) -> Value {
     if let Some(table) = facts.as_object_mut() {
         [STATE, SINCE, FILES, SHA256].iter().for_each(|key| drop(table.remove(*key)));
@@ -109,7 +112,7 @@ pub(crate) fn without_state(mut facts: Value) -> Value {
     facts
 }
 
-/// What a sensor that remembers the frames since `since` remembers after a frame; `None` where the file does not tell that.
+/// State of a sensor after a frame, accumulated from frame `since` on; `None` if the file does not state it.
 pub(crate) fn state_of(facts: &Value, since: u32) -> Option<SensorState> {
     facts.get(SINCE).filter(|stated| **stated == since)?;
     serde_json::from_value(facts.get(STATE)?.clone()).ok()
