@@ -1,6 +1,6 @@
 //! From a camera's white-balanced colours to linear sRGB.
 //!
-//! A matrix of three rows and as many columns as the picture has channels. Rows that sum to 1 keep neutral what white
+//! A matrix of three rows and as many columns as the image has channels. Rows that sum to 1 keep neutral what white
 //! balance made neutral; [`fit_colour_matrix`] finds such a matrix from the camera's own spectra.
 //!
 //! A colour matrix from the camera's own spectra.
@@ -12,9 +12,9 @@
 //! ```
 //!
 //! c the camera's response under the scene's illuminant over its response to a perfect white, t the linear sRGB colour
-//! of the reflectance under D65, n the number of reflectances. The second term is what noise of σ (a share of white, alike
+//! of the reflectance under D65, n the number of reflectances. The second term is what noise of σ (a fraction of white, alike
 //! in all channels) adds to the expected error of n patches: it keeps channels that see nearly the same (a clear filter
-//! beside red, green and blue) from being played off against each other with factors that would drown the picture in
+//! beside red, green and blue) from being played off against each other with factors that would drown the image in
 //! noise. Each row m solves (A + n σ² 1) m = b + μ e, e all ones and μ such that the row sums to 1, by Cholesky's method.
 //!
 //! Left out: weights by perceived difference, matrices between two illuminants.
@@ -45,7 +45,7 @@ impl ColourMatrix {
     /// A matrix by rows.
     ///
     /// # Errors
-    /// Where the rows differ in length or an entry is not finite.
+    /// If the rows differ in length or an entry is not finite.
     pub fn new(rows: [Vec<f64>; 3]) -> Result<Self, MatrixError> {
         if rows.iter().any(|row| row.len() != rows[0].len()) {
             return Err(MatrixError::Ragged);
@@ -81,7 +81,7 @@ impl ColourMatrix {
     }
 }
 
-/// σ for pictures of other channels than red, green and blue. Those tell their colours apart by themselves, and σ = 0 is best for
+/// σ for images of other channels than red, green and blue. Those tell their colours apart by themselves, and σ = 0 is best for
 /// them; green of red, blue and clear has factors of 6 without and of 4 with it, at two more of ΔE.
 pub const NOISE_OF_OTHER_CHANNELS: f64 = 0.01;
 
@@ -105,7 +105,7 @@ pub enum FitError {
 /// the reflectances of a chart, for noise of `noise_fraction` of white in each channel (0: none).
 ///
 /// # Errors
-/// Where a channel does not respond to the illuminant or the reflectances do not tell the channels apart.
+/// If a channel does not respond to the illuminant or the reflectances do not tell the channels apart.
 pub fn fit_colour_matrix<'a>(
     responsivities: &[&Spectrum],
     light: &Spectrum,
@@ -174,7 +174,7 @@ impl Normal {
         normal
     }
 
-    /// The lower triangle L of L Lᵀ; `None` where there is no single solution.
+    /// The lower triangle L of L Lᵀ; `None` if there is no single solution.
     fn cholesky(&self) -> Option<Square> {
         let mut lower = Square::default();
         for i in 0..self.channels {

@@ -1,11 +1,11 @@
-//! Corrections of raw pictures: of shading and of defective pixels.
+//! Corrections of raw images: of shading and of defective pixels.
 //!
-//! Shading correction: gains that make an evenly lit picture even.
+//! Shading correction: gains that make an evenly lit image even.
 //!
 //! | model | gain at a pixel |
 //! | --- | --- |
-//! | [`Shading::Radial`] | a table over the distance from a centre, equal steps from 0 to 1, linear between; 1 is the farthest corner of the picture |
-//! | [`Shading::Grid`] | a table of columns by rows laid over the picture, its outer nodes on the corners, bilinear between |
+//! | [`Shading::Radial`] | a table over the distance from a centre, equal steps from 0 to 1, linear between; 1 is the farthest corner of the image |
+//! | [`Shading::Grid`] | a table of columns by rows laid over the image, its outer nodes on the corners, bilinear between |
 //!
 //! Gains are at least 1, so that a saturated pixel stays white (clipped at 1 after the gain). One gain serves all
 //! colours; shading that differs by colour is left out. Noise grows with the gain.
@@ -16,17 +16,17 @@
 //! five by five, eight of red or blue, twelve of green); the new value is the median of the good ones. Defective are
 //!
 //! - the pixels of a map (known from calibration), and
-//! - outliers: v outside the range of its neighbours **and** |v − median| > t, t a share of the range from black to white.
+//! - outliers: v outside the range of its neighbours **and** |v − median| > t, t a fraction of the range from black to white.
 //!   An edge or a line two pixels wide has neighbours on both sides and stays; a lamp smaller than a pixel can be taken
-//!   for a hot pixel, so the rule is off unless asked for.
+//!   for a hot pixel, so the rule is off unless requested.
 //!
-//! All corrections look at the uncorrected picture, so that their order does not matter.
+//! All corrections look at the uncorrected image, so that their order does not matter.
 
 use rayon::prelude::*;
 
 use crate::raw::Mosaic;
 
-/// Gains over the picture.
+/// Gains over the image.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shading {
     /// By the distance from a centre.
@@ -36,7 +36,7 @@ pub enum Shading {
         /// Gains at equal steps of the distance, from the centre to the farthest corner; two or more.
         gains: Vec<f64>,
     },
-    /// By a grid over the picture.
+    /// By a grid over the image.
     Grid {
         /// Columns of the grid, two or more.
         columns: usize,
@@ -65,7 +65,7 @@ impl Shading {
     /// Whether the table can be used.
     ///
     /// # Errors
-    /// Where it is too small, not a rectangle, or holds a gain below 1.
+    /// If it is too small, not a rectangle, or holds a gain below 1.
     pub fn check(&self) -> Result<(), ShadingError> {
         let (gains, shape) = match self {
             Self::Radial { gains, .. } => (gains, (gains.len() < 2).then_some("is too short")),
@@ -80,7 +80,7 @@ impl Shading {
         gains.iter().find(|g| !(g.is_finite() && **g >= 1.0)).map_or(Ok(()), |g| Err(ShadingError::Gain(*g)))
     }
 
-    /// The gains of row `y` of a picture of `width` × `height` pixels. The table is a checked one.
+    /// The gains of row `y` of an image of `width` × `height` pixels. The table is a checked one.
     pub(crate) fn row(&self, y: usize, width: usize, height: usize) -> Vec<f32> {
         let gain = |x: usize| match self {
             Self::Radial { centre_px, gains } => radial(gains, *centre_px, [x, y], [width, height]),
@@ -109,7 +109,7 @@ fn grid(gains: &[f64], columns: usize, pixel: [usize; 2], size: [usize; 2]) -> f
     top + v * (bottom - top)
 }
 
-/// The node below a share of the whole, and how far beyond it, of `count` nodes.
+/// The node below a fraction of the whole, and how far beyond it, of `count` nodes.
 fn place(share: f64, count: usize) -> (usize, f64) {
     let at = share.clamp(0.0, 1.0) * (count - 1) as f64;
     let low = (at as usize).min(count - 2);
@@ -121,12 +121,12 @@ fn place(share: f64, count: usize) -> (usize, f64) {
 pub struct Defects {
     /// Columns and rows of pixels known to be defective.
     pub map: Vec<[u32; 2]>,
-    /// Share of the range from black to white by which an outlier differs from the median of its neighbours, above 0.
+    /// Fraction of the range from black to white by which an outlier differs from the median of its neighbours, above 0.
     pub outlier_threshold: Option<f64>,
 }
 
 impl Defects {
-    /// Whether there is nothing to look for.
+    /// True if there is nothing to look for.
     #[must_use]
     pub fn is_off(&self) -> bool {
         self.map.is_empty() && self.outlier_threshold.is_none()

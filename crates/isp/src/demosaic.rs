@@ -10,7 +10,7 @@
 //!
 //! A pixel keeps the colour it measured. Each other colour is the mean of the neighbours within the tile's reach r (one
 //! for tiles of two by two) that measured it, weighted (r + 1 − |Δx|)(r + 1 − |Δy|): 2 beside and above, 1 across the corner
-//! for r = 1. On a Bayer tile this is bilinear interpolation, and a linear ramp comes out exact inside. At the picture's
+//! for r = 1. On a Bayer tile this is bilinear interpolation, and a linear ramp comes out exact inside. At the image's
 //! edge the mean is over the neighbours that exist.
 //!
 //! Gradient-corrected linear interpolation (Malvar, He & Cutler 2004, "High-quality linear interpolation for demosaicing of
@@ -18,7 +18,7 @@
 //!
 //! The bilinear value of the missing colour plus α, β or γ times the second difference of the colour that the pixel did
 //! measure: where its own colour peaks, so will the others. With the paper's α = 1/2, β = 5/8, γ = 3/4 (the optimum over
-//! its pictures, rounded to eighths) these are four filters of five by five, in eighths:
+//! its images, rounded to eighths) these are four filters of five by five, in eighths:
 //!
 //! | wanted | at | its own | same row ±1 | same column ±1 | diagonals | same row ±2 | same column ±2 |
 //! | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -27,7 +27,7 @@
 //! | the column's other colour | green | 5 | 0 | 4 | −1 | ½ | −1 |
 //! | blue, red | red, blue | 6 | 0 | 0 | 2 | −3/2 | −3/2 |
 //!
-//! The picture is mirrored about its outermost pixels. Beside edges values can leave the range of the neighbours.
+//! The image is mirrored about its outermost pixels. Beside edges values can leave the range of the neighbours.
 //!
 //! Adaptive interpolation along the smaller gradient (Hamilton & Adams 1997, "Adaptive color plan interpolation in single
 //! sensor color electronic camera", US patent 5 629 734, expired).
@@ -37,7 +37,7 @@
 //! 2. Red and blue at green pixels: the mean of the two neighbours plus half the second difference of green along them.
 //! 3. Blue at red and red at blue: the same along the diagonal of the smaller |C₋₁ − C₊₁| + |2 G₀ − G₋₁ − G₊₁|.
 //!
-//! The picture is mirrored about its outermost pixels. Beside edges values can leave the range of the neighbours.
+//! The image is mirrored about its outermost pixels. Beside edges values can leave the range of the neighbours.
 
 #[cfg(test)]
 mod tests;
@@ -59,7 +59,7 @@ pub enum Demosaic {
 }
 
 impl Demosaic {
-    /// The smallest picture, px a side, that the method can work on.
+    /// The smallest image, px a side, that the method can work on.
     #[must_use]
     pub fn least_px(self, mosaic: &Mosaic) -> usize {
         match (self, mosaic) {
@@ -110,7 +110,7 @@ impl Padded {
     }
 }
 
-/// The row of the picture that row `y` of the padded one shows.
+/// The row of the image that row `y` of the padded one shows.
 fn mirrored(y: usize, margin: usize, height: usize) -> usize {
     let folded = y.abs_diff(margin);
     if folded < height { folded } else { 2 * (height - 1) - folded }
@@ -257,7 +257,7 @@ fn interpolate_hamilton_adams(samples: &[f32], width: usize, tile: &Tile) -> Vec
             *g = if tile.at(x, y) == GREEN { rows[2][at] } else { green_at(&rows, at) };
         }
     });
-    // Mirrored greens are the greens of the mirrored picture: the method is symmetric.
+    // Mirrored greens are the greens of the mirrored image: the method is symmetric.
     let padded = Padded::new(&green, width, HAMILTON_ADAMS_MARGIN);
     drop(green);
     let mut plane = vec![[0.0; 3]; samples.len()];
@@ -284,7 +284,7 @@ fn second(before: f32, middle: f32, after: f32) -> f32 {
     2.0 * middle - before - after
 }
 
-/// A value along one direction, and how much the picture changes along it.
+/// A value along one direction, and how much the image changes along it.
 struct Estimate {
     value: f32,
     change: f32,

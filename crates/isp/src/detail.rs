@@ -7,20 +7,20 @@
 //! ```
 //!
 //! r the distance (px, to 2 σ_s), d² the mean over the channels of the squared difference of the two colours. σ_r is a
-//! share of white and should be two or three times the noise to be removed; edges much higher than it stay. The noise of
+//! fraction of white and should be two or three times the noise to be removed; edges much higher than it stay. The noise of
 //! one σ_r is the same at all brightnesses: shot noise, which grows with the light, is smoothed less in the lights.
 //!
 //! Unsharp mask: what a blur takes away is added once more.
 //!
-//! On luma Y = 0.2126 R + 0.7152 G + 0.0722 B of the encoded picture (weights of ITU-R BT.709), so that colours do not
+//! On luma Y = 0.2126 R + 0.7152 G + 0.0722 B of the encoded image (weights of ITU-R BT.709), so that colours do not
 //! change: d = Y − blur_σ(Y); where |d| is above the threshold, each channel becomes its value + amount · d, clipped to
 //! 0 … 1.
 //!
 //! Gaussian blur: rows, then columns.
 //!
 //! The kernel exp(−x²/2σ²) is cut at 5 σ, where it is 4e-6 of its middle (at 3 σ, 1 %, the halo of a lamp would end in a
-//! square against the night), and normalised to 1; beside the picture's edge it is normalised over the pixels
-//! that exist, so a flat picture stays flat.
+//! square against the night), and normalised to 1; beside the image's edge it is normalised over the pixels
+//! that exist, so a flat image stays flat.
 
 use etendue_core::{Plane, maths::f32::exp, maths::f64::exp as exp_f64, quantity::Display};
 use etendue_spectra::colour::luma;
@@ -42,7 +42,7 @@ impl NoiseReduction {
     /// Whether its numbers are in range.
     ///
     /// # Errors
-    /// Where one is not.
+    /// If one is not.
     pub fn check(&self) -> Result<(), DetailError> {
         match self {
             Self::Bilateral(bilateral) => bilateral.check(),
@@ -53,7 +53,7 @@ impl NoiseReduction {
         }
     }
 
-    /// The smoothed picture. Runs in the rayon pool of the caller; the result does not depend on it.
+    /// The smoothed image. Runs in the rayon pool of the caller; the result does not depend on it.
     pub(crate) fn apply<const N: usize>(&self, picture: &[[f32; N]], width: usize) -> Vec<[f32; N]> {
         match self {
             Self::Bilateral(bilateral) => bilateral.apply(picture, width),
@@ -87,7 +87,7 @@ fn within(name: &'static str, value: f64, low: f64, high: f64, range: &'static s
 pub struct Bilateral {
     /// σ_s, px, above 0 and at most 10.
     pub radius_px: f64,
-    /// σ_r, share of white, above 0 and at most 1.
+    /// σ_r, fraction of white, above 0 and at most 1.
     pub range: f64,
 }
 
@@ -161,7 +161,7 @@ impl Unsharp {
     /// Whether its numbers are in range.
     ///
     /// # Errors
-    /// Where one is not.
+    /// If one is not.
     pub fn check(&self) -> Result<(), DetailError> {
         within("amount", self.amount, 0.0, 10.0, "above 0 and at most 10")?;
         within("radius_px", self.radius_px, 0.0, 50.0, "above 0 and at most 50")?;
@@ -171,7 +171,7 @@ impl Unsharp {
         if legal { Ok(()) } else { Err(fault) }
     }
 
-    /// Sharpens a picture. Runs in the rayon pool of the caller; the result does not depend on it.
+    /// Sharpens an image. Runs in the rayon pool of the caller; the result does not depend on it.
     pub(crate) fn apply(&self, picture: &mut Plane<Display>) {
         let luma: Vec<[f32; 1]> = picture.samples().par_iter().map(|rgb| [luma(*rgb)]).collect();
         let blurred = gaussian(&luma, picture.width(), self.radius_px);
@@ -185,7 +185,7 @@ impl Unsharp {
     }
 }
 
-/// The picture blurred by σ px, channel by channel.
+/// The image blurred by σ px, channel by channel.
 pub(crate) fn gaussian<const N: usize>(picture: &[[f32; N]], width: usize, sigma_px: f64) -> Vec<[f32; N]> {
     let weights = weights(sigma_px);
     let mut across = vec![[0.0; N]; picture.len()];

@@ -1,23 +1,23 @@
-//! Raw pictures: how their numbers become fractions of the range from black to white, and which colour a pixel measures.
+//! Raw images: how their numbers become fractions of the range from black to white, and which colour a pixel measures.
 //!
 //! Black level: the digital number of no light, which every later step counts from.
 //!
 //! From shielded pixels it is their interquartile mean: the mean of what is left without the lowest and the highest
 //! quarter, so that hot and dead pixels do not move it, and yet finer than one digital number. Of Gaussian noise of σ its
-//! standard error is 1.09 σ/√n (Tukey 1962, trimmed means). One level serves the whole picture; what differs from row to
-//! row stays. It is at least 1 DN below the white level: a frame whose shielded pixels are saturated (by heat) is a picture all
+//! standard error is 1.09 σ/√n (Tukey 1962, trimmed means). One level serves the whole image; what differs from row to
+//! row stays. It is at least 1 DN below the white level: a frame whose shielded pixels are saturated (by heat) is an image all
 //! the same, of which nothing is seen.
 //!
-//! Which colour a pixel of a raw picture measures, in the words of development.
+//! Which colour a pixel of a raw image measures, in the words of development.
 //!
 //! A tile of filters repeats from the top left corner. The kinds of filter that it holds, in the order of [`Filter`], are
-//! the **channels** of the picture: a Bayer tile has red, green and blue, an RCCC tile red and clear.
+//! the **channels** of the image: a Bayer tile has red, green and blue, an RCCC tile red and clear.
 
 use etendue_core::Plane;
 use etendue_core::quantity::{DigitalNumber, Quantity};
 use rayon::prelude::*;
 
-/// A raw picture, with what development needs to know.
+/// A raw image, with what development needs to know.
 #[derive(Clone, Copy, Debug)]
 pub struct RawPicture<'a> {
     /// Digital numbers.
@@ -56,7 +56,7 @@ pub enum BlackLevel {
     OpticalBlack,
 }
 
-/// The black level, DN; `None` where shielded pixels are asked for and the picture has none.
+/// The black level, DN; `None` if shielded pixels are requested and the image has none.
 pub(crate) fn black_level(rule: BlackLevel, raw: &RawPicture<'_>) -> Option<f64> {
     match rule {
         BlackLevel::Stated => Some(raw.black_level_dn),
@@ -77,7 +77,7 @@ fn interquartile_mean(mut values: Vec<f32>) -> f64 {
     middle.iter().map(|v| f64::from(*v)).sum::<f64>() / middle.len() as f64
 }
 
-/// Channels that a picture can have at most.
+/// Channels that an image can have at most.
 pub const MAX_CHANNELS: usize = 4;
 
 /// The farthest that interpolation looks for a colour, px.
@@ -128,9 +128,9 @@ pub enum MosaicError {
     /// No pixels, or not a rectangle.
     #[error("a filter tile {width} wide and {height} high needs {} entries and at least one, but {entries} are given", .width * .height)]
     Shape {
-        /// Columns asked for.
+        /// Columns requested.
         width: usize,
-        /// Rows asked for.
+        /// Rows requested.
         height: usize,
         /// Entries given.
         entries: usize,
@@ -151,7 +151,7 @@ impl Mosaic {
     /// A repeating tile of filters, row by row.
     ///
     /// # Errors
-    /// Where the entries do not fill the tile, are of one kind or more than four, or leave a colour too far away.
+    /// If the entries do not fill the tile, are of one kind or more than four, or leave a colour too far away.
     pub fn tile(width: usize, height: usize, filters: Vec<Filter>) -> Result<Self, MosaicError> {
         if filters.is_empty() || width * height != filters.len() {
             return Err(MosaicError::Shape { width, height, entries: filters.len() });
@@ -169,7 +169,7 @@ impl Mosaic {
         Ok(Self::Tile(Tile { reach, ..tile }))
     }
 
-    /// Channels of the picture: 1 of a mono one.
+    /// Channels of the image: 1 of a mono one.
     #[must_use]
     pub fn channels(&self) -> usize {
         match self {
@@ -222,7 +222,7 @@ impl Tile {
         self.reach
     }
 
-    /// Whether it is a Bayer tile in any of its four phases.
+    /// True if it is a Bayer tile in any of its four phases.
     #[must_use]
     pub fn is_bayer(&self) -> bool {
         let corners = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| self.at(x, y));
@@ -232,7 +232,7 @@ impl Tile {
             && matches!(corners, [1, _, _, 1] | [_, 1, 1, _])
     }
 
-    /// Whether every block of `size` × `size` pixels holds all channels.
+    /// True if every block of `size` × `size` pixels holds all channels.
     fn full(&self, size: usize) -> bool {
         let in_block = |x: usize, y: usize| {
             let mut seen = [false; MAX_CHANNELS];

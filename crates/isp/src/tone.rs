@@ -22,7 +22,7 @@
 //!
 //! A measured opto-electronic conversion function (ISO 14524): output level over exposure.
 //!
-//! Exposures (any unit) rise, the largest is the picture's white (linear 1). Between points the output is linear in the
+//! Exposures (any unit) rise, the largest is the image's white (linear 1). Between points the output is linear in the
 //! logarithm of the exposure, the axis along which such functions are measured; below the first point it is proportional
 //! to the exposure. The output is over the largest output level that the camera can give (255 of 8 bits).
 
@@ -52,7 +52,7 @@ impl ToneCurve {
     /// A power curve.
     ///
     /// # Errors
-    /// Where γ is not above 0.
+    /// If γ is not above 0.
     pub fn gamma(gamma: f64) -> Result<Self, ToneError> {
         if gamma.is_finite() && gamma > 0.0 { Ok(Self::Gamma(gamma)) } else { Err(ToneError::Gamma(gamma)) }
     }
@@ -83,7 +83,7 @@ impl ToneCurve {
         }
     }
 
-    /// A whole picture. Runs in the rayon pool of the caller; the result does not depend on it.
+    /// A whole image. Runs in the rayon pool of the caller; the result does not depend on it.
     #[must_use]
     pub fn encode_plane(&self, linear: &Plane<LinearRgb>) -> Plane<Display> {
         let samples = linear.samples().par_iter().map(|rgb| rgb.map(|v| self.encode(v))).collect();
@@ -134,7 +134,7 @@ impl SCurve {
     /// Contrast above 0 about an encoded value between 0 and 1.
     ///
     /// # Errors
-    /// Where a parameter is out of range.
+    /// If a parameter is out of range.
     pub fn new(contrast: f64, midpoint: f64) -> Result<Self, ToneError> {
         let legal = contrast.is_finite() && contrast > 0.0 && midpoint > 0.0 && midpoint < 1.0;
         if legal { Ok(Self { contrast, midpoint }) } else { Err(ToneError::SCurve { contrast, midpoint }) }
@@ -184,7 +184,7 @@ impl Table {
     /// Inputs (linear) and outputs (encoded); inputs rise from 0 to 1, outputs never fall and lie within 0 … 1.
     ///
     /// # Errors
-    /// Where they do not.
+    /// If they do not.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, ToneError> {
         check_order(&points)?;
         let (first, last) = (points[0], points[points.len() - 1]);
@@ -258,7 +258,7 @@ impl Oecf {
     /// Pairs of exposure (above 0, rising) and output (0 or more, never falling), and the largest output level.
     ///
     /// # Errors
-    /// Where they are not such pairs or an output exceeds the largest level.
+    /// If they are not such pairs or an output exceeds the largest level.
     pub fn new(points: Vec<(f64, f64)>, largest_output: f64) -> Result<Self, ToneError> {
         check_order(&points)?;
         let (first, last) = (points[0], points[points.len() - 1]);

@@ -6,11 +6,11 @@
 //! | rule | gains |
 //! | --- | --- |
 //! | [`WhiteBalance::Gains`] | as given, or [from an illuminant](white_balance_from_illuminant) |
-//! | [`WhiteBalance::GreyWorld`] | those that make the picture's mean grey |
+//! | [`WhiteBalance::GreyWorld`] | those that make the image's mean grey |
 //!
 //! Grey world (Buchsbaum 1980): the mean of a scene is taken to be grey.
 //!
-//! Means are taken over the pixels that are not saturated, since a saturated one does not know its colour. A picture in
+//! Means are taken over the pixels that are not saturated, since a saturated one does not know its colour. An image in
 //! which a channel has no mean above black (a dark frame) tells nothing: its gains are 1. Of an infrared channel the rule
 //! is a convention only.
 
@@ -24,11 +24,11 @@ use crate::raw::{MAX_CHANNELS, Mosaic};
 pub enum WhiteBalance {
     /// Gains of the channels, each at least 1.
     Gains(Vec<f64>),
-    /// The mean of each picture is grey.
+    /// The mean of each image is grey.
     GreyWorld,
 }
 
-/// The gains with which channels of these strengths are alike; the smallest is 1. `None` where a channel has none.
+/// The gains with which channels of these strengths are alike; the smallest is 1. `None` if a channel has none.
 fn balancing(strengths: &[f64]) -> Option<Vec<f64>> {
     let largest = strengths.iter().copied().fold(0.0, f64::max);
     strengths.iter().all(|s| *s > 0.0).then(|| strengths.iter().map(|s| largest / s).collect())
@@ -81,7 +81,7 @@ pub struct NoResponse(pub usize);
 /// is 1.
 ///
 /// # Errors
-/// Where a channel does not respond to the illuminant.
+/// If a channel does not respond to the illuminant.
 pub fn white_balance_from_illuminant(
     responsivities: &[&Spectrum],
     illuminant: &Spectrum,

@@ -22,12 +22,12 @@ pub(crate) struct Disc {
 const PUPIL: Disc = Disc { centre: 0.0, radius: 1.0 };
 
 impl Disc {
-    /// Whether part of the pupil lies outside this disc.
+    /// True if part of the pupil lies outside this disc.
     pub(crate) fn clips_unit_disc(self) -> bool {
         self.centre.abs() + 1.0 > self.radius
     }
 
-    /// Half the chord at height `t`; `None` where there is none.
+    /// Half the chord at height `t`; `None` if there is none.
     fn half_chord(self, t: f64) -> Option<f64> {
         let h2 = (self.radius - t) * (self.radius + t);
         (h2 >= 0.0).then(|| h2.sqrt())
@@ -39,7 +39,7 @@ pub(crate) fn clipped_etendue_sr(view: &PupilView, sensor_radius_mm: f64, rims: 
     over_half(rims, |t, low, high| strip_sr(view, sensor_radius_mm, t, low, high)) * 2.0
 }
 
-/// Where on the line the centroid (by area) of the part of the pupil inside the rims lies; `None` where nothing is open.
+/// Where on the line the centroid (by area) of the part of the pupil inside the rims lies; `None` if nothing is open.
 pub(crate) fn open_centroid(rims: [Option<Disc>; 2]) -> Option<f64> {
     let area = over_half(rims, |_, low, high| high - low);
     let moment = over_half(rims, |_, low, high| 0.5 * (high - low) * (high + low));
@@ -88,7 +88,7 @@ fn break_heights(rims: [Option<Disc>; 2]) -> [f64; 5] {
     heights
 }
 
-/// The height at which two circles cross; `None` where they do not.
+/// The height at which two circles cross; `None` if they do not.
 fn crossing_height(a: Disc, b: Disc) -> Option<f64> {
     let d = b.centre - a.centre;
     let s = (d * d + a.radius * a.radius - b.radius * b.radius) / (2.0 * d);

@@ -40,7 +40,7 @@ pub(crate) struct PupilView {
 
 impl PupilView {
     /// ∫ z²/d⁴ dA in sr were the integrand everywhere what it is at the pupil point `pupil_mm`. `sensor_mm` is in the
-    /// erect picture: the point itself lies at its negative.
+    /// erect image: the point itself lies at its negative.
     pub(crate) fn weight_sr(&self, sensor_mm: DVec2, pupil_mm: DVec2) -> f64 {
         let (z2, area) = (self.distance_mm * self.distance_mm, PI * self.radius_mm * self.radius_mm);
         let d2 = z2 + (pupil_mm + sensor_mm).length_squared();

@@ -1,6 +1,6 @@
-//! A calibrated camera: a model, its camera matrix, the size of its picture.
+//! A calibrated camera: a model, its camera matrix, the size of its image.
 //!
-//! Points are raster coordinates of this project: px, the top-left corner of the picture at (0, 0), pixel centres at + 0.5.
+//! Points are raster coordinates of this project: px, the top-left corner of the image at (0, 0), pixel centres at + 0.5.
 
 use core::f64::consts::TAU;
 
@@ -37,13 +37,13 @@ pub enum CalibrationError {
         /// Rows.
         height: usize,
     },
-    /// A greatest angle that is none.
+    /// A largest angle that is none.
     #[error("the greatest field angle is {}°; expected more than 0° and no more than 180°", angle_rad.to_degrees())]
     Angle {
         /// The angle, rad.
         angle_rad: f64,
     },
-    /// The picture reaches beyond a fold.
+    /// The image reaches beyond a fold.
     #[error(
         "the calibration folds the picture over at a radius of {radius_px:.3} px from the principal point (field angle \
          {:.3}°), inside the picture, which reaches out to {needed_px:.3} px: use coefficients fitted over the whole \
@@ -55,7 +55,7 @@ pub enum CalibrationError {
         radius_px: f64,
         /// Field angle of the fold, rad.
         angle_rad: f64,
-        /// Largest distance of a corner of the picture from the principal point, px.
+        /// Largest distance of a corner of the image from the principal point, px.
         needed_px: f64,
     },
 }
@@ -73,7 +73,7 @@ impl Calibration {
     /// The camera of a model, a camera matrix (raster coordinates) and a size (width, height).
     ///
     /// # Errors
-    /// Where the matrix or the picture is none. A fold inside the picture is told by [`check`](Self::check).
+    /// If the matrix or the image is none. A fold inside the image is told by [`check`](Self::check).
     pub fn new(model: Model, matrix: CameraMatrix, size_px: [usize; 2]) -> Result<Self, CalibrationError> {
         let CameraMatrix { fx, fy, skew, cx, cy } = matrix;
         let finite = [fx, fy, skew, cx, cy].iter().all(|x| x.is_finite());
@@ -90,7 +90,7 @@ impl Calibration {
     /// The same camera that sees nothing at this field angle and beyond.
     ///
     /// # Errors
-    /// Where the angle is not in (0, π].
+    /// If the angle is not in (0, π].
     pub fn limited_to(self, angle_rad: f64) -> Result<Self, CalibrationError> {
         if !(angle_rad > 0.0 && angle_rad <= core::f64::consts::PI) {
             return Err(CalibrationError::Angle { angle_rad });
@@ -132,7 +132,7 @@ impl Calibration {
         self.greatest_angle_rad
     }
 
-    /// The raster point (px) at which a direction of the camera frame (any length) is seen, inside the picture or not;
+    /// The raster point (px) at which a direction of the camera frame (any length) is seen, inside the image or not;
     /// `None` outside the field.
     #[must_use]
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
@@ -143,14 +143,14 @@ impl Calibration {
         Some(self.matrix.raster_px(self.model.project(direction)?))
     }
 
-    /// The unit direction of the camera frame seen at a raster point; `None` where nothing is.
+    /// The unit direction of the camera frame seen at a raster point; `None` if nothing is.
     #[must_use]
     pub fn unproject(&self, raster_px: DVec2) -> Option<DVec3> {
         let direction = self.model.unproject(self.matrix.point(raster_px))?;
         self.sees(direction).then_some(direction)
     }
 
-    /// dΩ/dA, the solid angle that a pixel's area sees at a raster point, sr per px²; `None` where nothing is seen.
+    /// dΩ/dA, the solid angle that a pixel's area sees at a raster point, sr per px²; `None` if nothing is seen.
     #[must_use]
     pub fn solid_angle_per_area(&self, raster_px: DVec2) -> Option<f64> {
         let point = self.matrix.point(raster_px);
@@ -161,15 +161,15 @@ impl Calibration {
     }
 
     /// What a raster point sees: [`unproject`](Self::unproject) and [`solid_angle_per_area`](Self::solid_angle_per_area) (sr per
-    /// px²), for little more than one of them; `None` where nothing is seen.
+    /// px²), for little more than one of them; `None` if nothing is seen.
     #[must_use]
     pub fn sight(&self, raster_px: DVec2) -> Option<Sight> {
         let sight = self.model.sight(self.matrix.point(raster_px))?;
         self.sees(sight.direction).then(|| sight.enlarged(self.matrix.area_px()))
     }
 
-    /// Refuses a calibration that folds over inside the picture, with the radius at which it does. Parts of the picture
-    /// that lie beyond the greatest angle, or where the model's formula ends without a fold, are legal: they see nothing.
+    /// Refuses a calibration that folds over inside the image, with the radius at which it does. Parts of the image
+    /// that lie beyond the largest angle, or where the model's formula ends without a fold, are legal: they see nothing.
     ///
     /// # Errors
     /// [`CalibrationError::Fold`].
@@ -207,7 +207,7 @@ impl Calibration {
         [DVec2::ZERO, DVec2::new(size.x, 0.0), DVec2::new(0.0, size.y), size].into_iter()
     }
 
-    /// The corners of all pixels along the picture's border, no more than some thousand to a side.
+    /// The corners of all pixels along the image's border, no more than some thousand to a side.
     fn border(&self) -> impl Iterator<Item = DVec2> {
         const MOST: usize = 4096;
         let size = self.size();

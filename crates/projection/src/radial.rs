@@ -5,7 +5,7 @@
 //! | | the polynomial takes | and gives | barrel has |
 //! | --- | --- | --- | --- |
 //! | [`Sense::IdealToObserved`] | the undistorted radius | the distorted radius | k₁ < 0 (OpenCV, with the radius in focal lengths) |
-//! | [`Sense::ObservedToIdeal`] | the distorted radius | the undistorted radius | k₁ > 0 (picture filters that fetch) |
+//! | [`Sense::ObservedToIdeal`] | the distorted radius | the undistorted radius | k₁ > 0 (image filters that fetch) |
 //!
 //! The other direction is the numerical inverse, so both directions of one model are exact inverses of each other. A
 //! polynomial of the other direction that comes near is a [`fit`](RadialDistortion::fitted), with its residual; to first
@@ -16,7 +16,7 @@
 //! One direction of a radial distortion fitted to the other.
 //!
 //! Programs and papers write distortion in either direction; a polynomial of one direction has no polynomial of the other
-//! as its inverse, but one comes near over a picture. The fit is least squares of the radius and says how far it is off.
+//! as its inverse, but one comes near over an image. The fit is least squares of the radius and says how far it is off.
 //!
 //! The even radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴), its inverse, and where it folds.
 //!
@@ -48,7 +48,7 @@ pub enum RadiusUnit {
     /// Principal distances: tangents of the field angle (OpenCV). The principal distance is the focal length of a lens
     /// focused at infinity.
     FocalLengths,
-    /// Halves of the picture's diagonal.
+    /// Halves of the image's diagonal.
     HalfDiagonals,
     /// Pixels (square ones).
     Pixels,
@@ -59,7 +59,7 @@ pub enum RadiusUnit {
 pub struct RadiusScales {
     /// The principal distance, mm.
     pub principal_distance_mm: f64,
-    /// Half the picture's diagonal, mm.
+    /// Half the image's diagonal, mm.
     pub half_diagonal_mm: f64,
     /// The pixel pitch, mm.
     pub pixel_pitch_mm: f64,
@@ -95,7 +95,7 @@ pub enum DistortionError {
         /// Length of the unit, mm.
         length_mm: f64,
     },
-    /// The picture reaches beyond the fold.
+    /// The image reaches beyond the fold.
     #[error(
         "the distortion with k1 = {k1}, k2 = {k2} folds the picture over at an observed radius of {fold_mm:.6} mm, but \
          the picture reaches out to {needed_mm:.6} mm: use coefficients fitted over the whole picture, or crop it"
@@ -107,7 +107,7 @@ pub enum DistortionError {
         k2: f64,
         /// Observed radius of the fold, mm.
         fold_mm: f64,
-        /// Largest observed radius asked for, mm.
+        /// Largest observed radius requested, mm.
         needed_mm: f64,
     },
 }
@@ -128,7 +128,7 @@ impl RadialDistortion {
     /// ([`RadiusUnit::length_mm`]).
     ///
     /// # Errors
-    /// Where a coefficient is not finite or beyond 1e30 (squares of it would overflow), or the unit not a positive length.
+    /// If a coefficient is not finite or beyond 1e30 (squares of it would overflow), or the unit not a positive length.
     pub fn new(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> Result<Self, DistortionError> {
         if ![k1, k2].iter().all(|k| k.abs() <= LARGEST) {
             return Err(DistortionError::Coefficient { k1, k2 });
@@ -139,10 +139,10 @@ impl RadialDistortion {
         Ok(Self { sense, polynomial: RadialPolynomial::new(k1, k2), unit_mm })
     }
 
-    /// Refuses a distortion that folds inside a picture.
+    /// Refuses a distortion that folds inside an image.
     ///
     /// # Errors
-    /// Where the fold's observed radius is not beyond `max_observed_mm`, the largest distance of a point of the picture
+    /// If the fold's observed radius is not beyond `max_observed_mm`, the largest distance of a point of the image
     /// from the principal point ([`Raster::max_radius_mm`](crate::Raster::max_radius_mm)).
     pub fn check(&self, max_observed_mm: f64) -> Result<(), DistortionError> {
         let fold_mm = self.fold_observed_mm();
@@ -244,7 +244,7 @@ fn scaled(point: DVec2, radius: impl Fn(f64) -> Option<f64>) -> Option<DVec2> {
     Some(if r > 0.0 { point * (mapped / r) } else { point })
 }
 
-/// A distortion fitted to another over a picture.
+/// A distortion fitted to another over an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     /// The fitted distortion.
@@ -255,10 +255,10 @@ pub struct Fit {
 
 impl RadialDistortion {
     /// The polynomial of direction `sense` and the same radius unit that comes nearest to this distortion, by least
-    /// squares of the radius over the radii of a picture.
+    /// squares of the radius over the radii of an image.
     ///
     /// # Errors
-    /// Where this distortion folds inside the picture, or the fitted one does.
+    /// If this distortion folds inside the image, or the fitted one does.
     pub fn fitted(&self, sense: Sense, max_observed_mm: f64) -> Result<Fit, DistortionError> {
         self.check(max_observed_mm)?;
         let samples = self.pairs(sense, max_observed_mm);
@@ -269,7 +269,7 @@ impl RadialDistortion {
         Ok(Fit { distortion, worst_mm: worst * self.unit_mm() })
     }
 
-    /// Argument and value, in radius units, of the map of direction `sense` over the radii of a picture.
+    /// Argument and value, in radius units, of the map of direction `sense` over the radii of an image.
     fn pairs(&self, sense: Sense, max_observed_mm: f64) -> Vec<[f64; 2]> {
         (1..=FIT_SAMPLES)
             .filter_map(|i| {

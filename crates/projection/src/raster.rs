@@ -1,6 +1,6 @@
 //! Where on the sensor plane a pixel lies, and the camera matrix that other programs expect.
 //!
-//! Raster coordinates have their origin at the top-left corner of the picture and pixel centres at + 0.5; column i
+//! Raster coordinates have their origin at the top-left corner of the image and pixel centres at + 0.5; column i
 //! covers [i, i + 1). OpenCV and ROS put the centre of the top-left pixel at (0, 0), so their cx = cx(raster) − 0.5 and
 //! cy = cy(raster) − 0.5; COLMAP uses the raster's own convention. fx and fy are the same in all of them.
 
@@ -48,7 +48,7 @@ impl Raster {
     /// A grid of `width` × `height` pixels of `pitch_mm`, with the optical axis at `principal_px` (raster coordinates).
     ///
     /// # Errors
-    /// Where there are no pixels or a number is not finite or a pitch not positive.
+    /// If there are no pixels or a number is not finite or a pitch not positive.
     pub fn new(width: usize, height: usize, pitch_mm: DVec2, principal_px: DVec2) -> Result<Self, RasterError> {
         if width == 0 || height == 0 {
             return Err(RasterError::Empty { width, height });
@@ -106,19 +106,19 @@ impl Raster {
         self.principal_px
     }
 
-    /// Width and height of the picture on the sensor, mm.
+    /// Width and height of the image on the sensor, mm.
     #[must_use]
     pub fn size_mm(&self) -> DVec2 {
         self.pitch_mm * DVec2::new(self.width as f64, self.height as f64)
     }
 
-    /// Half the picture's diagonal, mm.
+    /// Half the image's diagonal, mm.
     #[must_use]
     pub fn half_diagonal_mm(&self) -> f64 {
         0.5 * self.size_mm().length()
     }
 
-    /// The largest distance of a point of the picture from the principal point, mm.
+    /// The largest distance of a point of the image from the principal point, mm.
     #[must_use]
     pub fn max_radius_mm(&self) -> f64 {
         let far_px =

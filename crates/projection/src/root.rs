@@ -3,7 +3,7 @@
 /// Newton steps before a bracket of any size has been halved to nothing.
 const STEPS: usize = 200;
 
-/// The argument in [`low`, `high`) at which an increasing function takes the value `target`; `None` where it reaches it at
+/// The argument in [`low`, `high`) at which an increasing function takes the value `target`; `None` if it reaches it at
 /// the upper end or later. `function` gives value and slope. Newton's method from `guess`, kept in the bracket; where it
 /// would leave or its steps do not halve, the bracket is halved instead. To the last units in the last place.
 pub(crate) fn increasing(

@@ -26,9 +26,9 @@ pub enum CfaError {
     /// No pixels, or not a rectangle.
     #[error("a colour filter tile {width} wide and {height} high needs {} entries and at least one, but {entries} are given", .width * .height)]
     Shape {
-        /// Columns asked for.
+        /// Columns requested.
         width: usize,
-        /// Rows asked for.
+        /// Rows requested.
         height: usize,
         /// Entries given.
         entries: usize,
@@ -57,7 +57,7 @@ impl Cfa {
     /// Any tile, as channel numbers row by row.
     ///
     /// # Errors
-    /// Where the entries do not fill the tile or there are none.
+    /// If the entries do not fill the tile or there are none.
     pub fn tile(width: usize, height: usize, channels: Vec<usize>) -> Result<Self, CfaError> {
         if channels.is_empty() || width * height != channels.len() {
             return Err(CfaError::Shape { width, height, entries: channels.len() });

@@ -30,7 +30,7 @@ impl Sensor {
     /// The same of a cube wherever it is, of which some rows at a time are read.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// If they cannot be read.
     pub fn electrons_of(&self, irradiance: &KeptCube<Irradiance>) -> Result<Plane<MeanElectrons>, String> {
         let (width, height) = (irradiance.width(), irradiance.height());
         let mut plane = Plane::new(width, height);

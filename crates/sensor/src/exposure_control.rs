@@ -1,6 +1,6 @@
-//! Automatic exposure: time and gain that bring a percentile of the picture to a target.
+//! Automatic exposure: time and gain that bring a percentile of the image to a target.
 //!
-//! After a frame, ℓ is the level below which a fraction p of the picture's pixels lies, as a fraction of the range from black to white.
+//! After a frame, ℓ is the level below which a fraction p of the image's pixels lies, as a fraction of the range from black to white.
 //! With E the product of time and gain, the next frame has E ← E (target/ℓ)^d, d the damping in (0, 1], the factor kept within
 //! 1/16 and 16. Time is used first, then gain, each within its limits: t = clamp(E/g_min), g = clamp(E/t). Where ℓ is white,
 //! target/ℓ is the target itself: the control walks down by that factor a frame until it sees.
@@ -15,7 +15,7 @@ use crate::{check::Checks, raw::Raw};
 /// How exposure is set from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExposureControl {
-    /// Percentile of the picture's levels that shall reach the target, (0, 100).
+    /// Percentile of the image's levels that shall reach the target, (0, 100).
     pub percentile: f64,
     /// Where it shall end, as a fraction of the range from black to white, (0, 1).
     pub target: f64,
@@ -40,7 +40,7 @@ impl ExposureControl {
         OperatingPoint { exposure_s, analogue_gain }
     }
 
-    /// The level below which the percentile lies, 0 to 1; `None` where there are no pixels.
+    /// The level below which the percentile lies, 0 to 1; `None` if there are no pixels.
     fn level(&self, raw: &Raw) -> Option<f64> {
         let linear = raw.linear();
         let mut dn = linear.plane.samples().to_vec();

@@ -7,7 +7,7 @@
 //! | quantisation noise | σ_q² = 1/12 DN² |
 //! | temporal dark noise, e⁻ | σ_d = √(σ_y.dark² − σ_q²)/K |
 //! | absolute sensitivity threshold, e⁻ | μ_e.min = √(σ_d² + σ_q²/K²) + ½ |
-//! | greatest signal-to-noise ratio | SNR_max = √μ_e.sat |
+//! | largest signal-to-noise ratio | SNR_max = √μ_e.sat |
 //! | dynamic range | DR = μ_e.sat/μ_e.min |
 //!
 //! What range of light one frame holds, and how well, as the description says it.
@@ -31,10 +31,10 @@ use crate::{capture::OperatingPoint, parameters::SensorParameters, sensor::Senso
 /// Variance of rounding, DN².
 pub const QUANTISATION_DN2: f64 = 1.0 / 12.0;
 
-/// The least temporal variance of dark pixels that tells their noise, DN²: below, rounding decides what is measured.
+/// The smallest temporal variance of dark pixels that tells their noise, DN²: below, rounding decides what is measured.
 pub const MIN_DARK_DN2: f64 = 0.24;
 
-/// Temporal dark noise, e⁻, of a measured deviation of digital numbers (rounding included) at a gain in DN/e⁻; `None` where
+/// Temporal dark noise, e⁻, of a measured deviation of digital numbers (rounding included) at a gain in DN/e⁻; `None` if
 /// rounding alone makes more.
 #[must_use]
 pub fn dark_noise_e(sigma_y_dark_dn: f64, gain_dn_e: f64) -> Option<f64> {
@@ -258,7 +258,7 @@ mod tests {
         let range = Sensor::new(p).expect("legal").dynamic_range();
         let switch = range.switches[0];
         assert!((switch.at_e - 54_000.0).abs() < 1e-6 && (range.most_e - 960_000.0).abs() < 1e-3);
-        // Shot noise alone, but for 1/12: √54 000 and √(54 000/16).
+        // Shot noise alone, except for 1/12: √54 000 and √(54 000/16).
         assert!((switch.before / 232.38 - 1.0).abs() < 1e-4 && (switch.after / 58.095 - 1.0).abs() < 1e-4);
     }
 

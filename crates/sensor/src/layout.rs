@@ -1,6 +1,6 @@
 //! Which pixels are read, and which are read together.
 //!
-//! - Optical black: rows above and columns left of the picture that no light reaches. They have dark current, smear and all noises.
+//! - Optical black: rows above and columns left of the image that no light reaches. They have dark current, smear and all noises.
 //! - Binning: n × m pixels of the same colour give one. Charge: their electrons are added before the chain, whose noise comes once (the
 //!   register is taken to hold the sum). Digital: their digital numbers are averaged and rounded.
 //!   Of tiles w × h pixels, the pixel (x, y) of the result takes the pixels ⌊x/w⌋ w n + x mod w + i w of a row, i < n, and so down: the
@@ -8,7 +8,7 @@
 //! - Skipping: of every n × m tiles of the colour filter array only the first is read. The pixel (x, y) of the result is the pixel
 //!   (⌊x/w⌋ w n + x mod w, ⌊y/h⌋ h m + y mod h) alone, without its neighbours' charge: finer patterns alias. The others still collect,
 //!   smear and bloom.
-//! - Region: a rectangle of the picture is read. The pixels around it still collect, smear and bloom.
+//! - Region: a rectangle of the image is read. The pixels around it still collect, smear and bloom.
 //!
 //! Left out: binning without regard to colour, binning and skipping together.
 
@@ -25,9 +25,9 @@ use crate::{capture::Operation, cfa::Cfa};
 /// Pixels that no light reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OpticalBlack {
-    /// Rows above the picture.
+    /// Rows above the image.
     pub rows: usize,
-    /// Columns left of the picture.
+    /// Columns left of the image.
     pub columns: usize,
 }
 
@@ -69,7 +69,7 @@ pub struct Binning {
 pub struct Layout {
     /// Pixels that no light reaches.
     pub optical_black: OpticalBlack,
-    /// The part of the picture that is read; `None`: all of it.
+    /// The part of the image that is read; `None`: all of it.
     pub region: Option<Region>,
     /// Pixels that are read together; `None`: each on its own.
     pub binning: Option<Binning>,
@@ -81,7 +81,7 @@ impl Effect for Layout {
     const NAME: &'static str = "region and binning";
     const KEY: &'static str = "sensor.binning";
 
-    /// It has to fit the picture, whose size the sensor does not know ([`Layout::errors`]).
+    /// It has to fit the image, whose size the sensor does not know ([`Layout::errors`]).
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
@@ -112,13 +112,13 @@ impl Effect for Layout {
 }
 
 impl Layout {
-    /// Whether the picture has each pixel of the sensor as one of its own.
+    /// True if the image has each pixel of the sensor as one of its own.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.region.is_none() && self.binning.is_none() && self.skipping.is_none()
     }
 
-    /// What is wrong with this layout on a picture of `width` × `height` pixels under a tile.
+    /// What is wrong with this layout on an image of `width` × `height` pixels under a tile.
     pub(crate) fn errors(&self, cfa: &Cfa, width: usize, height: usize) -> Vec<SensorError> {
         let mut checks = Checks::default();
         let (w, h) = (cfa.width(), cfa.height());
@@ -164,7 +164,7 @@ impl Layout {
         checks.errors
     }
 
-    /// The whole array: the picture with the pixels that no light reaches. `None` where there are none.
+    /// The whole array: the image with the pixels that no light reaches. `None` if there are none.
     pub(crate) fn with_optical_black(&self, picture: &Plane<MeanElectrons>) -> Option<Plane<MeanElectrons>> {
         let OpticalBlack { rows, columns } = self.optical_black;
         if rows == 0 && columns == 0 {
@@ -201,21 +201,21 @@ impl Layout {
         self.region.map(|r| Region { x: r.x / n, y: r.y / m, width: r.width / n, height: r.height / m })
     }
 
-    /// Where the picture lies in a raw of `width` × `height` pixels.
+    /// Where the image lies in a raw of `width` × `height` pixels.
     pub(crate) fn picture_in_raw(&self, width: usize, height: usize) -> Region {
         let (n, m) = self.steps();
         let (x, y) = (self.optical_black.columns / n, self.optical_black.rows / m);
         Region { x, y, width: width - x, height: height - y }
     }
 
-    /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels.
+    /// Columns and rows of the delivered image of a sensor of `width` × `height` pixels.
     pub(crate) fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
         let (n, m) = self.steps();
         let (width, height) = self.region.map_or((width, height), |r| (r.width, r.height));
         (width / n, height / m)
     }
 
-    /// Where a point of the sensor (pixels, the top left corner is 0, 0) lies in the delivered picture. Of tiles that are not skipped, those of
+    /// Where a point of the sensor (pixels, the top left corner is 0, 0) lies in the delivered image. Of tiles that are not skipped, those of
     /// more than one pixel keep their middle.
     pub(crate) fn in_picture(&self, cfa: &Cfa, [x, y]: [f64; 2]) -> [f64; 2] {
         let (n, m) = self.steps();
@@ -226,7 +226,7 @@ impl Layout {
         [along(x, middle(cfa.width()), n), along(y, middle(cfa.height()), m)]
     }
 
-    /// Where pixel (x, y) of the array is found in the raw; `None` where it is not read.
+    /// Where pixel (x, y) of the array is found in the raw; `None` if it is not read.
     pub(crate) fn raw_of_array(&self, cfa: &Cfa, x: usize, y: usize) -> Option<(usize, usize)> {
         let along = |i: usize, tile: usize, n: usize| i / (tile * n) * tile + i % tile;
         let (n, m) = self.steps();

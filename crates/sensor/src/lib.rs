@@ -6,13 +6,13 @@
 //!
 //! - [`Sensor::responsivity`] says how many electrons a channel makes of an irradiance during the exposure; an irradiance
 //!   cube ([`Sensor::electrons`]) or the caller's own accumulation makes mean electrons of it.
-//! - [`Sensor::step`] makes a raw picture of mean electrons by the effects a sensor has, in their physical order
+//! - [`Sensor::step`] makes a raw image of mean electrons by the effects a sensor has, in their physical order
 //!   ([`effects`]). It is an ordered fold over frames; its state is [`SensorState`]. [`Sensor::step_with_breakdown`] says
 //!   beside it what each pixel's value is made of.
 //! - [`Sensor::effects`] says which effects a sensor has, and why others are absent.
 //!
 //! The model is that of EMVA 1288 (linear), with what the standard leaves out. Every random number has an address, so a
-//! picture's bits do not depend on threads or on the order of work. Noise from frame to frame is drawn from the job's seed,
+//! image's bits do not depend on threads or on the order of work. Noise from frame to frame is drawn from the job's seed,
 //! fixed patterns from the specimen's.
 
 mod capture;

@@ -1,7 +1,7 @@
-//! What the channels of an even picture measure: neighbours of other colours mix in.
+//! What the channels of an even image measure: neighbours of other colours mix in.
 //!
 //! Optical crosstalk and inter-pixel capacitance bring part of each pixel's signal from its neighbours, which sit under other filters:
-//! a picture's red is R' = Σ w_c R_c over the channels c. White balance and colour matrices belong to these responsivities, as they
+//! an image's red is R' = Σ w_c R_c over the channels c. White balance and colour matrices belong to these responsivities, as they
 //! would if they were measured on the camera. The weights of a channel are the mean over its pixels in the tile.
 
 use etendue_spectra::Spectrum;
@@ -9,7 +9,7 @@ use etendue_spectra::Spectrum;
 use crate::{cfa::Cfa, effects::neighbours::Neighbours, sensor::Sensor};
 
 impl Sensor {
-    /// Responsivities of all channels as an even picture shows them, e⁻ per W·m⁻² during the exposure; during a second where that
+    /// Responsivities of all channels as an even image shows them, e⁻ per W·m⁻² during the exposure; during a second where that
     /// is zero, as colours want them in any common scale.
     #[must_use]
     pub fn picture_responsivities(&self) -> Vec<Spectrum> {
@@ -20,7 +20,7 @@ impl Sensor {
         self.channel_weights().iter().map(mixed).collect()
     }
 
-    /// Electrons a photon on a pixel's whole square, as an even picture shows them, of all channels at a wavelength, nm: what photon
+    /// Electrons a photon on a pixel's whole square, as an even image shows them, of all channels at a wavelength, nm: what photon
     /// transfer measures.
     #[must_use]
     pub fn picture_quantum_efficiencies(&self, nm: f64) -> Vec<f64> {
@@ -101,7 +101,7 @@ mod tests {
         assert!((red / expected - 1.0).abs() < 1e-6, "{red} {expected}");
     }
 
-    /// The same as the numbers that the sensor delivers of even light, channel by channel.
+    /// The same as the numbers that the sensor delivers of uniform illumination, channel by channel.
     #[test]
     fn an_even_picture_has_them() {
         let mut p = bayer(BayerPhase::Grbg);

@@ -37,7 +37,7 @@ pub struct Exposure {
     pub exposure_s: f64,
     /// Time from frame to frame, s; needed by effects that count it.
     pub frame_period_s: Option<f64>,
-    /// What sets exposure and gain from frame to frame; `None` where they stay.
+    /// What sets exposure and gain from frame to frame; `None` if they stay.
     pub control: Option<ExposureControl>,
 }
 
@@ -83,7 +83,7 @@ pub struct SensorParameters {
     pub read_out: ReadOut,
     /// Several captures a frame, or fewer bits by a curve.
     pub hdr: HighDynamicRange,
-    /// Whether randomness from frame to frame is modelled. Without, a picture is the quantised mean; fixed patterns stay.
+    /// True if randomness from frame to frame is modelled. Without, an image is the quantised mean; fixed patterns stay.
     pub noise: bool,
 }
 
@@ -170,7 +170,7 @@ impl SensorParameters {
         self.hdr.scale(k) * (self.capture_white_dn(operation) - self.read_out.black_level_dn)
     }
 
-    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many rows, s. Shielded rows take their
+    /// The exposure that smear adds to every pixel of an evenly and steadily lit image of so many rows, s. Shielded rows take their
     /// time, too, and add nothing.
     #[must_use]
     pub fn even_smear_s(&self, rows: usize) -> f64 {

@@ -1,4 +1,4 @@
-//! A raw picture, with what development needs to know.
+//! A raw image, with what development needs to know.
 
 use std::borrow::Cow;
 
@@ -6,7 +6,7 @@ use etendue_core::{Plane, quantity::DigitalNumber, random::Pixel};
 
 use crate::{capture::OperatingPoint, hdr::companding::Companding, layout::Region, signal_breakdown::ChargeAccount};
 
-/// A raw picture, with what development needs to know.
+/// A raw image, with what development needs to know.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raw {
     /// Digital numbers.
@@ -39,12 +39,12 @@ pub struct LinearRaw<'a> {
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
-    /// The rows above the picture that no light reaches, or else the columns left of it, where there are some.
+    /// The rows above the image that no light reaches, or else the columns left of it, where there are some.
     pub optical_black: Option<Plane<DigitalNumber>>,
 }
 
 impl Raw {
-    /// The rows above the picture, or else the columns left of it.
+    /// The rows above the image, or else the columns left of it.
     fn shielded(&self) -> Option<Region> {
         let Region { x, y, width, height } = self.picture;
         let above = Region { x, y: 0, width, height: y };
@@ -52,7 +52,7 @@ impl Raw {
         [above, beside].into_iter().find(|region| region.width > 0 && region.height > 0)
     }
 
-    /// The picture without optical black and without companding.
+    /// The image without optical black and without companding.
     #[must_use]
     pub fn linear(&self) -> LinearRaw<'_> {
         let whole = (self.picture.width, self.picture.height) == (self.plane.width(), self.plane.height());

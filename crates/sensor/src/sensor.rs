@@ -67,7 +67,7 @@ impl Sensor {
         Cow::Owned(self.rate_responsivities())
     }
 
-    /// Whether light of a pixel changes the numbers of others: by blooming, smear or crosstalk.
+    /// True if light of a pixel changes the numbers of others: by blooming, smear or crosstalk.
     #[must_use]
     pub fn spills(&self) -> bool {
         let p = &self.parameters;
@@ -80,26 +80,26 @@ impl Sensor {
         self.parameters.cfa.channel_at(x, y)
     }
 
-    /// The narrowest range of wavelengths (nm) outside which no channel responds; `None` where none responds at all.
+    /// The narrowest range of wavelengths (nm) outside which no channel responds; `None` if none responds at all.
     #[must_use]
     pub fn support_nm(&self) -> Option<(f64, f64)> {
         let supports = self.parameters.channels.iter().filter_map(|c| c.quantum_efficiency.support_nm());
         supports.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
-    /// What is wrong with a picture of `width` × `height` pixels: tile, binning, skipping and region have to fit it.
+    /// What is wrong with an image of `width` × `height` pixels: tile, binning, skipping and region have to fit it.
     #[must_use]
     pub fn misfits(&self, width: usize, height: usize) -> Vec<SensorError> {
         self.parameters.read_out.layout.errors(&self.parameters.cfa, width, height)
     }
 
-    /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels: those of its region that are read, binned.
+    /// Columns and rows of the delivered image of a sensor of `width` × `height` pixels: those of its region that are read, binned.
     #[must_use]
     pub fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
         self.parameters.read_out.layout.picture_size(width, height)
     }
 
-    /// Where a point of the sensor lies in the delivered picture; raster coordinates of both, px.
+    /// Where a point of the sensor lies in the delivered image; raster coordinates of both, px.
     #[must_use]
     pub fn in_picture(&self, raster_px: [f64; 2]) -> [f64; 2] {
         self.parameters.read_out.layout.in_picture(&self.parameters.cfa, raster_px)
@@ -142,7 +142,7 @@ impl Sensor {
         self.parameters.hdr.companding.as_ref().map_or(linear_dn, |c| c.companded(linear_dn))
     }
 
-    /// Whether a frame depends on the frames before it: by exposure control, lag, or pixels that jump between two levels.
+    /// True if a frame depends on the frames before it: by exposure control, lag, or pixels that jump between two levels.
     #[must_use]
     pub fn remembers(&self) -> bool {
         let p = &self.parameters;

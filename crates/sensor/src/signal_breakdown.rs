@@ -65,7 +65,7 @@ impl SignalComponent {
     }
 }
 
-/// The layers of a raw picture.
+/// The layers of a raw image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalBreakdown {
     layers: Vec<Plane<SignalPart>>,

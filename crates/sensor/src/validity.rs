@@ -92,7 +92,7 @@ fn check_captures(p: &SensorParameters, checks: &mut Checks) {
     }
 }
 
-/// The time that the exposures of one photodiode take one after the other, s, the greatest of all photodiodes; those of one
+/// The time that the exposures of one photodiode take one after the other, s, the largest of all photodiodes; those of one
 /// sensitivity are of one photodiode.
 fn longest_s(p: &SensorParameters) -> f64 {
     let exposed =

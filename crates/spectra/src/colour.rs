@@ -48,14 +48,14 @@ pub const REC_709: Primaries =
     Primaries { red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329] };
 
 impl Primaries {
-    /// Whether these are the same to `tolerance` in every chromaticity.
+    /// True if these are the same to `tolerance` in every chromaticity.
     #[must_use]
     pub fn is_close_to(&self, other: &Self, tolerance: f64) -> bool {
         let all = |p: &Self| [p.red, p.green, p.blue, p.white].into_iter().flatten().collect::<Vec<_>>();
         all(self).into_iter().zip(all(other)).all(|(a, b)| (a - b).abs() <= tolerance)
     }
 
-    /// From linear RGB of these primaries to linear sRGB, row by row; `None` where the chromaticities make no colour space.
+    /// From linear RGB of these primaries to linear sRGB, row by row; `None` if the chromaticities make no colour space.
     #[must_use]
     pub fn to_linear_srgb(&self) -> Option<[[f64; 3]; 3]> {
         let [r, g, b, w] =

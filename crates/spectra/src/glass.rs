@@ -108,7 +108,7 @@ impl Dispersion {
     /// The curve of a glass known by n_d and V_d: see the module.
     ///
     /// # Errors
-    /// Where no glass has these numbers.
+    /// If no glass has these numbers.
     pub fn of_abbe(index: f64, abbe: f64) -> Result<Self, GlassError> {
         if !(index > 1.0 && index <= 5.0 && abbe > 5.0 && abbe.is_finite()) {
             return Err(GlassError::Abbe { index, abbe });
@@ -129,7 +129,7 @@ impl Dispersion {
     /// This curve, where it is one of a clear material at every legal wavelength.
     ///
     /// # Errors
-    /// Where the index leaves 1 to 5 between 300 and 1 100 nm.
+    /// If the index leaves 1 to 5 between 300 and 1 100 nm.
     pub fn checked(self) -> Result<Self, GlassError> {
         let grid = (SHORTEST_NM as u32..=MAX_NM as u32).map(f64::from);
         let outside = grid.map(|nm| (nm, self.index(nm))).find(|(_, n)| !(1.0..=5.0).contains(n));
@@ -158,7 +158,7 @@ impl Dispersion {
         (self.index(LINE_D_NM) - 1.0) / (self.index(LINE_F_NM) - self.index(LINE_C_NM))
     }
 
-    /// Whether the index depends on wavelength.
+    /// True if the index depends on wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         !matches!(self, Self::Constant { .. })
@@ -201,7 +201,7 @@ pub fn catalogue() -> &'static [CatalogueGlass] {
 /// A glass by its maker's name; capitals do not matter, as lens files differ in them.
 ///
 /// # Errors
-/// Where no catalogue of the crate has the name: the error names the nearest ones.
+/// If no catalogue of the crate has the name: the error names the nearest ones.
 pub fn named(name: &str) -> Result<&'static CatalogueGlass, GlassError> {
     let found = CATALOGUE.iter().find(|glass| glass.name.eq_ignore_ascii_case(name.trim()));
     found.ok_or_else(|| GlassError::Unknown { name: name.to_owned(), near: near(name) })

@@ -56,7 +56,7 @@ pub fn luminance(radiance: &Spectrum) -> f64 {
     LUMINOUS_EFFICACY_LM_W * node_sum(&[radiance, y_bar()])
 }
 
-/// A relative spectrum scaled to a luminance in cd·m⁻² (or an illuminance in lx). `None` where it has none: no scale
+/// A relative spectrum scaled to a luminance in cd·m⁻² (or an illuminance in lx). `None` if it has none: no scale
 /// makes infrared bright.
 #[must_use]
 pub fn with_luminance(relative: &Spectrum, luminance_cd_m2: f64) -> Option<Spectrum> {

@@ -36,7 +36,7 @@ impl Spectrum {
     /// A spectrum through points (wavelength in nm, value), wavelengths rising; linear between points.
     ///
     /// # Errors
-    /// Where there are no points, or a single one of what is zero outside of it, a number is not finite, wavelengths do not rise, or the table does not
+    /// If there are no points, or a single one of what is zero outside of it, a number is not finite, wavelengths do not rise, or the table does not
     /// reach into 300 to 1 100 nm.
     pub fn from_points(points: &[(f64, f64)], outside: Outside) -> Result<Self, SpectrumError> {
         table::check(points, Place::Point)?;
@@ -147,7 +147,7 @@ impl Spectrum {
         self.covered_nm
     }
 
-    /// The first and last wavelength (nm) between which the spectrum is not zero; `None` where it is zero everywhere.
+    /// The first and last wavelength (nm) between which the spectrum is not zero; `None` if it is zero everywhere.
     #[must_use]
     pub fn support_nm(&self) -> Option<(f64, f64)> {
         let first = self.values.iter().position(|v| *v != 0.0)?;

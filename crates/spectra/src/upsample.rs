@@ -5,7 +5,7 @@
 //! and are as smooth as that allows (squared first differences over 380–780 nm in steps of 5 nm). They are solved for
 //! this crate's observer and D65 by `tests/oracles/upsample_basis.py` and held beyond their ends.
 //!
-//! A mixture with components in 0 to 1 is therefore a reflectance, and its colour under D65 is the one asked for. The
+//! A mixture with components in 0 to 1 is therefore a reflectance, and its colour under D65 is the one requested. The
 //! model says nothing true about infrared or ultraviolet. Components outside 0 to 1 are mixed all the same; whether
 //! they are legal is for the description to say.
 

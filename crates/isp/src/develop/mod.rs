@@ -1,4 +1,4 @@
-//! The whole way from a raw picture to a display.
+//! The whole way from a raw image to a display.
 
 mod processing;
 
@@ -13,7 +13,7 @@ use crate::{colour_matrix::ColourMatrix, correction};
 
 pub use processing::{Colour, DevelopError, Processing};
 
-/// A developed picture.
+/// A developed image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Developed {
     /// Linear sRGB, neither clipped below 0 nor above 1; channels of the camera end at white, unless filters of linear light
@@ -25,12 +25,12 @@ pub struct Developed {
     pub facts: Facts,
 }
 
-/// What development found in the picture.
+/// What development found in the image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// The black level taken off, DN.
     pub black_level_dn: f64,
-    /// The gains of the channels; empty for a mono picture.
+    /// The gains of the channels; empty for a mono image.
     pub white_balance: Vec<f64>,
     /// How many pixels were corrected as defective.
     pub corrected_pixels: usize,
@@ -45,7 +45,7 @@ impl Processing {
         if headroom { 1.0 } else { (1.0 / self.exposure_gain).min(1.0) as f32 }
     }
 
-    /// A picture in linear light as a display takes it: tone curve, sharpening, the paper's filters of encoded pictures with
+    /// An image in linear light as a display takes it: tone curve, sharpening, the paper's filters of encoded images with
     /// the random numbers of `address`.
     #[must_use]
     pub fn displayed(&self, linear: &Plane<LinearRgb>, address: FrameAddress) -> Plane<Display> {
@@ -58,11 +58,11 @@ impl Processing {
     }
 }
 
-/// Develops a raw picture; `address` is that of the random numbers of the paper's noises and drops. Runs in the rayon pool of the
+/// Develops a raw image; `address` is that of the random numbers of the paper's noises and drops. Runs in the rayon pool of the
 /// caller; the bits do not depend on it.
 ///
 /// # Errors
-/// Where picture and processing contradict each other or a number is out of range.
+/// If image and processing contradict each other or a number is out of range.
 pub fn develop(
     raw: &RawPicture<'_>,
     processing: &Processing,
@@ -96,7 +96,7 @@ fn shade(samples: &mut [f32], raw: &RawPicture<'_>, processing: &Processing) {
     });
 }
 
-/// The gains of the channels; none of a mono picture.
+/// The gains of the channels; none of a mono image.
 fn gains(samples: &[f32], raw: &RawPicture<'_>, colour: Option<&Colour>) -> Vec<f64> {
     match colour.map(|c| &c.white_balance) {
         None => Vec::new(),
@@ -140,7 +140,7 @@ fn interpolated<const N: usize>(
 ) -> Vec<[f32; 3]> {
     let colour = processing.colour.as_ref().expect("checked: a tile has colour settings");
     let picture = processing.demosaic.apply::<N>(&samples, width, tile);
-    // A large picture's samples are no longer needed where its colours take three times their memory.
+    // A large image's samples are no longer needed where its colours take three times their memory.
     drop(samples);
     finished(picture, width, &colour.matrix, processing)
 }
@@ -189,7 +189,7 @@ mod tests {
         Mosaic::tile(2, 2, vec![Red, Green, Green, Blue]).expect("Bayer")
     }
 
-    /// A raw picture of black 100 DN and white 1 100 DN.
+    /// A raw image of black 100 DN and white 1 100 DN.
     fn raw<'a>(plane: &'a Plane<DigitalNumber>, mosaic: &'a Mosaic) -> RawPicture<'a> {
         RawPicture { plane, black_level_dn: 100.0, white_level_dn: 1100.0, mosaic, optical_black: None }
     }
@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn what_is_shown_as_white_has_no_coloured_rims() {
-        // A lamp of white beside a wall of an eighth of it, in a picture of gain 64: both are white, and so is their border.
+        // A lamp of white beside a wall of an eighth of it, in an image of gain 64: both are white, and so is their border.
         let lamp = |x: usize, y: usize| if (x / 3 + y / 3).is_multiple_of(2) { 1100 } else { 225 };
         let plane = plane(18, 18, lamp);
         let bright = |filters| {
@@ -273,7 +273,7 @@ mod tests {
     #[test]
     fn black_level_defects_and_shading_come_first() {
         let dark = plane(4, 4, |_, _| 200);
-        // Half the light at the left edge of a flat picture of 0.5, and one dead pixel.
+        // Half the light at the left edge of a flat image of 0.5, and one dead pixel.
         let fall = |x: usize| 0.5 + 0.5 * (x as f64 + 0.5) / 8.0;
         let shaded = plane(8, 6, |x, y| if (x, y) == (5, 2) { 0 } else { (200.0 + 450.0 * fall(x)) as Dn });
         let gains: Vec<f64> = [0.5, 1.0, 0.5, 1.0].map(|light| 1.0 / light).to_vec();

@@ -15,33 +15,33 @@ pub struct Colour {
     pub matrix: ColourMatrix,
 }
 
-/// How a raw picture is developed, step by step in their order.
+/// How a raw image is developed, step by step in their order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Processing {
     /// What counts as no light.
     pub black_level: BlackLevel,
     /// Which pixels do not measure.
     pub defects: Defects,
-    /// What makes an even light even.
+    /// What makes an uniform illumination even.
     pub shading: Option<Shading>,
     /// How the colours between are found.
     pub demosaic: Demosaic,
     /// How noise is reduced.
     pub noise_reduction: Option<NoiseReduction>,
-    /// Colour; `None` for a mono picture, and only for one.
+    /// Colour; `None` for a mono image, and only for one.
     pub colour: Option<Colour>,
     /// Digital gain after colour, above 0; 1 shows the white level as white.
     pub exposure_gain: f64,
     /// How linear light is encoded.
     pub tone: ToneCurve,
-    /// How the encoded picture is sharpened.
+    /// How the encoded image is sharpened.
     pub sharpening: Option<Unsharp>,
     /// The paper's filters, those of linear light first.
     pub image_filters: Vec<paper::Filter>,
 }
 
 impl Processing {
-    /// Nothing but what a picture needs: the stated black level, bilinear demosaic, colour, the sRGB curve.
+    /// Nothing but what an image needs: the stated black level, bilinear demosaic, colour, the sRGB curve.
     #[must_use]
     pub fn plain(colour: Option<Colour>) -> Self {
         Self {
@@ -58,10 +58,10 @@ impl Processing {
         }
     }
 
-    /// Whether the settings are legal and fit pictures of this mosaic and size.
+    /// Whether the settings are legal and fit images of this mosaic and size.
     ///
     /// # Errors
-    /// Where a number is out of range or settings and mosaic contradict each other.
+    /// If a number is out of range or settings and mosaic contradict each other.
     pub fn check(&self, mosaic: &Mosaic, width: usize, height: usize) -> Result<(), DevelopError> {
         if !(self.exposure_gain.is_finite() && self.exposure_gain > 0.0) {
             return Err(DevelopError::ExposureGain(self.exposure_gain));
@@ -116,7 +116,7 @@ fn check_colour(tile: &Tile, colour: &Colour) -> Result<(), DevelopError> {
     if legal { Ok(()) } else { Err(DevelopError::WhiteBalance(gains.clone())) }
 }
 
-/// Why a picture cannot be developed.
+/// Why an image cannot be developed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DevelopError {
     /// There is no range between black and white.
@@ -127,21 +127,21 @@ pub enum DevelopError {
         /// White level, DN.
         white: f64,
     },
-    /// Shielded pixels are asked for, and there are none.
+    /// Shielded pixels are requested, and there are none.
     #[error(
         "the black level shall come from shielded pixels, but the picture has none: use the stated level, or a sensor with optical-black rows"
     )]
     NoOpticalBlack,
-    /// A mapped defect beside the picture.
+    /// A mapped defect beside the image.
     #[error("the defective pixel at column {x}, row {y} lies outside the picture of {width} × {height} pixels")]
     DefectOutside {
         /// Column.
         x: u32,
         /// Row.
         y: u32,
-        /// Columns of the picture.
+        /// Columns of the image.
         width: usize,
-        /// Rows of the picture.
+        /// Rows of the image.
         height: usize,
     },
     /// A threshold that is none.
@@ -173,10 +173,10 @@ pub enum DevelopError {
     /// A filter of the paper that cannot be applied.
     #[error(transparent)]
     Paper(#[from] FilterError),
-    /// Colour settings for a picture without colour.
+    /// Colour settings for an image without colour.
     #[error("a mono picture has no colour to balance: leave white balance and colour matrix out")]
     ColourOfMono,
-    /// No colour settings for a picture with colour.
+    /// No colour settings for an image with colour.
     #[error("a colour mosaic needs white balance and a colour matrix, but neither is given")]
     NoColour,
     /// Too few pixels to interpolate.

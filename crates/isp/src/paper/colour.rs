@@ -2,19 +2,19 @@
 //! the vector (R, G, B, 1).
 //!
 //! A change is a list of operations, which become **one** matrix (the first operation is applied first) and one clip to
-//! 0 … 1 at the end (encoded pictures only), so that going to another space, changing something there, and coming back
+//! 0 … 1 at the end (encoded images only), so that going to another space, changing something there, and coming back
 //! loses nothing on the way.
 //!
 //! | operation | matrix |
 //! | --- | --- |
-//! | scale, offset | by channel; offset in shares of white |
+//! | scale, offset | by channel; offset in fractions of white |
 //! | brightness b | b on all channels |
 //! | saturation s | s 1 + (1 − s) e wᵀ: 0 is grey, 1 as it was |
 //! | hue rotation θ | e wᵀ + (1 − e wᵀ) R(θ) (1 − e eᵀ/3): luminance and greys stay (after Haeberli 1993) |
 //! | to, from a colour space | see [`ColourSpace`] |
 //! | matrix | the upper three rows |
 //!
-//! e = (1, 1, 1); R(θ) turns about e, red towards green; w are the weights of luminance: of encoded pictures 0.299, 0.587,
+//! e = (1, 1, 1); R(θ) turns about e, red towards green; w are the weights of luminance: of encoded images 0.299, 0.587,
 //! 0.114 (ITU-R BT.601), of linear light 0.2126, 0.7152, 0.0722 (BT.709).
 
 use etendue_core::quantity::{Display, LinearRgb, Quantity};
@@ -63,7 +63,7 @@ impl ColourChange {
 pub enum Operation {
     /// Factors on red, green and blue.
     Scale([f64; 3]),
-    /// Shares of white added to red, green and blue.
+    /// Fractions of white added to red, green and blue.
     Offset([f64; 3]),
     /// A factor on all channels, 0 or more.
     Brightness(f64),
@@ -228,7 +228,7 @@ mod tests {
             assert!(near(turn(40.0).then(&turn(-40.0)).apply(colour), colour));
             assert!(near(turn(120.0).then(&turn(240.0)).apply(colour), colour));
         }
-        // A third of a turn takes red to where green is, but for luminance.
+        // A third of a turn takes red to where green is, except for luminance.
         let green = turn(120.0).apply([1.0, 0.0, 0.0]);
         assert!((green[0] - green[2]).abs() < 1e-12 && (green[1] - green[0] - 1.0).abs() < 1e-12, "{green:?}");
     }

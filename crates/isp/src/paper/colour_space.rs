@@ -9,7 +9,7 @@
 //! | YCbCr | Y; Cb = (B − Y)/1.772 + 1/2; Cr = (R − Y)/1.402 + 1/2 | encoded | ITU-R BT.601, full range |
 //! | CMY | 1 − R, 1 − G, 1 − B | either | |
 //!
-//! Y = 0.299 R + 0.587 G + 0.114 B. A half is added to differences of colour so that a picture can hold them (U and V of
+//! Y = 0.299 R + 0.587 G + 0.114 B. A half is added to differences of colour so that an image can hold them (U and V of
 //! saturated colours still leave 0 … 1 and are clipped at the end). Between white points colours are adapted by
 //! Bradford's transform (Lam 1985), so that white stays white.
 //!
@@ -151,7 +151,7 @@ impl Affine {
         }))
     }
 
-    /// The map back; `None` where there is none.
+    /// The map back; `None` if there is none.
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
         let m = &self.0;

@@ -1,17 +1,17 @@
-//! Drops of rain on the picture. The paper (its second rain filter) computes "a new texture from the initial camera rendering. For each drop,
-//! the original image is inverted in order to simulate the real effect of a rain drop", with a count of drops, a least and a greatest size and
+//! Drops of rain on the image. The paper (its second rain filter) computes "a new texture from the initial camera rendering. For each drop,
+//! the original image is inverted in order to simulate the real effect of a rain drop", with a count of drops, a least and a largest size and
 //! "fades parameters (speed at which the drops flow and disappear)". How, it does not say; this is **our reading**, on linear light:
 //!
 //! ```text
-//! y = (1 − w) x + w b(c − s (p − c))      b: the picture, blurred by a Gaussian of σ = s · blur
+//! y = (1 − w) x + w b(c − s (p − c))      b: the image, blurred by a Gaussian of σ = s · blur
 //! w = (1 − age/fade) min(1, (r − |p − c|)/blur)
 //! ```
 //!
-//! for a pixel p in a drop of radius r about c: the disc shows what lies around it upside down and s times smaller, held at the picture's edge. Drops
-//! are independent and even over the picture, radii even between their ends; later drops lie over earlier ones. With a fade each drop lives that
-//! many frames, flows downwards meanwhile, and is born anew elsewhere; drops begin at different ages.
+//! for a pixel p in a drop of radius r about c: the disc shows what lies around it upside down and s times smaller, held at the image's edge. Drops
+//! are independent and even over the image, radii even between their ends; later drops lie over earlier ones. With a fade each drop lives that
+//! many frames, flows downwards meanwhile, and is born again elsewhere; drops begin at different ages.
 //!
-//! What is not in the picture a drop cannot show, and sizes, blur and brightness are nobody's optics: the traced drops of a wind-screen
+//! What is not in the image a drop cannot show, and sizes, blur and brightness are nobody's optics: the traced drops of a windscreen
 //! predict a camera.
 
 use etendue_core::random::{FrameAddress, philox4x32};
@@ -20,14 +20,14 @@ use etendue_core::{Plane, quantity::LinearRgb};
 use super::{FilterError, demand};
 use crate::detail;
 
-/// Drops on the picture.
+/// Drops on the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drops {
     /// How many, 1 to 100 000.
     pub count: u32,
-    /// Least and greatest radius, px, above 0.
+    /// Least and largest radius, px, above 0.
     pub radius_px: [f64; 2],
-    /// How many times smaller the picture is in a drop, above 0.
+    /// How many times smaller the image is in a drop, above 0.
     pub scale: f64,
     /// σ of its blur, and width of its soft rim, px, above 0; times `scale` at most 500.
     pub blur_px: f64,
@@ -100,7 +100,7 @@ impl Drops {
         }
     }
 
-    /// Draws a drop that shows the blurred picture.
+    /// Draws a drop that shows the blurred image.
     fn draw(&self, drop: Disc, picture: &mut Plane<LinearRgb>, blurred: &[[f32; 3]]) {
         let (width, height) = (picture.width(), picture.height());
         let Disc { centre_px: [cx, cy], radius_px: r, opacity } = drop;
@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn a_drop_shows_the_picture_upside_down_and_smaller() {
         let still = Drops { fade_frames: None, ..DROPS };
-        // The first seed whose drop lies well within the picture.
+        // The first seed whose drop lies well within the image.
         let of = |seed| FrameAddress { seed, ..frame(5) };
         let centre = |seed| still.drop(0, SIZE, of(seed)).centre_px;
         let is_inside = |seed: &u64| {

@@ -4,15 +4,15 @@
 //! gain control and sensor blooming, based on image histogram balance"; this is **our reading** of it, on linear light:
 //!
 //! ```text
-//! g = target / L_p                    L_p: the percentile p of the luminances of the picture (nearest rank)
+//! g = target / L_p                    L_p: the percentile p of the luminances of the image (nearest rank)
 //! e = max(g x − threshold, 0)         what exceeds the threshold after the gain, by channel
 //! y = g x + strength · (k ∗ e)        k: a Gaussian of σ = radius, cut at 5 σ, normalised
 //! ```
 //!
-//! Luminance is 0.2126 R + 0.7152 G + 0.0722 B. Of a picture whose L_p is 0 or less the gain is 1. Light is added, not
+//! Luminance is 0.2126 R + 0.7152 G + 0.0722 B. Of an image whose L_p is 0 or less the gain is 1. Light is added, not
 //! moved: unlike the sensor's own blooming, this does not conserve charge. The result is not clipped. A raw ends at its white level, so
-//! in a developed picture no x exceeds the exposure gain by much, and lamps exceed a threshold near white only where g lifts
-//! them there; pictures of a sensor of high dynamic range hold more.
+//! in a developed image no x exceeds the exposure gain by much, and lamps exceed a threshold near white only where g lifts
+//! them there; images of a sensor of high dynamic range hold more.
 //!
 //! Tone mapping: from the scene's range to the sensor's. The paper says that "a tone mapping filter simulates the
 //! sensitivity curve of the sensor" and shows an "original factor" of 0.4 and 1.0; this is **our reading** of it, on
@@ -22,7 +22,7 @@
 //! y = f · curve(g x) + (1 − f) · x,   f = 1 − original_factor,   clipped to 0 … 1
 //! ```
 //!
-//! So an original factor of 1 leaves the picture as it was, clipped to the sensor's range, and 0 maps it wholly. The curve
+//! So an original factor of 1 leaves the image as it was, clipped to the sensor's range, and 0 maps it wholly. The curve
 //! is the sensor's: one of film and of a saturating pixel, 1 − exp(−g x), or any [`ToneCurve`] (a measured OECF).
 
 use etendue_core::{Plane, maths::f32::exp_m1, quantity::LinearRgb};
@@ -37,13 +37,13 @@ use crate::{detail, tone::ToneCurve};
 pub struct Glow {
     /// Percentile of the luminances that the gain looks at, above 0 and at most 100.
     pub percentile: f64,
-    /// The luminance that this percentile gets, share of white, above 0.
+    /// The luminance that this percentile gets, fraction of white, above 0.
     pub target: f64,
-    /// What exceeds this glows, share of white, 0 or more.
+    /// What exceeds this glows, fraction of white, 0 or more.
     pub threshold: f64,
     /// σ of the glow, px, above 0 and at most 500.
     pub radius_px: f64,
-    /// Share of the excess that is added, 0 or more.
+    /// Fraction of the excess that is added, 0 or more.
     pub strength: f64,
 }
 
@@ -89,7 +89,7 @@ pub enum Sensitivity {
 /// From the scene's range to the sensor's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToneMap {
-    /// Share of the unmapped picture, 0 to 1.
+    /// Fraction of the unmapped image, 0 to 1.
     pub original_factor: f64,
     /// g, above 0.
     pub gain: f64,

@@ -1,21 +1,21 @@
 //! The filters of the paper (Gruyer, Grapinet & De Souza 2012), beside the physical camera, for reproduction.
 //!
-//! They change a finished picture, as the paper's plug-ins change a rendered one, and know nothing of light and electrons:
+//! They change a finished image, as the paper's plug-ins change a rendered one, and know nothing of light and electrons:
 //! noise by them is not the noise of a sensor. The paper gives formulas for the noises and for the affine colour matrix,
 //! and only words for glow, tone mapping and drops: what stands here for these is **an interpretation**, said at the head of each file.
 //!
 //! | filter | works on | paper |
 //! | --- | --- | --- |
 //! | [`Glow`]: gain control by the histogram, blooming | linear light | in words |
-//! | [`ToneMap`]: the sensor's sensitivity curve, blended with the unmapped picture | linear light | in words |
-//! | [`Drops`]: inverted pictures in discs, which flow and fade | linear light | in words |
+//! | [`ToneMap`]: the sensor's sensitivity curve, blended with the unmapped image | linear light | in words |
+//! | [`Drops`]: inverted images in discs, which flow and fade | linear light | in words |
 //! | [`ColourChange`]: a 4 × 4 affine matrix | either | formula |
-//! | [`PulseNoise`], [`GaussianNoise`], [`UniformNoise`] | the encoded picture | formula |
+//! | [`PulseNoise`], [`GaussianNoise`], [`UniformNoise`] | the encoded image | formula |
 //!
 //! Filters are applied in the order given, those of linear light before the tone curve, the others after sharpening.
 //! "Brightness" of a pixel is read as: all three channels alike, so each noise draws one number a pixel. Amplitudes of
-//! noise are digital numbers of an 8-bit picture (white is 255), whatever bits are written; every result of an encoded
-//! picture is clipped to 0 … 255.
+//! noise are digital numbers of an 8-bit image (white is 255), whatever bits are written; every result of an encoded
+//! image is clipped to 0 … 255.
 
 mod colour;
 mod colour_space;
@@ -42,7 +42,7 @@ pub enum Filter {
     Glow(Glow),
     /// From the scene's range to the sensor's.
     ToneMap(ToneMap),
-    /// Drops of rain on the picture.
+    /// Drops of rain on the image.
     Drops(Drops),
     /// An affine matrix on colours.
     Colour(ColourChange),
@@ -68,7 +68,7 @@ impl Filter {
     /// Whether its numbers are in range.
     ///
     /// # Errors
-    /// Where one is not.
+    /// If one is not.
     pub fn check(&self) -> Result<(), FilterError> {
         match self {
             Self::Glow(filter) => filter.check(),
@@ -105,7 +105,7 @@ impl Filter {
 /// Whether a list of filters can be applied.
 ///
 /// # Errors
-/// Where a number is out of range or the order mixes the stages.
+/// If a number is out of range or the order mixes the stages.
 pub fn check(filters: &[Filter]) -> Result<(), FilterError> {
     filters.iter().try_for_each(Filter::check)?;
     let fault = filters.windows(2).position(|pair| pair[1].stage() < pair[0].stage());
@@ -117,7 +117,7 @@ pub(crate) fn apply_linear(filters: &[Filter], picture: &mut Plane<LinearRgb>, a
     filters.iter().filter(|f| f.stage() == Stage::Linear).for_each(|f| f.apply_linear(picture, address));
 }
 
-/// Applies the filters of the encoded picture.
+/// Applies the filters of the encoded image.
 pub(crate) fn apply_display(filters: &[Filter], picture: &mut Plane<Display>, address: FrameAddress) {
     for (place, filter) in filters.iter().filter(|f| f.stage() == Stage::Display).enumerate() {
         filter.apply_display(picture, FilterAddress { picture: address, place: place as u32 });

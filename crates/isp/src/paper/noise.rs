@@ -6,7 +6,7 @@
 //! x + p₁ n
 //! ```
 //!
-//! One n a pixel, all channels alike; p₁ in DN of an 8-bit picture, clipped to 0 … 255. n by Box & Muller 1958.
+//! One n a pixel, all channels alike; p₁ in DN of an 8-bit image, clipped to 0 … 255. n by Box & Muller 1958.
 //!
 //! Pulse noise, by the paper's formula on the brightness x of each pixel, u uniform on 0 … 1:
 //!
@@ -14,7 +14,7 @@
 //! u ≤ p₂: x + p₁    p₂ < u < 1 − p₂: x    u ≥ 1 − p₂: x − p₁
 //! ```
 //!
-//! One u a pixel, all channels alike; p₁ in DN of an 8-bit picture, clipped to 0 … 255; p₂ at most 1/2, beyond which the
+//! One u a pixel, all channels alike; p₁ in DN of an 8-bit image, clipped to 0 … 255; p₂ at most 1/2, beyond which the
 //! two cases overlap (at 1/2 itself the first holds).
 //!
 //! Multiplicative uniform noise, by the paper's formula on the brightness x of each pixel, u uniform on 0 … 1:
@@ -36,7 +36,7 @@ use super::{Change, FilterAddress, FilterError, change_brightness, demand};
 /// A normal number added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussianNoise {
-    /// p₁, the standard deviation, DN of an 8-bit picture, 0 to 255.
+    /// p₁, the standard deviation, DN of an 8-bit image, 0 to 255.
     pub sigma_dn: f64,
 }
 
@@ -61,9 +61,9 @@ fn standard_normal(stream: &mut NoiseStream) -> f64 {
 /// Some pixels brighter, some darker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PulseNoise {
-    /// p₁, DN of an 8-bit picture, 0 to 255.
+    /// p₁, DN of an 8-bit image, 0 to 255.
     pub amplitude_dn: f64,
-    /// p₂, the share of pixels that get brighter, and of those that get darker, 0 to 0.5.
+    /// p₂, the fraction of pixels that get brighter, and of those that get darker, 0 to 0.5.
     pub probability: f64,
 }
 

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 pub enum Stage {
     /// Linear light, before the tone curve; white is 1 and more is possible.
     Linear,
-    /// The encoded picture, 0 to 1.
+    /// The encoded image, 0 to 1.
     Display,
 }
 
@@ -27,7 +27,7 @@ pub enum FilterError {
         /// What it should be.
         range: &'static str,
     },
-    /// A filter of linear light after one of the encoded picture.
+    /// A filter of linear light after one of the encoded image.
     #[error(
         "filter {0} (from 1) works on linear light, but one before it on the encoded picture: give glow, tone map, drops and linear colour first"
     )]
@@ -47,11 +47,11 @@ pub(super) fn demand(legal: bool, name: &'static str, value: f64, range: &'stati
     if legal && value.is_finite() { Ok(()) } else { Err(FilterError::Range { name, value, range }) }
 }
 
-/// Which filter of a picture the random numbers are for: two of a kind have their own.
+/// Which filter of an image the random numbers are for: two of a kind have their own.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FilterAddress {
     pub(super) picture: FrameAddress,
-    /// Its place among the filters of the encoded picture.
+    /// Its place among the filters of the encoded image.
     pub(super) place: u32,
 }
 

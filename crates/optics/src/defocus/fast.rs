@@ -43,7 +43,7 @@ impl FastBlend {
     /// A blend.
     ///
     /// # Errors
-    /// Where the distances are not in the order blurred, sharp, sharp, blurred, or the blur is not positive.
+    /// If the distances are not in the order blurred, sharp, sharp, blurred, or the blur is not positive.
     pub fn new(parameters: FastParameters) -> Result<Self, OpticsError> {
         let FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px } = parameters;
         positive("blur_px", blur_px)?;
@@ -67,7 +67,7 @@ impl FastBlend {
         PASSES * (Mean::new(self.parameters.blur_px).radius + 1)
     }
 
-    /// The share of the blurred copy at a distance.
+    /// The fraction of the blurred copy at a distance.
     fn share(&self, distance_m: f64) -> f64 {
         let p = &self.parameters;
         if distance_m < p.sharp_near_m {
@@ -126,7 +126,7 @@ impl Mean {
         Self { radius: radius as usize, end }
     }
 
-    /// A picture after all passes along rows and columns; beyond its edges there is nothing.
+    /// An image after all passes along rows and columns; beyond its edges there is nothing.
     fn blurred(&self, mut picture: Vec<f64>, [width, height]: [usize; 2]) -> Vec<f64> {
         let mut line = Vec::new();
         for _ in 0..PASSES {

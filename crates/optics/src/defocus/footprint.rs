@@ -8,7 +8,7 @@
 //! inside. This holds for every lens: a disc for the thin one, a cat's eye behind rims or real apertures, a shift where
 //! the pupil wanders.
 //!
-//! Outlines are traced on a lattice over the picture at 587.56 nm and interpolated. Left out: caustics within the blur
+//! Outlines are traced on a lattice over the image at 587.56 nm and interpolated. Left out: caustics within the blur
 //! (spherical aberration's rings, coma), colours' own outlines, the pupil's cos⁴ within itself.
 
 use core::f64::consts::PI;
@@ -44,23 +44,23 @@ struct Outline {
     slope: Polygon,
 }
 
-/// The footprints of a picture.
+/// The footprints of an image.
 #[derive(Clone, Debug)]
 pub(super) struct Footprints {
     /// Inverse distance in focus, 1/m.
     focus_per_m: f64,
     step_px: DVec2,
     nodes: Vec<Outline>,
-    /// Greatest length of an anchor and of a slope.
+    /// Largest length of an anchor and of a slope.
     longest: [f64; 2],
-    /// Greatest diameter that 1/m of defocus adds, px.
+    /// Largest diameter that 1/m of defocus adds, px.
     spread_px: f64,
-    /// Whether all outlines lie about their field points.
+    /// True if all outlines lie about their field points.
     centred: bool,
 }
 
 impl Footprints {
-    /// The footprints of a view of things between two inverse distances; `None` where everything is sharp.
+    /// The footprints of a view of things between two inverse distances; `None` if everything is sharp.
     pub(super) fn new(view: &PinholeView<'_>, inverse_range_per_m: [f64; 2]) -> Option<Self> {
         if view.lens.entrance_pupil_radius_m() == 0.0 {
             return None;
@@ -102,12 +102,12 @@ impl Footprints {
         self.longest[0] + (inverse_per_m - self.focus_per_m).abs() * self.longest[1]
     }
 
-    /// Greatest diameter that 1/m of defocus adds, px.
+    /// Largest diameter that 1/m of defocus adds, px.
     pub(super) fn spread_px(&self) -> f64 {
         self.spread_px
     }
 
-    /// Whether the light of everything at this inverse distance stays within its pixel.
+    /// True if the light of everything at this inverse distance stays within its pixel.
     pub(super) fn within_pixel(&self, inverse_per_m: f64) -> bool {
         self.centred && self.reach_px(inverse_per_m) < 0.5
     }
@@ -148,7 +148,7 @@ pub(super) fn middle(polygon: &Polygon) -> DVec2 {
     0.5 * (low + high)
 }
 
-/// Nodes without light take the outline of the nearest that has some; `None` where none has.
+/// Nodes without light take the outline of the nearest that has some; `None` if none has.
 fn filled(nodes: &[Option<Outline>]) -> Option<Vec<Outline>> {
     let apart = |i: usize, j: usize| (i % NODES).abs_diff(j % NODES).pow(2) + (i / NODES).abs_diff(j / NODES).pow(2);
     let nearest = |i: usize| {
@@ -213,7 +213,7 @@ impl Tracer<'_> {
         }))
     }
 
-    /// Turns by which the pupil samples of a field point are turned against the picture, whose directions the vertices keep so
+    /// Turns by which the pupil samples of a field point are turned against the image, whose directions the vertices keep so
     /// that those of neighbouring nodes belong together: a prescription samples its pupil in the meridian's frame.
     fn turn(&self, sensor_mm: DVec2) -> f64 {
         match self.view.lens {
@@ -271,7 +271,7 @@ mod tests {
     use etendue_core::wavelength::Bands;
     use etendue_projection::Raster;
 
-    /// Areas of the footprints of a lens at f/8, focused at 2 m, of things at `distance_m`, over the middle of the picture and
+    /// Areas of the footprints of a lens at f/8, focused at 2 m, of things at `distance_m`, over the middle of the image and
     /// beside it, by that of the circle of confusion.
     fn areas(name: &str, radius_mm: f64, distance_m: f32) -> Vec<f64> {
         let surfaces = published::named(name).expect("published").surfaces();

@@ -2,11 +2,11 @@
 //!
 //! # Contract
 //!
-//! - Input ([`PinholeView`]): radiance as seen from the centre of the entrance pupil, in the raster of the picture with a margin
+//! - Input ([`PinholeView`]): radiance as seen from the centre of the entrance pupil, in the raster of the image with a margin
 //!   of pixels around it, and the distance (m, along each pixel's ray from the pupil's centre; +∞ the sky, NaN no ray).
-//! - Output: radiance in the raster of the picture, each pixel the mean over its pupil, which [`crate::irradiance()`]
+//! - Output: radiance in the raster of the image, each pixel the mean over its pupil, which [`crate::irradiance()`]
 //!   then multiplies by the étendue.
-//! - A uniform radiance stays uniform to rounding. Blurs smaller than a pixel leave the picture as it is.
+//! - A uniform radiance stays uniform to rounding. Blurs smaller than a pixel leave the image as it is.
 //! - The same bits at any number of threads: rows are made independently of each other.
 //!
 //! | method | what it does | left out |
@@ -47,7 +47,7 @@ pub enum DepthOfField {
 }
 
 impl DepthOfField {
-    /// The picture of a view, on the caller's thread. ([`Physical`] makes rows on several.)
+    /// The image of a view, on the caller's thread. ([`Physical`] makes rows on several.)
     #[must_use]
     pub fn apply(&self, view: &PinholeView<'_>) -> SpectralCube<Radiance> {
         match self {
@@ -57,8 +57,8 @@ impl DepthOfField {
         }
     }
 
-    /// Pixels around the picture that its blurs reach beyond it, of things at `nearest_m` and farther: the margin that a
-    /// view needs so that nothing is missing at the picture's edges.
+    /// Pixels around the image that its blurs reach beyond it, of things at `nearest_m` and farther: the margin that a
+    /// view needs so that nothing is missing at the image's edges.
     #[must_use]
     pub fn reach_px(&self, lens: &Lens, raster: &Raster, nearest_m: f64) -> usize {
         match self {

@@ -13,7 +13,7 @@
 //!
 //! Left out: what is hidden from the pupil's centre by a whole surface and seen by its rim (it is guessed), reflections
 //! and glass (they are blurred with the surface that shows them), and which part of the pupil a thing in front of two others
-//! covers (it covers an even share of both).
+//! covers (it covers an even fraction of both).
 
 use core::ops::Range;
 
@@ -30,11 +30,11 @@ const ROWS: usize = 32;
 /// The steps of a pixel that keeps its light.
 const KEPT: [Step; 2] = [Step { column: 0, share: 1.0 }, Step { column: 1, share: -1.0 }];
 
-/// A view whose footprints and layers are known: rows of its picture can be made, on any number of threads.
+/// A view whose footprints and layers are known: rows of its image can be made, on any number of threads.
 #[derive(Clone, Debug)]
 pub struct Physical<'a> {
     view: PinholeView<'a>,
-    /// `None` where everything is sharp.
+    /// `None` if everything is sharp.
     blurs: Option<(Footprints, Layers)>,
 }
 
@@ -51,13 +51,13 @@ impl<'a> Physical<'a> {
         Self { view, blurs }
     }
 
-    /// The rows in which the picture is best made, one range after the other.
+    /// The rows in which the image is best made, one range after the other.
     pub fn strips(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let height = self.view.raster.height();
         (0..height).step_by(ROWS).map(move |first| first..(first + ROWS).min(height))
     }
 
-    /// Some rows of the picture, as a cube of as many rows.
+    /// Some rows of the image, as a cube of as many rows.
     #[must_use]
     pub fn rows(&self, rows: Range<usize>) -> SpectralCube<Radiance> {
         let (width, bands) = (self.view.raster.width(), self.view.radiance.bands());
@@ -80,14 +80,14 @@ impl<'a> Physical<'a> {
         cube
     }
 
-    /// The picture, on the caller's thread.
+    /// The image, on the caller's thread.
     #[must_use]
     pub fn picture(&self) -> SpectralCube<Radiance> {
         let strips: Vec<_> = self.strips().map(|rows| self.rows(rows)).collect();
         self.joined(&strips)
     }
 
-    /// The picture of the cubes of all strips, in their order.
+    /// The image of the cubes of all strips, in their order.
     #[must_use]
     pub fn joined(&self, strips: &[SpectralCube<Radiance>]) -> SpectralCube<Radiance> {
         let (width, height) = (self.view.raster.width(), self.view.raster.height());
@@ -111,7 +111,7 @@ impl<'a> Physical<'a> {
     }
 }
 
-/// The least and the greatest inverse distance of a view, 1/m; `None` where no pixel has a ray.
+/// The smallest and the largest inverse distance of a view, 1/m; `None` if no pixel has a ray.
 fn inverse_range_per_m(view: &PinholeView<'_>) -> Option<[f64; 2]> {
     let all = (0..view.width() * view.height()).filter_map(|pixel| view.inverse_per_m(pixel));
     let range = all.fold([f32::INFINITY, 0.0], |[far, near], w| [far.min(w), near.max(w)]);
@@ -127,7 +127,7 @@ struct Splat<'a> {
 }
 
 impl Splat<'_> {
-    /// Spreads the sources of a layer that reach some rows of the picture.
+    /// Spreads the sources of a layer that reach some rows of the image.
     fn layer(&mut self, layer: &Layer, rows: &Range<usize>, light: &mut [f64], strip: &mut Strip) {
         let (margin, width) = (self.view.margin_px, self.view.width());
         let reach = layer.reach_px.ceil() as usize + 1;

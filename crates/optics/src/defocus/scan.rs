@@ -3,7 +3,7 @@
 //! A row's coverage is kept as differences: running sums of them are the coverage. A wide blur then costs its rim and not its
 //! area. Rows are cut into lines, more of them for small polygons; along a line coverage is exact. A polygon smaller than a
 //! pixel is a pixel's square about its middle, which in its own pixel changes nothing and elsewhere interpolates. Of large
-//! polygons only the rows that are asked for are looked at.
+//! polygons only the rows that are requested are looked at.
 
 use core::ops::Range;
 
@@ -20,10 +20,10 @@ const LINES_A_ROW: f64 = 16.0;
 const MANY_LINES: i64 = 256;
 /// Shifts below this leave a small footprint on its pixel, px.
 const STILL_PX: f64 = 0.02;
-/// The least side of a polygon, px, before it is widened to a pixel.
+/// The smallest side of a polygon, px, before it is widened to a pixel.
 const MIN_PX: f64 = 1e-3;
 
-/// Where the coverage of a row changes, and by what share of the whole.
+/// Where the coverage of a row changes, and by what fraction of the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
     /// Columns from the pixel.
@@ -31,7 +31,7 @@ pub(super) struct Step {
     pub(super) share: f64,
 }
 
-/// The pixels that are asked for, counted from the pixel that spreads its light.
+/// The pixels that are requested, counted from the pixel that spreads its light.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
     pub(super) columns: Range<i64>,
@@ -39,7 +39,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Whether light between two corners (px) can reach it: coverage in a row changes what lies to its right.
+    /// True if light between two corners (px) can reach it: coverage in a row changes what lies to its right.
     fn is_reached(&self, low: DVec2, high: DVec2) -> bool {
         let before = |limit: i64, value: f64| value < limit as f64 + 2.0;
         let after = |limit: i64, value: f64| value > limit as f64 - 2.0;
@@ -62,7 +62,7 @@ pub(super) struct Scan {
 
 impl Scan {
     /// Calls `emit` with each row (counted from the pixel's) of a window and the steps in it of what a pixel spreads over
-    /// `polygon` (px, from the pixel's centre). Shares of all rows sum to one.
+    /// `polygon` (px, from the pixel's centre). Fractions of all rows sum to one.
     pub(super) fn spread(&mut self, polygon: &Polygon, window: &Window, mut emit: impl FnMut(i64, &[Step])) {
         let low = polygon.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = polygon.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);

@@ -1,4 +1,4 @@
-//! A few rows of the picture while layers are laid over each other, the nearest first.
+//! A few rows of the image while layers are laid over each other, the nearest first.
 //!
 //! Each pixel holds three sums of a coverage and of light times coverage: of the layer at hand (as differences along the
 //! row), of the surface at hand, and of everything in front of it. Within a surface, layers that follow each other without
@@ -7,7 +7,7 @@
 //!
 //! Pixels as sources of light, sorted into layers by distance, the nearest first.
 //!
-//! Layers are equally thick in inverse distance, in which rays through the pupil are straight lines of the picture: a layer is
+//! Layers are equally thick in inverse distance, in which rays through the pupil are straight lines of the image: a layer is
 //! as thick as the distance over which the blur grows by a pixel. Each source keeps its own distance; layers give the order.
 
 use core::ops::Range;
@@ -20,7 +20,7 @@ const NOTHING: f64 = 1e-9;
 /// Layers between two surfaces.
 const GAP: usize = 2;
 
-/// Rows of the picture.
+/// Rows of the image.
 #[derive(Debug)]
 pub(super) struct Strip {
     rows: Range<usize>,
@@ -123,7 +123,7 @@ impl Strip {
         }
     }
 
-    /// The light of a pixel, a number a band; `None` where nothing shines.
+    /// The light of a pixel, a number a band; `None` if nothing shines.
     pub(super) fn light(&mut self, x: usize, y: usize) -> Option<impl Iterator<Item = f64>> {
         let pixel = (y - self.rows.start) * self.width + x;
         self.close(pixel);
@@ -136,7 +136,7 @@ impl Strip {
 /// Layers at most; thicker ones where more would be needed.
 const MOST: f64 = 1024.0;
 
-/// Something that shines into the picture.
+/// Something that shines into the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Source {
     /// The pixel of the view where it is seen.

@@ -9,7 +9,7 @@
 //! Light is not negative, and next to a lamp a tap of −1 % would be a hole. Where taps come out negative, they are set to 0, and
 //! rows and columns are scaled by turns until their sums are again those of the band-limited kernel (iterative proportional
 //! fitting, Deming & Stephan 1940). Sums that are negative are 0, and the others less in proportion, about the same centroid. Diffraction, whose modulation
-//! falls from the start, keeps it along both axes of the picture to 0.004 and loses up to 0.06 along the diagonals (at half a cycle a
+//! falls from the start, keeps it along both axes of the image to 0.004 and loses up to 0.06 along the diagonals (at half a cycle a
 //! pixel, for patterns about as wide as a pixel). A Gaussian of 0.7 pixels keeps it to 0.02, of 0.4 pixels to 0.08: no film
 //! of whole pixels can do better without negative light. Where samples come through the lens, such spreads displace these (`sample_spread.rs`). Of a spread that is narrow and beside the middle of a pixel
 //! even more is negative; it is shared bilinearly as a whole.
@@ -181,7 +181,7 @@ fn cubic(t: f64) -> [f64; 4] {
     [0.5 * (-t3 + 2.0 * t2 - t), 0.5 * (3.0 * t3 - 5.0 * t2 + 2.0), 0.5 * (-3.0 * t3 + 4.0 * t2 + t), 0.5 * (t3 - t2)]
 }
 
-/// Shares of a cell's mass among pixels along one axis; their sum is one.
+/// Fractions of a cell's mass among pixels along one axis; their sum is one.
 struct Shares {
     first: isize,
     weights: [f64; 2 * LOBES],

@@ -1,4 +1,4 @@
-//! The film and the picture in it, and a kernel that spreads means and, squared, variances.
+//! The film and the image in it, and a kernel that spreads means and, squared, variances.
 
 use etendue_projection::Raster;
 use glam::DVec2;
@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::convolve::{Convolver, Field, Region};
 use super::kernel::Kernel;
 
-/// The film and the picture in it.
+/// The film and the image in it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Canvas {
     pub(super) film: Raster,
@@ -42,7 +42,7 @@ impl Canvas {
         Region { x: 0..self.film.width(), y: 0..self.film.height() }
     }
 
-    /// The picture in the film.
+    /// The image in the film.
     pub(super) fn picture(&self) -> Region {
         let [x, y] = self.margin_px;
         Region { x: x..self.film.width() - x, y: y..self.film.height() - y }

@@ -11,7 +11,7 @@ use super::point_spread::{PointSpread, ReadySpread};
 use super::{Effect, error::EffectsError, glare::Glare, sample_spread::SampleSpread};
 use crate::ghosts::GhostSettings;
 
-/// The widest margin that is chosen without being asked for, as a share of the picture's width and height.
+/// The widest margin that is chosen without being requested, as a fraction of the image's width and height.
 pub const MARGIN_CAP: f64 = 0.25;
 
 /// The effects of a camera.
@@ -27,7 +27,7 @@ pub struct Effects {
 /// The members that a camera can have, and its margin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EffectsParameters {
-    /// Diffraction and wavefront error, or a picture.
+    /// Diffraction and wavefront error, or an image.
     pub psf: Option<PointSpread>,
     /// By what the point-spread function spreads light where samples come through the lens; `None` for what keeps its modulation.
     pub spread_by: Option<SpreadBy>,
@@ -35,16 +35,16 @@ pub struct EffectsParameters {
     pub glare: Option<Glare>,
     /// Light that two surfaces reflect.
     pub ghosts: Option<GhostSettings>,
-    /// Width of the margin on every side as a share of the picture's width and height, 0 to 1; `None` for as far as the
+    /// Width of the margin on every side as a fraction of the image's width and height, 0 to 1; `None` for as far as the
     /// effects reach, at most a quarter.
     pub margin: Option<f64>,
 }
 
 impl Effects {
-    /// The effects behind a picture.
+    /// The effects behind an image.
     ///
     /// # Errors
-    /// Where the margin is out of range or serves nothing, or samples are asked for and the function is wide.
+    /// If the margin is out of range or serves nothing, or samples are requested and the function is wide.
     pub fn new(parameters: EffectsParameters, picture: &Raster) -> Result<Self, EffectsError> {
         let EffectsParameters { psf, spread_by: asked, glare, ghosts, margin } = parameters;
         let mut effects = Self { psf, spread_by: None, glare, ghosts, margin_px: [0, 0] };
@@ -61,12 +61,12 @@ impl Effects {
         Ok(effects)
     }
 
-    /// How far the effects reach, at most a quarter of the picture.
+    /// How far the effects reach, at most a quarter of the image.
     fn reach_px(&self, picture: &Raster) -> [usize; 2] {
         let cap = share(MARGIN_CAP, picture);
         let glare = self.needs_glare().map(|glare| glare.reach_px(picture.pitch_mm()).unwrap_or(cap));
         let psf = self.psf.as_ref().map(|psf| psf.reach_px(picture.pitch_mm()));
-        // Ghosts of sources beside the picture fall anywhere in it.
+        // Ghosts of sources beside the image fall anywhere in it.
         let ghosts = self.ghosts.map(|_| cap);
         let reach = [psf, glare, ghosts].into_iter().flatten().fold([0, 0], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
         [reach[0].min(cap[0]), reach[1].min(cap[1])]
@@ -82,19 +82,19 @@ impl Effects {
         }
     }
 
-    /// Whether nothing is to be done.
+    /// True if nothing is to be done.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         !Effect::ALL.into_iter().any(|effect| self.status(effect).is_modelled())
     }
 
-    /// Columns and rows that the film needs beyond the picture, on every side.
+    /// Columns and rows that the film needs beyond the image, on every side.
     #[must_use]
     pub fn margin_px(&self) -> [usize; 2] {
         self.margin_px
     }
 
-    /// The pixels of the film: the picture's with the margin.
+    /// The pixels of the film: the image's with the margin.
     #[must_use]
     pub fn film(&self, picture: &Raster) -> Raster {
         picture.widened(self.margin_px)
@@ -106,13 +106,13 @@ impl Effects {
         self.psf.as_ref()
     }
 
-    /// By what the point-spread function spreads light where samples come through the lens, and how narrow it is; `None` where there is none.
+    /// By what the point-spread function spreads light where samples come through the lens, and how narrow it is; `None` if there is none.
     #[must_use]
     pub fn spread_by(&self) -> Option<(SpreadBy, SpreadWidth)> {
         self.spread_by
     }
 
-    /// By what samples are displaced that come through the lens to the film of a picture; `None` where the film spreads all light.
+    /// By what samples are displaced that come through the lens to the film of an image; `None` if the film spreads all light.
     #[must_use]
     pub fn sample_spread(&self, picture: &Raster, range: WavelengthRange) -> Option<SampleSpread> {
         self.displacing()?.sample_spread(&Canvas::new(picture, self.margin_px), range)
@@ -149,7 +149,7 @@ impl Effects {
         self.glare.as_ref().filter(|glare| Glare::status(Some(glare)).is_modelled())
     }
 
-    /// What the point spread and the veiling glare of a picture have to do, of its bands and, if asked for, their variances.
+    /// What the point spread and the veiling glare of an image have to do, of its bands and, if requested, their variances.
     /// (Ghosts: [`crate::ghosts::operation_counts`].)
     #[must_use]
     pub fn operation_counts(
@@ -165,7 +165,7 @@ impl Effects {
         [(Effect::PointSpread, psf.unwrap_or_default()), (Effect::Glare, glare.unwrap_or_default())]
     }
 
-    /// The effects made ready for a picture and a range of wavelengths (nm), with this part of the point-spread function: what does not depend
+    /// The effects prepared for an image and a range of wavelengths (nm), with this part of the point-spread function: what does not depend
     /// on the band.
     #[must_use]
     pub fn prepared(&self, picture: &Raster, range: WavelengthRange, part: FilmPart) -> Prepared {
@@ -189,7 +189,7 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// The picture's irradiance in the band from `band.low_nm` to `band.high_nm`, of the film's; and its variance, of the film's.
+    /// The image's irradiance in the band from `band.low_nm` to `band.high_nm`, of the film's; and its variance, of the film's.
     ///
     /// A pixel of the film that is not finite makes others so: none that holds a number has met it.
     #[must_use]
@@ -216,7 +216,7 @@ impl Prepared {
         (light, variance)
     }
 
-    /// The picture of a film. Rounding of the transforms below zero is no light.
+    /// The image of a film. Rounding of the transforms below zero is no light.
     fn cut<Q: Quantity<Sample = f32>>(&self, film: &Field) -> Plane<Q> {
         let Region { x, y } = self.canvas.picture();
         let (width, height) = (x.len(), y.len());

@@ -1,4 +1,4 @@
-//! Convolution of a picture with a kernel, and its cost: nothing comes from outside the picture.
+//! Convolution of an image with a kernel, and its cost: nothing comes from outside the image.
 //!
 //! Few taps are summed directly. Many go through the Fourier transform, by blocks of the result, two blocks at once as real
 //! and imaginary part; the number of blocks is the one that costs least.
@@ -11,7 +11,7 @@ use super::kernel::Kernel;
 
 /// Taps up to which the sum is taken directly.
 const DIRECT_TAPS: usize = 49;
-/// Most blocks along an axis that are tried.
+/// Maximum number of blocks along an axis that are tried.
 const MAX_BLOCKS: usize = 24;
 
 /// Numbers in a rectangle, row by row.
@@ -46,7 +46,7 @@ pub(crate) struct Region {
     pub(crate) y: Range<usize>,
 }
 
-/// A kernel made ready for pictures of one size and a region of them.
+/// A kernel prepared for images of one size and a region of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Convolver {
     region: Region,
@@ -59,7 +59,7 @@ enum Method {
     Fourier { plan: Box<Plan>, spectrum: Box<Grid>, blocks: Vec<Block> },
 }
 
-/// A block of the result, and the part of the picture that it needs.
+/// A block of the result, and the part of the image that it needs.
 #[derive(Clone, Debug)]
 struct Block {
     out: Region,
@@ -67,14 +67,14 @@ struct Block {
 }
 
 impl Convolver {
-    /// `kernel` on pictures of `size`, of whose result `region` is wanted.
+    /// `kernel` on images of `size`, of whose result `region` is wanted.
     pub(crate) fn new(kernel: &Kernel, size: [usize; 2], region: Region) -> Self {
         let taps: Vec<_> = kernel.taps().collect();
         let method = if taps.len() <= DIRECT_TAPS { Method::Direct(taps) } else { fourier(kernel, size, &region) };
         Self { region, method }
     }
 
-    /// The region of the picture convolved.
+    /// The region of the image convolved.
     pub(crate) fn apply(&self, picture: &Field) -> Field {
         let mut result = Field::zeros(self.region.x.len(), self.region.y.len());
         match &self.method {
@@ -135,7 +135,7 @@ fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Gri
     grid
 }
 
-/// The work of a kernel without a tap of zero on pictures of `size`, of whose result `region` is wanted.
+/// The work of a kernel without a tap of zero on images of `size`, of whose result `region` is wanted.
 pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Region, uses: Uses) -> OperationCounts {
     let taps = (2 * reach[0] + 1) * (2 * reach[1] + 1);
     if taps <= DIRECT_TAPS {
@@ -205,7 +205,7 @@ struct Span {
     reach: usize,
 }
 
-/// `wanted` cut into `count` parts of nearly equal length, each with what it needs of a picture of length `size`.
+/// `wanted` cut into `count` parts of nearly equal length, each with what it needs of an image of length `size`.
 fn spans(wanted: &Range<usize>, count: usize, reach: usize, size: usize) -> Vec<Span> {
     let end = |i: usize| wanted.start + wanted.len() * i / count;
     let span = |i: usize| {
@@ -284,7 +284,7 @@ impl Sum for OperationCounts {
     }
 }
 
-/// How often a kernel is made ready, and how many pictures it is applied to.
+/// How often a kernel is prepared, and how many images it is applied to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Uses {
     pub(super) ready: f64,

@@ -17,7 +17,7 @@ const CELLS_PER_PX: f64 = 16.0;
 /// Cells along a side: one more at each end, for the bilinear shares.
 const SIDE: usize = 2 * 40 + 2;
 
-/// The share of the light at an offset (px) that is the core's: 1 in the middle, 0 beyond it, smooth in between, so that what is left is smooth.
+/// The fraction of the light at an offset (px) that is the core's: 1 in the middle, 0 beyond it, smooth in between, so that what is left is smooth.
 pub(super) fn core_share(offset_px: DVec2) -> f64 {
     let along = |away: f64| {
         let t = ((away.abs() - WHOLE_PX) / (CORE_PX - WHOLE_PX)).clamp(0.0, 1.0);
@@ -27,7 +27,7 @@ pub(super) fn core_share(offset_px: DVec2) -> f64 {
     along(offset_px.x) * along(offset_px.y)
 }
 
-/// The core at a place of the picture for a wavelength, its sum one.
+/// The core at a place of the image for a wavelength, its sum one.
 #[derive(Clone, Debug)]
 pub(super) struct CoreTable {
     /// Mass of the cells, row by row.
@@ -51,7 +51,7 @@ impl Default for CoreBuilder {
 }
 
 impl CoreBuilder {
-    /// Adds the core's share of a mass at an offset, px.
+    /// Adds the core's fraction of a mass at an offset, px.
     pub(super) fn deposit(&mut self, offset: DVec2, mass: f64) {
         if offset.abs().max_element() >= CORE_PX {
             return;
@@ -71,7 +71,7 @@ impl CoreBuilder {
         self.cells.iter().sum()
     }
 
-    /// The core; `None` where no mass is in it.
+    /// The core; `None` if no mass is in it.
     pub(super) fn table(self) -> Option<CoreTable> {
         let sum = self.sum();
         (sum > 0.0).then(|| CoreTable::normalised(&self.cells, sum))

@@ -3,7 +3,7 @@
 /// Why an irradiance effect cannot be.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EffectsError {
-    /// A share of scattered light outside of its range.
+    /// A fraction of scattered light outside of its range.
     #[error("a scattered share of {share} is not within 0 to {most}; clean lenses scatter 0.005 to 0.03")]
     Scatter {
         /// What was given.
@@ -61,12 +61,12 @@ pub enum EffectsError {
          \"spread_by\", since the film keeps such a function"
     )]
     WideCore {
-        /// The share of the light.
+        /// The fraction of the light.
         core: f64,
-        /// The least.
+        /// The smallest.
         least: f64,
     },
-    /// A picture whose samples do not fill its rows.
+    /// An image whose samples do not fill its rows.
     #[error(
         "a picture of {count} samples is no whole number of rows of {width}: give one sample or more, in full rows"
     )]
@@ -76,7 +76,7 @@ pub enum EffectsError {
         /// Samples in a row.
         width: usize,
     },
-    /// A sample of a picture that is no light.
+    /// A sample of an image that is no light.
     #[error("column {column} of row {row} is {value}: the picture of a point's light has numbers from 0, none below")]
     NoLight {
         /// The column, from 0.
@@ -86,10 +86,10 @@ pub enum EffectsError {
         /// What it holds.
         value: f32,
     },
-    /// A picture without light.
+    /// An image without light.
     #[error("the picture of a point's light is 0 everywhere: give one in which some light arrives")]
     Dark,
-    /// A picture whose samples are farther apart than pixels.
+    /// An image whose samples are farther apart than pixels.
     #[error(
         "the picture's samples lie {step_um:.3} µm apart on the sensor (at 780 nm, if it scales with the wavelength), farther than \
          the pixels' {pixel_um:.3} µm: light would arrive in separate dots; give a finer picture and its \"image_pitch_um\""
@@ -100,7 +100,7 @@ pub enum EffectsError {
         /// Distance of pixels, µm.
         pixel_um: f64,
     },
-    /// A picture that is too wide.
+    /// An image that is too wide.
     #[error(
         "the picture spreads light over {reach_px} px (at 780 nm, if it scales), and {most_px} is the most: crop it"
     )]

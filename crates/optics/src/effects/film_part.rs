@@ -55,14 +55,14 @@ impl KernelBuilder {
     }
 }
 
-/// How narrow a point-spread function is on the pixels of a film, in the middle of the picture at 555 nm; of tables over the field where they are widest.
+/// How narrow a point-spread function is on the pixels of a film, in the middle of the image at 555 nm; of tables over the field where they are widest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpreadWidth {
-    /// Share of the light that samples can be displaced by: all of it within a pixel, none beyond 2.5 px, along rows and columns.
+    /// Fraction of the light that samples can be displaced by: all of it within a pixel, none beyond 2.5 px, along rows and columns.
     pub core: f64,
     /// Modulation that a kernel on whole pixels lacks or adds, at most, at up to half a cycle a pixel.
     pub film_error: f64,
-    /// Whether it is of another width at other wavelengths.
+    /// True if it is of another width at other wavelengths.
     pub scales: bool,
 }
 
@@ -106,7 +106,7 @@ pub enum SpreadBy {
 }
 
 impl SpreadBy {
-    /// As asked for. Where nothing is, by samples if the function is narrow and the film would be wrong by more than 0.01, or 0.065 where samples
+    /// As requested. Where nothing is, by samples if the function is narrow and the film would be wrong by more than 0.01, or 0.065 where samples
     /// cost noise.
     pub(super) fn choose(asked: Option<Self>, width: SpreadWidth) -> Result<Self, EffectsError> {
         let is_narrow = width.core >= MIN_CORE;

@@ -11,12 +11,12 @@ use etendue_core::maths::f64::sin_cos;
 /// Lines that are transformed together.
 const LANES: usize = 16;
 
-/// The least length of at least `least` that is a product of 2, 3 and 5.
+/// The smallest length of at least `least` that is a product of 2, 3 and 5.
 pub(crate) fn fast_length(least: usize) -> usize {
     (least.max(1)..).find(|n| factors(*n).is_some()).expect("powers of two have no end")
 }
 
-/// The radices of a length, or `None` where another prime divides it.
+/// The radices of a length, or `None` if another prime divides it.
 fn factors(mut n: usize) -> Option<Vec<usize>> {
     let mut found = Vec::new();
     for radix in [4, 2, 3, 5] {

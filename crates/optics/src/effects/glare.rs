@@ -4,7 +4,7 @@
 //! K(r) = C (r₀² + r²)^(−p/2), r the distance on the sensor (the form is Harvey and Shack's ABg scatter
 //! (1976), taken to be the same for every point of the sensor and every wavelength). C makes the integral of K one, over
 //! the plane (p > 2) or over a disc of the radius "reach" (any p). With G(r) the integral of ρ (r₀² + ρ²)^(−p/2) from 0 to
-//! r, the share of K within r is F(r) = G(r)/G(reach); over the plane F(r) = 1 − (1 + r²/r₀²)^(1 − p/2).
+//! r, the fraction of K within r is F(r) = G(r)/G(reach); over the plane F(r) = 1 − (1 + r²/r₀²)^(1 − p/2).
 //!
 //! Closed forms that tests check: the middle of a black disc of radius a in an endless white field (the veiling glare
 //! index of ISO 9358) has s (1 − F(a)) of the field's irradiance; a bright patch far away gives s K(d) times its area.
@@ -57,7 +57,7 @@ impl Glare {
     /// Veiling glare.
     ///
     /// # Errors
-    /// Where a number is outside of its range, or the kernel's integral is infinite.
+    /// If a number is outside of its range, or the kernel's integral is infinite.
     pub fn new(parameters: GlareParameters) -> Result<Self, EffectsError> {
         let GlareParameters { scatter, core_um, exponent, reach_mm } = parameters;
         if !(0.0..=MAX_SCATTER).contains(&scatter) {
@@ -79,7 +79,7 @@ impl Glare {
         &self.parameters
     }
 
-    /// Share of the scattered light within `radius_mm`.
+    /// Fraction of the scattered light within `radius_mm`.
     #[must_use]
     pub fn within(&self, radius_mm: f64) -> f64 {
         match self.parameters.reach_mm {
@@ -118,7 +118,7 @@ impl Glare {
         Some([px(pitch_mm.x)(reach), px(pitch_mm.y)(reach)])
     }
 
-    /// What it has to do on so many pictures, one kernel for all.
+    /// What it has to do on so many images, one kernel for all.
     pub(super) fn operation_counts(&self, canvas: &Canvas, pictures: f64) -> OperationCounts {
         let reach = self.reach_on(canvas);
         let shared = RINGS * ANGLES + (reach[0] + 1) * (reach[1] + 1);
@@ -192,7 +192,7 @@ impl Glare {
         self.density_per_mm2(r2.sqrt()) * (1.0 + correction) * pitch_mm.x * pitch_mm.y
     }
 
-    /// Share of the scattered light within |x| ≤ `half_mm.x`, |y| ≤ `half_mm.y`: F at the edge, averaged over directions.
+    /// Fraction of the scattered light within |x| ≤ `half_mm.x`, |y| ≤ `half_mm.y`: F at the edge, averaged over directions.
     fn within_rectangle(&self, half_mm: DVec2) -> f64 {
         let corner = atan2(half_mm.y, half_mm.x);
         // The corner is a kink: each side of it is averaged by itself.

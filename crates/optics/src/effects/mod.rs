@@ -4,7 +4,7 @@
 //!
 //! - Effects act on band means of the irradiance (W·m⁻²·nm⁻¹), one band after the other, in the order of the table. Each
 //!   says whether a camera needs it and why (`status`), beside what it does.
-//! - They need light from outside the picture: the film is wider by a margin on every side ([`Effects::margin_px`]), which
+//! - They need light from outside the image: the film is wider by a margin on every side ([`Effects::margin_px`]), which
 //!   is cut off at the end. Nothing comes from beyond the margin, and what leaves it is lost.
 //! - All are linear with weights that are not negative. Variances go through the squared weights: errors of different pixels
 //!   are taken as independent, before every effect.
@@ -13,7 +13,7 @@
 //! | order | effect | on |
 //! | --- | --- | --- |
 //! | 1 | [point spread](psf) | diffraction of the aperture, wavefront error; or [a picture](spread_image); or [tables over the field](spread_table) |
-//! | 2 | [veiling glare](glare) | scatters a share of the light over the plane |
+//! | 2 | [veiling glare](glare) | scatters a fraction of the light over the plane |
 //! | 3 | [ghosts](crate::ghosts) | adds light that two surfaces of the lens reflect |
 //!
 //! Ghosts are made of the film's own light, before the other effects, of all bands at once ([`crate::ghosts::layer`]), and are

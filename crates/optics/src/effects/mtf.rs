@@ -6,7 +6,7 @@
 //!
 //! The weights are those of least squares under wᵢ ≥ 0 (Lawson and Hanson 1974, ch. 23); f_min is the least frequency above 0 in the table. Any modulation that falls ever more slowly in
 //! f² is such a sum; one that ends, as that of a lens without aberrations at its cut-off, is off by up to 0.04. [`SpreadImageParameters::deviation`] says by how much the samples that come of it are off.
-//! A table has no phase and no direction: the function is round, and the same over the picture.
+//! A table has no phase and no direction: the function is round, and the same over the image.
 
 use core::f64::consts::PI;
 
@@ -16,7 +16,7 @@ use super::{error::EffectsError, spread_image::SpreadImageParameters};
 
 /// Widths beside that of a point.
 const WIDTHS: u32 = 32;
-/// The narrowest, by the greatest frequency, and the widest, by the least.
+/// The narrowest, by the largest frequency, and the widest, by the least.
 const NARROWEST: f64 = 0.02;
 const WIDEST: f64 = 1.5;
 /// How much more the sum of one counts than a point of the table.
@@ -27,7 +27,7 @@ const SAMPLES_PX: f64 = 4.0;
 const JUDGED: f64 = 0.25;
 /// Where a Gaussian ends, in its widths.
 const REACH: f64 = 5.0;
-/// Widths beyond this, px, are told apart from a constant loss by no picture: they are cut.
+/// Widths beyond this, px, are distinguished from a constant loss by no image: they are cut.
 const WIDEST_PX: f64 = 24.0;
 /// What is refused.
 const WORST: f64 = 0.06;
@@ -36,7 +36,7 @@ const WORST: f64 = 0.06;
 /// of `pixel_um`.
 ///
 /// # Errors
-/// Where no sum of Gaussians is nearer than 0.06 to the table, up to one cycle a pixel.
+/// If no sum of Gaussians is nearer than 0.06 to the table, up to one cycle a pixel.
 pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<SpreadImageParameters, EffectsError> {
     const UM_PER_MM: f64 = 1e3;
     let gaussians = gaussians(table, WIDEST_PX * pixel_um / UM_PER_MM);
@@ -154,7 +154,7 @@ fn non_negative_least_squares(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> 
     x
 }
 
-/// The unconstrained solution for some columns, by orthogonalisation (modified Gram and Schmidt); `None` where they depend on each other.
+/// The unconstrained solution for some columns, by orthogonalisation (modified Gram and Schmidt); `None` if they depend on each other.
 fn least_squares(columns: &[Vec<f64>], chosen: &[usize], target: &[f64]) -> Option<Vec<f64>> {
     const DEPENDENT: f64 = 1e-13;
     let count = chosen.len();

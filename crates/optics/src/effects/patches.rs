@@ -1,4 +1,4 @@
-//! A function that varies over the picture: patches with a function each.
+//! A function that varies over the image: patches with a function each.
 //!
 //! Each pixel takes a mean of what the functions of the nearest patches make of the film, with weights that are linear between the patches and sum to
 //! one: a uniform irradiance stays uniform. Light of a point is kept where the functions' centroids lie in the middle and the weights are straight across
@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::convolve::{Convolver, Field, Region};
 use super::{canvas::Canvas, kernel::Kernel};
 
-/// Patches over the picture in a film, row by row.
+/// Patches over the image in a film, row by row.
 #[derive(Clone, Debug)]
 pub(super) struct Patches {
     columns: Vec<Hat>,
@@ -85,7 +85,7 @@ impl Patches {
     }
 }
 
-/// Where the functions of patches stand along an axis of the picture.
+/// Where the functions of patches stand along an axis of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stand {
     /// In the middles of equal parts; the outermost hold to the edge.

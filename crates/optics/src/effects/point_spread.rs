@@ -20,7 +20,7 @@ const GREEN_NM: f64 = 555.0;
 pub enum PointSpread {
     /// Of an aperture.
     Aperture(Psf),
-    /// From a picture.
+    /// From an image.
     Image(SpreadImage),
     /// From tables over the field.
     Table(SpreadTable),
@@ -56,7 +56,7 @@ impl PointSpread {
         }
     }
 
-    /// What it has to do on so many pictures a band.
+    /// What it has to do on so many images a band.
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         match self {
             Self::Aperture(psf) => psf.operation_counts(canvas, bands, pictures),
@@ -65,7 +65,7 @@ impl PointSpread {
         }
     }
 
-    /// The function made ready for a film and the wavelengths of a range.
+    /// The function prepared for a film and the wavelengths of a range.
     pub(super) fn ready(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> ReadySpread {
         match self {
             Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range, part))),
@@ -74,7 +74,7 @@ impl PointSpread {
         }
     }
 
-    /// The cores by which samples are displaced, for the wavelengths of a range; `None` where no light is in them.
+    /// The cores by which samples are displaced, for the wavelengths of a range; `None` if no light is in them.
     pub(super) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         match self {
             Self::Aperture(psf) => psf.sample_spread(canvas, range),
@@ -102,7 +102,7 @@ impl PointSpread {
 pub(super) enum ReadySpread {
     /// Of an aperture.
     Aperture(Box<Ready>),
-    /// From a picture.
+    /// From an image.
     Image(Box<ReadyImage>),
     /// From tables over the field.
     Table(Box<ReadyTable>),

@@ -4,12 +4,12 @@
 //! however narrow P is, where a kernel on whole pixels must choose between too little contrast and negative light (`band.rs`).
 //! The wavelengths of a path share its place: it is drawn from the density of one of them, and each is weighted by its own density over the mean of all of
 //! them (the balance heuristic, Veach 1997, eq. 9.8). The sum of the weights is the number of wavelengths, so that light over the whole spectrum gets no
-//! noise by it. Narrow bands of even light do where the spread is wider for longer wavelengths: of diffraction some 0.37 of a band's light, divided by the
+//! noise by it. Narrow bands of uniform illumination do where the spread is wider for longer wavelengths: of diffraction some 0.37 of a band's light, divided by the
 //! root of the samples of a pixel. Where the spread is the same for all wavelengths, the weights are 1.
 //!
 //! Light near a lamp is drawn, so that only a core of 2.5 px is: the rest, smooth and faint, is the film's ([`FilmPart::Tails`](super::FilmPart)).
 //!
-//! Where the function varies over the picture, a pixel takes one patch's at random, by the weights that the film's pixels take them with.
+//! Where the function varies over the image, a pixel takes one patch's at random, by the weights that the film's pixels take them with.
 
 use etendue_core::random::Pixel;
 use glam::DVec2;

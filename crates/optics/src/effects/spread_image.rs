@@ -1,15 +1,15 @@
-//! A point-spread function from a picture: measured, or made by another program.
+//! A point-spread function from an image: measured, or made by another program.
 //!
-//! The picture is what becomes of a point's light, its first row above, its first column on the left; the numbers are linear
+//! The image is what becomes of a point's light, its first row above, its first column on the left; the numbers are linear
 //! and are divided by their sum. Each sample holds its light in its middle: sample (i, j) of w × h lies at
-//! (i + ½ − w/2, j + ½ − h/2) times the pitch from the point, so the point is in the middle of the picture, whether it has an
+//! (i + ½ − w/2, j + ½ − h/2) times the pitch from the point, so the point is in the middle of the image, whether it has an
 //! even or an odd number of samples. Light is shared among the pixels so that the modulation is kept (`band.rs`); one sample
 //! is the identity.
 //!
-//! With a wavelength λ₀ the picture is as much larger as λ is longer, as diffraction is: the pitch is that times λ/λ₀, averaged
+//! With a wavelength λ₀ the image is as much larger as λ is longer, as diffraction is: the pitch is that times λ/λ₀, averaged
 //! over a band in steps of 10 nm at most. Without, it is the same at all wavelengths.
 //!
-//! Left out: a function that varies over the picture.
+//! Left out: a function that varies over the image.
 
 use core::fmt;
 
@@ -26,7 +26,7 @@ use super::{Canvas, canvas::Spread, core_table::CoreBuilder, kernel::Kernel, sam
 /// The farthest that samples lie apart, px; the rest is rounding.
 const WIDEST_STEP_PX: f64 = 1.0 + 1e-9;
 
-/// A picture of a point's light.
+/// An image of a point's light.
 #[derive(Clone, PartialEq)]
 pub struct SpreadImageParameters {
     /// Samples in a row.
@@ -37,7 +37,7 @@ pub struct SpreadImageParameters {
     pub pitch_um: f64,
     /// Where that is the distance, nm; elsewhere it is in proportion to the wavelength. `None` for the same everywhere.
     pub wavelength_nm: Option<f64>,
-    /// Of samples that were made from a table of modulation: by how much theirs is off at worst. `None` for a picture.
+    /// Of samples that were made from a table of modulation: by how much theirs is off at worst. `None` for an image.
     pub deviation: Option<f64>,
 }
 
@@ -63,17 +63,17 @@ impl SpreadImageParameters {
     }
 }
 
-/// A point-spread function from a picture.
+/// A point-spread function from an image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpreadImage {
     parameters: SpreadImageParameters,
 }
 
 impl SpreadImage {
-    /// The function on the pixels of a picture.
+    /// The function on the pixels of an image.
     ///
     /// # Errors
-    /// Where the samples are no light, or are too far apart, or the function is too wide.
+    /// If the samples are no light, or are too far apart, or the function is too wide.
     pub fn new(parameters: SpreadImageParameters, picture: &Raster) -> Result<Self, EffectsError> {
         positive("image_pitch_um", parameters.pitch_um)?;
         parameters.wavelength_nm.map_or(Ok(0.0), |nm| positive("image_wavelength_nm", nm))?;
@@ -169,7 +169,7 @@ impl SpreadImage {
         Some(SampleSpread::new([Vec::new(), Vec::new()], range.low_nm, step_nm, vec![tables]))
     }
 
-    /// What it has to do on so many pictures a band.
+    /// What it has to do on so many images a band.
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let count = bands.count() as f64;
         let of_band = WavelengthRange::new(bands.low_nm(), bands.low_nm() + bands.width_nm());
@@ -184,7 +184,7 @@ impl SpreadImage {
             + convolve::operation_counts(reach, canvas.size(), &canvas.whole(), uses)
     }
 
-    /// The function made ready for a film.
+    /// The function prepared for a film.
     pub(super) fn ready(&self, canvas: &Canvas, part: FilmPart) -> ReadyImage {
         let shared = self.parameters.wavelength_nm.is_none();
         let shared = shared.then(|| Spread::new(&self.kernel(VISIBLE, canvas.pitch_mm(), part), canvas));

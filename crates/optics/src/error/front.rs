@@ -13,7 +13,7 @@ pub enum FrontError {
         /// What it may be.
         range: &'static str,
     },
-    /// A share of light that is none.
+    /// A fraction of light that is none.
     #[error("{name} is {value} at some wavelength; it must stay within {range}")]
     Share {
         /// The key.
@@ -26,7 +26,7 @@ pub enum FrontError {
     /// A sphere or ellipsoid that ends before its rim.
     #[error("the mirror has rim_radius_mm = {rim_mm}, but its surface reaches only {reach_mm:.6} mm from its axis")]
     RimTooLarge {
-        /// The rim asked for, mm.
+        /// The rim requested, mm.
         rim_mm: f64,
         /// How far the surface reaches, mm.
         reach_mm: f64,
@@ -59,7 +59,7 @@ pub enum FrontError {
          surface; move it farther, or tilt it less"
     )]
     DirtInLens,
-    /// Faces that meet within the picture.
+    /// Faces that meet within the image.
     #[error(
         "the picture looks through the wind-screen where its faces cross, or where light cannot leave it: make the wedge (wedge_mrad) \
          smaller or the middle layer thicker, or curve it less"
@@ -73,7 +73,7 @@ pub enum FrontError {
         "the drops lie where the curved wind-screen has no surface: make their size_mm smaller or their offset_mm less"
     )]
     DropsOffGlass,
-    /// Drops that are not in the picture.
+    /// Drops that are not in the image.
     #[error(
         "no pixel of the picture looks through the drops' rectangle: move it (offset_mm) or make it larger (size_mm)"
     )]

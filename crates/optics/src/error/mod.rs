@@ -1,4 +1,4 @@
-//! Why a lens cannot be, or cannot serve a picture.
+//! Why a lens cannot be, or cannot serve an image.
 
 pub(crate) mod front;
 mod prescription;
@@ -30,14 +30,14 @@ pub enum OpticsError {
         /// Its value.
         value: f64,
     },
-    /// A picture nearly all of which looks along the edge of the field.
+    /// An image nearly all of which looks along the edge of the field.
     #[error(
         "the picture reaches {radius_mm:.6} mm from the principal point, {:.3e} focal lengths of {focal_length_mm:e} mm: nearly all of \
          it would look sideways and be black; give a longer focal length (a narrower field)",
         radius_mm / focal_length_mm
     )]
     TooWide {
-        /// How far the picture reaches, mm.
+        /// How far the image reaches, mm.
         radius_mm: f64,
         /// Principal distance, mm.
         focal_length_mm: f64,
@@ -170,7 +170,7 @@ pub enum OpticsError {
     /// A calibration that cannot serve.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
-    /// A calibration of another picture.
+    /// A calibration of another image.
     #[error(
         "the sensor has {got_width} × {got_height} pixels but the calibration is of {width} × {height}: give the sensor the calibration's size, or a calibration of this picture"
     )]
@@ -197,12 +197,12 @@ pub enum OpticsError {
         "a relative illumination is a list of rising radii or angles from 0 and of ratios of at least 0 that begin with 1"
     )]
     Falloff,
-    /// A relative illumination that ends inside the picture.
+    /// A relative illumination that ends inside the image.
     #[error("the relative illumination is known to {end}{unit}, but the picture reaches {needed:.4}{unit}: extend it")]
     FalloffEnds {
         /// Where it ends.
         end: f64,
-        /// How far the picture reaches.
+        /// How far the image reaches.
         needed: f64,
         /// The unit of both, and from where they count.
         unit: &'static str,
@@ -232,10 +232,10 @@ pub enum OpticsError {
         /// What the lens is.
         kind: &'static str,
     },
-    /// The distortion cannot serve the picture.
+    /// The distortion cannot serve the image.
     #[error(transparent)]
     Distortion(#[from] DistortionError),
-    /// A stored radiance image does not hold all directions that a picture needs.
+    /// A stored radiance image does not hold all directions that an image needs.
     #[error(
         "the stored radiance image lacks directions that the picture needs: {:.4}° beyond its {edge} edge; \
          render it with more overscan or use a narrower lens or a smaller sensor",
@@ -244,7 +244,7 @@ pub enum OpticsError {
     MissingDirections {
         /// The edge at which the most is missing.
         edge: &'static str,
-        /// How far beyond the edge the picture reaches, rad.
+        /// How far beyond the edge the image reaches, rad.
         missing_rad: f64,
     },
     /// Distances of a blend that are not in order.
@@ -270,7 +270,7 @@ pub enum OpticsError {
         /// Row.
         y: usize,
     },
-    /// A stored radiance image lacks a whole view that a picture needs.
+    /// A stored radiance image lacks a whole view that an image needs.
     #[error(
         "the stored radiance image lacks its {view} view, at which the picture looks; render it with the lens that looks \
          there, or use a narrower one"
@@ -282,7 +282,7 @@ pub enum OpticsError {
     /// A stored radiance image without views, or with empty ones.
     #[error("a stored radiance image needs at least one view, and pixels in each")]
     NoViews,
-    /// A picture none of whose pixels has a ray.
+    /// An image none of whose pixels has a ray.
     #[error("no pixel of the picture has a ray: the lens sees nothing there")]
     SeesNothing,
     /// A cube whose size is not that of its stated geometry.

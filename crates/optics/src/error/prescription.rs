@@ -116,7 +116,7 @@ pub enum PrescriptionError {
         "f_number {f_number} needs a stop of {needed_mm:.4} mm semi-aperture, but it opens to {open_mm} mm (f/{least:.3})"
     )]
     TooFast {
-        /// The f-number asked for.
+        /// The f-number requested.
         f_number: f64,
         /// The semi-aperture it needs, mm.
         needed_mm: f64,

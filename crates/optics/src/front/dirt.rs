@@ -1,10 +1,10 @@
-//! Dirt and scratches on the front glass: a picture of transmittances on a plane before the lens.
+//! Dirt and scratches on the front glass: an image of transmittances on a plane before the lens.
 //!
 //! Each ray is weighted by the mask where it crosses it, so that it appears as far out of focus as it is. On stored radiance the
 //! mask becomes an operator: each pixel is multiplied by the mask's mean over its footprint, the bundle of rays that reaches
 //! the pixel ([`Dirt::shade`]); what it leaves out is that a pixel's blurred scene can differ over the pupil.
 //!
-//! Left out: light that the dirt scatters into the picture (a matter of glare), its thickness, its colour.
+//! Left out: light that the dirt scatters into the image (a matter of glare), its thickness, its colour.
 
 use core::fmt;
 
@@ -39,7 +39,7 @@ impl Mask {
     /// A mask.
     ///
     /// # Errors
-    /// Where its texels are not as many as its size says, there are none, or one is no share.
+    /// If its texels are not as many as its size says, there are none, or one is no share.
     pub fn new(width: usize, height: usize, transmittance: Vec<f32>) -> Result<Self, FrontError> {
         if width == 0 || height == 0 || transmittance.len() != width * height {
             return Err(FrontError::MaskSize { width, height, texels: transmittance.len() });
@@ -50,7 +50,7 @@ impl Mask {
         Ok(Self { width, height, transmittance })
     }
 
-    /// Between the middles of texels linear; `at` from 0 to 1 over the picture, from its top left.
+    /// Between the middles of texels linear; `at` from 0 to 1 over the image, from its top left.
     fn at(&self, at: DVec2) -> f64 {
         let size = DVec2::new(self.width as f64, self.height as f64);
         let texel = (at * size - 0.5).clamp(DVec2::ZERO, size - 1.0);
@@ -84,7 +84,7 @@ impl Dirt {
     /// Dirt.
     ///
     /// # Errors
-    /// Where its size is none.
+    /// If its size is none.
     pub fn new(parameters: DirtParameters) -> Result<Self, FrontError> {
         positive("size_mm", parameters.size_mm.min_element())?;
         positive("size_mm", parameters.size_mm.max_element())?;
@@ -97,12 +97,12 @@ impl Dirt {
         &self.parameters
     }
 
-    /// Whether a ray starts on the camera's side of the dirt.
+    /// True if a ray starts on the camera's side of the dirt.
     pub(super) fn is_after(&self, start: Line) -> bool {
         self.parameters.placement.inward(start).point_mm.z < 0.0
     }
 
-    /// The share of a ray's light that passes.
+    /// The fraction of a ray's light that passes.
     pub(super) fn share(&self, ray: Line) -> f64 {
         let Line { point_mm, direction } = self.parameters.placement.inward(ray);
         let way = -point_mm.z / direction.z;

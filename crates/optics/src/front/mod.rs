@@ -1,4 +1,4 @@
-//! What stands in front of the lens and is attached to the camera: dirt, and a wind-screen or a mirror.
+//! What stands in front of the lens and is attached to the camera: dirt, and a windscreen or a mirror.
 //!
 //! # Contract
 //!
@@ -9,7 +9,7 @@
 //! - A ray that a member does not meet passes it by, unchanged.
 //! - Where a member has to choose ([`Windscreen`]: light that came straight or by two reflections), it uses up a part of
 //!   the pupil sample and stretches the rest to the whole square; weights are divided by the probability of the choice.
-//! - Members stand in the order dirt, then wind-screen (with drops on its outer face) or mirror. Both of the latter together are not modelled.
+//! - Members stand in the order dirt, then windscreen (with drops on its outer face) or mirror. Both of the latter together are not modelled.
 
 mod dirt;
 mod drops;
@@ -62,7 +62,7 @@ impl Optic {
 }
 
 impl Front {
-    /// What stands in front of a lens; `None` where nothing does.
+    /// What stands in front of a lens; `None` if nothing does.
     #[must_use]
     pub fn new(dirt: Option<Dirt>, optic: Option<Optic>) -> Option<Self> {
         (dirt.is_some() || optic.is_some()).then_some(Self { dirt, optic })
@@ -80,7 +80,7 @@ impl Front {
         self.optic.as_ref()
     }
 
-    /// How drops on it change over time; `None` where nothing does.
+    /// How drops on it change over time; `None` if nothing does.
     #[must_use]
     pub fn course(&self) -> Option<&Course> {
         match &self.optic {
@@ -121,7 +121,7 @@ impl Front {
         Some((self.carry(truth.ray, PRINCIPAL_NM)?, truth.off_centre))
     }
 
-    /// Whether a ray or its weight depends on the wavelength.
+    /// True if a ray or its weight depends on the wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         match &self.optic {
@@ -134,7 +134,7 @@ impl Front {
     /// Refuses a front that the camera cannot look through or at.
     ///
     /// # Errors
-    /// Where the picture sees nothing of a mirror, or its back; where a wind-screen is not before the lens.
+    /// If the image sees nothing of a mirror, or its back; where a windscreen is not before the lens.
     pub fn check(&self, lens: &Lens, raster: &Raster) -> Result<(), FrontError> {
         let sights = sights(raster).filter_map(|s_mm| lens.truth_ray(s_mm));
         let lines: Vec<Line> = sights.map(|truth| line(&truth.ray)).collect();
@@ -157,7 +157,7 @@ impl Front {
         }
     }
 
-    /// A ray with what the dirt leaves of it; `None` where that is nothing.
+    /// A ray with what the dirt leaves of it; `None` if that is nothing.
     fn soiled(&self, ray: PupilRay) -> Option<PupilRay> {
         let Some(dirt) = &self.dirt else { return Some(ray) };
         let weight_sr = ray.weight_sr * dirt.share(line(&ray));
@@ -201,7 +201,7 @@ fn reflected(mirror: &Mirror, ray: PupilRay, nm: f64) -> Option<FrontRay> {
     }
 }
 
-/// Points of the picture, edges included, at which a front is looked at once.
+/// Points of the image, edges included, at which a front is looked at once.
 fn sights(raster: &Raster) -> impl Iterator<Item = DVec2> {
     const SIDE: u32 = 48;
     let size = DVec2::new(raster.width() as f64, raster.height() as f64);

@@ -110,13 +110,13 @@ impl Curve {
         }
     }
 
-    /// Whether it depends on the wavelength.
+    /// True if it depends on the wavelength.
     #[must_use]
     pub fn varies(&self) -> bool {
         matches!(self, Self::Table(spectrum) if spectrum.min_value() != spectrum.max_value())
     }
 
-    /// Least and greatest value.
+    /// Least and largest value.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         match self {

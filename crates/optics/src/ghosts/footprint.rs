@@ -28,7 +28,7 @@ struct Node {
     /// On the sensor, mm: away from the axis in the source's own direction, and across.
     x: f32,
     y: f32,
-    /// Share of the light.
+    /// Fraction of the light.
     weight: f32,
     /// Infinite for a ray that does not arrive.
     filling: f32,
@@ -147,7 +147,7 @@ impl Footprint {
         Self { nodes, cell_mm2: self.cell_mm2 + share * (other.cell_mm2 - self.cell_mm2) }
     }
 
-    /// The same place with a share of the light.
+    /// The same place with a fraction of the light.
     pub(super) fn dimmed(&self, share: f32) -> Self {
         Self { nodes: self.nodes.clone(), cell_mm2: self.cell_mm2 * share }
     }
@@ -191,7 +191,7 @@ impl Footprint {
     }
 }
 
-/// Least and greatest number of points along a cell's side; more than the least only to be dense enough.
+/// Least and largest number of points along a cell's side; more than the least only to be dense enough.
 const LEAST: usize = 3;
 const MOST: usize = 256;
 

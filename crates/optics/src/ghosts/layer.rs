@@ -1,4 +1,4 @@
-//! From a picture's irradiance to the irradiance of its ghosts.
+//! From an image's irradiance to the irradiance of its ghosts.
 
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::{Bands, maths::f64::sin, quantity::Irradiance};
@@ -15,17 +15,17 @@ use crate::{error::OpticsError, lens::Prescribed, overlap::PRINCIPAL_NM, prescri
 const RINGS: usize = 256;
 /// Every how many rings the étendue is.
 const ETENDUE_STEP: usize = 4;
-/// A height or a wavelength that gets less than this share of what the best gets is no source: what is divided by it would
+/// A height or a wavelength that gets less than this fraction of what the best gets is no source: what is divided by it would
 /// be noise.
 const DARK: f64 = 1e-3;
 /// Sources laid down at a time, to bound memory.
 const BATCH: usize = 8;
 
-/// The ghosts of a picture behind a lens: irradiance in the same raster. The raster may be larger than the sensor: with
-/// light from beside the picture.
+/// The ghosts of an image behind a lens: irradiance in the same raster. The raster may be larger than the sensor: with
+/// light from beside the image.
 ///
 /// # Errors
-/// Where the irradiance is not of the raster's size.
+/// If the irradiance is not of the raster's size.
 pub fn layer(
     irradiance: &SpectralCube<Irradiance>,
     lens: &Prescribed,
@@ -57,7 +57,7 @@ pub fn layer(
 struct FarSource {
     /// From the axis, rad.
     angle: f64,
-    /// In the picture, from the axis towards its own image.
+    /// In the image, from the axis towards its own image.
     outward: DVec2,
     spectrum: Vec<f32>,
     share: f64,

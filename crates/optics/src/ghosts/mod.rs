@@ -1,4 +1,4 @@
-//! Ghosts of a picture: a layer of irradiance, light that a prescription's surfaces reflect twice.
+//! Ghosts of an image: a layer of irradiance, light that a prescription's surfaces reflect twice.
 //!
 //! **Equation.** Every pixel of an image is a far source in its principal ray's direction, of radiance L and solid angle Ω.
 //! A beam cross-section dA that enters by that direction brings L Ω w dA to where its ray lands after two reflections
@@ -19,7 +19,7 @@
 //! Ghosts are not in focus: the layer neither passes the point-spread function nor the glare kernel (scatter of ghosts is of
 //! second order) and is added to the irradiance behind both.
 //!
-//! **Left out**: sources outside the picture's field; the nearness of near sources (each counts as far); see the pairs'
+//! **Left out**: sources outside the image's field; the nearness of near sources (each counts as far); see the pairs'
 //! own list.
 
 mod footprint;
@@ -37,17 +37,17 @@ pub use layer::layer;
 pub use report::{GhostReport, strongest};
 pub use response::{GhostOperationCounts, operation_counts};
 
-/// What a layer of ghosts is asked for.
+/// What a layer of ghosts is requested.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GhostSettings {
     sensor_reflectance: f64,
 }
 
 impl GhostSettings {
-    /// Ghosts of a lens before a sensor that mirrors this share of light, whatever its wavelength; 0 for none.
+    /// Ghosts of a lens before a sensor that mirrors this fraction of light, whatever its wavelength; 0 for none.
     ///
     /// # Errors
-    /// Where the reflectance is not in [0, 1).
+    /// If the reflectance is not in [0, 1).
     pub fn new(sensor_reflectance: f64) -> Result<Self, OpticsError> {
         if (0.0..1.0).contains(&sensor_reflectance) {
             Ok(Self { sensor_reflectance })
@@ -72,14 +72,14 @@ impl GhostSettings {
         }
     }
 
-    /// The share of light that the sensor mirrors.
+    /// The fraction of light that the sensor mirrors.
     #[must_use]
     pub fn sensor_reflectance(&self) -> f64 {
         self.sensor_reflectance
     }
 }
 
-/// The share of a pair's light that its mirrors leave besides the traced surfaces: the sensor's, where it is one.
+/// The fraction of a pair's light that its mirrors leave besides the traced surfaces: the sensor's, where it is one.
 fn mirrored(lens: &Prescribed, rear: usize, settings: GhostSettings) -> f64 {
     if rear == lens.prescription().surfaces().len() { settings.sensor_reflectance } else { 1.0 }
 }

@@ -1,4 +1,4 @@
-//! The strongest ghosts of a far point, without a picture.
+//! The strongest ghosts of a far point, without an image.
 
 use core::f64::consts::PI;
 

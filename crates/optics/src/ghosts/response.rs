@@ -6,9 +6,9 @@ use super::footprint::{Beam, Footprint, NODES, NODES_OF_LOOK};
 use super::{GhostSettings, mirrored};
 use crate::{lens::Prescribed, prescription::ghost::GhostPair};
 
-/// Field angles from the axis to the greatest.
+/// Field angles from the axis to the largest.
 pub(super) const ANGLES: usize = 48;
-/// The share of an angle's ghost light that left-out pairs may have together.
+/// The fraction of an angle's ghost light that left-out pairs may have together.
 const LEFT_OUT: f64 = 5e-3;
 /// Distance of wavelengths, nm, at most.
 const KNOT_NM: f64 = 100.0;
@@ -21,7 +21,7 @@ pub(super) struct Response {
     pub(super) pairs: Vec<GhostPair>,
     pub(super) knots_nm: Vec<f64>,
     step: f64,
-    /// By angle; `None` where no source is near.
+    /// By angle; `None` if no source is near.
     table: Vec<Option<AtAngle>>,
 }
 
@@ -46,7 +46,7 @@ impl Response {
         Self { pairs, knots_nm, step, table }
     }
 
-    /// The footprints of a pair (by its place in the list) at an angle; `None` where it is left out.
+    /// The footprints of a pair (by its place in the list) at an angle; `None` if it is left out.
     pub(super) fn at(&self, angle: f64, pair: usize) -> Option<Vec<Footprint>> {
         let (i, share) = place(angle, self.step);
         let side = |i: usize| self.table[i].as_ref().and_then(|pairs| pairs[pair].as_ref());
@@ -92,7 +92,7 @@ fn at_angle(lens: &Prescribed, settings: GhostSettings, angle: f64, pairs: &[Gho
     pairs.iter().zip(looks).map(footprints).collect()
 }
 
-/// The area below which pairs together have at most the share of light that may be left out.
+/// The area below which pairs together have at most the fraction of light that may be left out.
 fn threshold(areas: &[f64]) -> f64 {
     let mut rising = areas.to_vec();
     rising.sort_by(f64::total_cmp);
@@ -105,7 +105,7 @@ fn threshold(areas: &[f64]) -> f64 {
     first.unwrap_or(f64::INFINITY)
 }
 
-/// Numbers of what takes time, of a picture that has light at all field angles.
+/// Numbers of what takes time, of an image that has light at all field angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GhostOperationCounts {
     /// Surfaces that rays meet, if none is lost on its way and no pair is left out.
@@ -114,7 +114,7 @@ pub struct GhostOperationCounts {
     pub laid: f64,
 }
 
-/// What the ghosts of so many sources take between two wavelengths, nm. How many a picture has, only its light tells: a quite
+/// What the ghosts of so many sources take between two wavelengths, nm. How many an image has, only its light tells: a quite
 /// even one 1024, one with half of its light in the sun about 260, a single lamp 1.
 #[must_use]
 pub fn operation_counts(

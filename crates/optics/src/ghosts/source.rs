@@ -3,7 +3,7 @@
 use etendue_core::{plane::Plane, quantity::Quantity};
 use glam::DVec2;
 
-/// The share of all light above which a block of several pixels is split.
+/// The fraction of all light above which a block of several pixels is split.
 pub(super) const SHARE: f64 = 1.0 / 300.0;
 
 /// An image whose samples, times a factor of the pixel and one of the band, are radiance times solid angle.
@@ -22,7 +22,7 @@ pub(super) struct Source {
     pub(super) at_px: DVec2,
     /// Radiance times solid angle by band: the irradiance of a surface that faces it, W·m⁻²·nm⁻¹.
     pub(super) spectrum: Vec<f32>,
-    /// Its share of all light.
+    /// Its fraction of all light.
     pub(super) share: f64,
 }
 

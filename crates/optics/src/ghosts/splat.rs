@@ -2,7 +2,7 @@
 //!
 //! Level l has square cells of 2^l pixels. Light is laid down by tents as wide as a cell on both sides of its point, which
 //! keeps it, from points at most 0.35 cells apart, which leaves at most some per cent of ripple. One row of cells around
-//! the picture is kept too, so that levels can be interpolated up to its edges.
+//! the image is kept too, so that levels can be interpolated up to its edges.
 
 use etendue_projection::Raster;
 use glam::DVec2;
@@ -14,10 +14,10 @@ const CELLS: f64 = 32.0;
 const MAX_CELLS: f64 = 192.0;
 /// Distance of points, cells.
 const STEP: f32 = 0.35;
-/// Coarsest levels still have this many cells across the picture's shorter side.
+/// Coarsest levels still have this many cells across the image's shorter side.
 const COARSEST: usize = 12;
 
-/// The cells of one level about a picture.
+/// The cells of one level about an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Level {
     level: u32,
@@ -45,7 +45,7 @@ impl Level {
         }
     }
 
-    /// All levels of a picture, finest first.
+    /// All levels of an image, finest first.
     pub(super) fn of(raster: &Raster) -> Vec<Self> {
         let shorter = raster.width().min(raster.height());
         (0..24).take_while(|l| *l == 0 || shorter >> l >= COARSEST).map(|l| Self::new(raster, l)).collect()
@@ -57,7 +57,7 @@ impl Level {
         (place as usize, (place - place.floor()) as f32)
     }
 
-    /// Coordinates in cells, with the middle of cell i at i, of a point of the picture, mm.
+    /// Coordinates in cells, with the middle of cell i at i, of a point of the image, mm.
     fn place(&self, mm: DVec2) -> DVec2 {
         // The margin adds a cell, the middle takes half of one.
         self.principal + mm / self.cell_mm + 0.5
@@ -79,8 +79,8 @@ pub(super) struct Laid {
     pub(super) cosine: f64,
 }
 
-/// Lays the footprints (by wavelength) of a source that lies `outward` from the axis and has a share of all light; `None`
-/// where nothing falls on the picture.
+/// Lays the footprints (by wavelength) of a source that lies `outward` from the axis and has a fraction of all light; `None`
+/// where nothing falls on the image.
 pub(super) fn lay(footprints: &[Footprint], outward: DVec2, share: f64, levels: &[Level]) -> Option<Laid> {
     let bounds = bounds(footprints)?;
     let level = level(bounds, share, levels);
@@ -157,7 +157,7 @@ impl Window {
         let column = self.origin[0] + x * self.x_axis[0] + y * self.y_axis[0];
         let row = self.origin[1] + x * self.x_axis[1] + y * self.y_axis[1];
         let [columns, rows] = self.size;
-        // What falls beside the window falls beside the picture's margin.
+        // What falls beside the window falls beside the image's margin.
         if !(column >= 0.0 && row >= 0.0 && column < (columns as f32) - 1.0 && row < (rows as f32) - 1.0) {
             return;
         }

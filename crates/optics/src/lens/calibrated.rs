@@ -13,7 +13,7 @@
 //!   principal ray meets the plane in focus (flat), or at the focus distance along it (turning). Weights stay those of the
 //!   principal ray. The calibration holds for the focus at which it was made: there is no breathing.
 //!
-//! Left out: what the projection does not hold: aberrations, colours (but for [`LateralColour`]), a pupil that moves with the field (all rays meet in
+//! Left out: what the projection does not hold: aberrations, colours (except for [`LateralColour`]), a pupil that moves with the field (all rays meet in
 //! one point), clipping.
 
 use core::f64::consts::PI;
@@ -85,7 +85,7 @@ impl Calibrated {
     /// A calibrated camera.
     ///
     /// # Errors
-    /// Where a number is outside its range, or the calibration sees nothing at its principal point.
+    /// If a number is outside its range, or the calibration sees nothing at its principal point.
     pub fn new(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
         let pitch_mm = positive("pixel_pitch_mm", parameters.pixel_pitch_mm)?;
         let n = f_number(parameters.f_number)?;
@@ -132,7 +132,7 @@ impl Calibrated {
         self.parameters.focus_distance_m.map_or(0.0, |_| self.focal_length_mm / (2.0 * self.parameters.f_number))
     }
 
-    /// Refuses a picture that is not the calibration's, a fold inside it, and a measured illumination that ends before it.
+    /// Refuses an image that is not the calibration's, a fold inside it, and a measured illumination that ends before it.
     pub(super) fn check(&self, raster: &Raster) -> Result<(), OpticsError> {
         let [width, height] = self.parameters.calibration.size_px();
         let (got_width, got_height) = (raster.width(), raster.height());
@@ -147,7 +147,7 @@ impl Calibrated {
             .map_or(Ok(()), |table| table.check(self.reach(raster, table.by())))
     }
 
-    /// How far a picture reaches in what a relative illumination goes by: to the farthest of its corners that sees something, or
+    /// How far an image reaches in what a relative illumination goes by: to the farthest of its corners that sees something, or
     /// to the edge of the projection where one does not.
     fn reach(&self, raster: &Raster, by: FalloffBy) -> f64 {
         let [width, height] = self.parameters.calibration.size_px().map(|size| size as f64);
@@ -215,7 +215,7 @@ impl Calibrated {
         self.principal_ray(sensor_mm).map_or(0.0, |ray| ray.weight_sr)
     }
 
-    /// The share of the pupil's area that a direction sees; `None` where no light comes.
+    /// The fraction of the pupil's area that a direction sees; `None` if no light comes.
     fn foreshortening(&self, direction: DVec3) -> Option<f64> {
         match self.pupil {
             PupilStance::Flat => (direction.z > 0.0).then_some(direction.z),

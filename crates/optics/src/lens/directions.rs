@@ -7,8 +7,8 @@ use super::Lens;
 use crate::overlap::PRINCIPAL_NM;
 
 impl Lens {
-    /// The angle between the directions seen at two sensor points, rad; `None` where one sees nothing. The horizontal
-    /// field of view is that between the middles of the picture's left and right edges.
+    /// The angle between the directions seen at two sensor points, rad; `None` if one sees nothing. The horizontal
+    /// field of view is that between the middles of the image's left and right edges.
     #[must_use]
     pub fn angle_between_rad(&self, a_mm: DVec2, b_mm: DVec2) -> Option<f64> {
         let (a, b) = (self.direction(a_mm)?, self.direction(b_mm)?);
@@ -36,7 +36,7 @@ impl Lens {
         )
     }
 
-    /// The direction (of any length) of the chief ray of a sensor point, clipped or not; `None` where there is none.
+    /// The direction (of any length) of the chief ray of a sensor point, clipped or not; `None` if there is none.
     #[must_use]
     pub fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
         self.direction_at(sensor_mm, PRINCIPAL_NM)

@@ -1,4 +1,4 @@
-//! Field angles of chief rays over the picture, interpolated, and whether a picture is one that a lens could make.
+//! Field angles of chief rays over the image, interpolated, and whether an image is one that a lens could make.
 
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
@@ -20,7 +20,7 @@ impl FieldAngles {
         Some((outwards * sin).extend(cos))
     }
 
-    /// The field angle of a radius; `None` beyond the table, which ends with the picture or the lens.
+    /// The field angle of a radius; `None` beyond the table, which ends with the image or the lens.
     fn angle(&self, radius_mm: f64) -> Option<f64> {
         let place = radius_mm / self.step_mm;
         let last = self.angles.len().checked_sub(2)?;
@@ -47,18 +47,18 @@ fn cubic([a, b, c, d]: [f64; 4], t: f64) -> f64 {
     b + t * (start + t * (3.0 * rest - 2.0 * start - end + t * (start + end - 2.0 * rest)))
 }
 
-/// Focal lengths that a picture may reach from its principal point: 89.994° of a lens without distortion.
+/// Focal lengths that an image may reach from its principal point: 89.994° of a lens without distortion.
 const WIDEST: f64 = 1e4;
 /// By how much a distortion may stretch or shrink a distance from the principal point.
 const WILD: f64 = 1e3;
 
-/// Parts of the picture's reach at which a distortion is looked at.
+/// Parts of the image's reach at which a distortion is looked at.
 pub(super) const ALL: [f64; 3] = [1e-3, 0.1, 1.0];
 /// Those near the principal point.
 pub(super) const NEAR: [f64; 2] = [1e-4, 1e-3];
 
-/// Checks a picture that reaches `radius_mm` from the principal point of a lens. `ideal` is the distance at which a lens without
-/// distortion would show what is seen at a distance, mm; `None` where nothing is.
+/// Checks an image that reaches `radius_mm` from the principal point of a lens. `ideal` is the distance at which a lens without
+/// distortion would show what is seen at a distance, mm; `None` if nothing is.
 pub(super) fn check(
     radius_mm: f64,
     focal_length_mm: f64,

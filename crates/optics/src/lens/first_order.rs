@@ -17,7 +17,7 @@ impl Lens {
         )
     }
 
-    /// The wavelength at which focal length, f-number and focus of a lens that disperses are stated, nm; `None` where they belong to none.
+    /// The wavelength at which focal length, f-number and focus of a lens that disperses are stated, nm; `None` if they belong to none.
     #[must_use]
     pub fn first_order_nm(&self) -> Option<f64> {
         match self {
@@ -57,7 +57,7 @@ impl Lens {
         self.f_number() / self.transmittance().sqrt()
     }
 
-    /// Distance of the plane in focus from the entrance pupil, m; `None` where everything is sharp.
+    /// Distance of the plane in focus from the entrance pupil, m; `None` if everything is sharp.
     #[must_use]
     pub fn focus_distance_m(&self) -> Option<f64> {
         match self {

@@ -4,7 +4,7 @@ use super::{Lens, paraxial_properties::PupilSize};
 use crate::pupil::MM;
 
 impl Lens {
-    /// Image size over object size in the plane in focus; 0 at infinity focus and where everything is sharp, but for a
+    /// Image size over object size in the plane in focus; 0 at infinity focus and where everything is sharp, except for a
     /// telecentric camera, which has one everywhere.
     #[must_use]
     pub fn magnification(&self) -> f64 {

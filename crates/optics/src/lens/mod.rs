@@ -3,7 +3,7 @@
 //! # Contract
 //!
 //! - All arithmetic is f64. Rays are in the camera frame (x right, y down, z forward, m) whose origin is the centre of the
-//!   **entrance pupil**. Sensor points are mm of the erect picture from the principal point.
+//!   **entrance pupil**. Sensor points are mm of the erect image from the principal point.
 //! - [`Lens::ray`] makes a ray of a sensor point and a pupil sample; the mean over pupil samples of `weight_sr` × radiance
 //!   is the irradiance of the sensor point. `None` means no light by this sample: it counts as zero.
 //! - [`Lens::projected_solid_angle_sr`] is the mean of the weights, computed without samples: a closed form, or a quadrature to 1e-9
@@ -193,10 +193,10 @@ impl Lens {
         }
     }
 
-    /// Refuses a picture that the lens cannot image.
+    /// Refuses an image that the lens cannot image.
     ///
     /// # Errors
-    /// Where the distortion folds inside the picture or is none of a lens, the picture reaches farther than a lens sees, or
+    /// If the distortion folds inside the image or is none of a lens, the image reaches farther than a lens sees, or
     /// is not that of the calibration.
     pub fn check(&self, raster: &Raster) -> Result<(), OpticsError> {
         if let Self::Calibrated(lens) = self {

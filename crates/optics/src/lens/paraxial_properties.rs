@@ -35,7 +35,7 @@ pub(crate) struct ParaxialProperties {
     pub(crate) transmittance: f64,
     /// Radial distortion; `None` for a rectilinear lens.
     pub(crate) distortion: Option<RadialDistortion>,
-    /// Image size by wavelength; `None` where all colours are alike.
+    /// Image size by wavelength; `None` if all colours are alike.
     pub(crate) lateral_colour: Option<Arc<LateralColour>>,
 }
 
@@ -216,7 +216,7 @@ impl Falloff {
     /// The table of distances (mm, rising from 0) and ratios (0 or more, from 1).
     ///
     /// # Errors
-    /// Where the points are not so.
+    /// If the points are not so.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         Self::over(FalloffBy::Radius, points)
     }
@@ -224,7 +224,7 @@ impl Falloff {
     /// The table of distances (mm) or angles (degrees), rising from 0, and ratios (0 or more, from 1).
     ///
     /// # Errors
-    /// Where the points are not so.
+    /// If the points are not so.
     pub fn over(by: FalloffBy, points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         let rising = points.windows(2).all(|pair| pair[1].0 > pair[0].0);
         let legal = points.iter().all(|(r, ratio)| r.is_finite() && ratio.is_finite() && *ratio >= 0.0);
@@ -241,7 +241,7 @@ impl Falloff {
         self.by
     }
 
-    /// Refuses a picture that reaches beyond the table.
+    /// Refuses an image that reaches beyond the table.
     pub(super) fn check(&self, needed: f64) -> Result<(), OpticsError> {
         let end = self.points.last().map_or(0.0, |(r, _)| *r);
         if end >= needed { Ok(()) } else { Err(OpticsError::FalloffEnds { end, needed, unit: self.by.unit() }) }
@@ -269,7 +269,7 @@ impl LateralColour {
     /// The table of wavelengths (nm, rising) and magnifications (above 0).
     ///
     /// # Errors
-    /// Where the points are not so, or fewer than two.
+    /// If the points are not so, or fewer than two.
     pub fn new(mut points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         let rising = points.windows(2).all(|pair| pair[1].0 > pair[0].0);
         let legal = points.iter().all(|(nm, m)| nm.is_finite() && m.is_finite() && *nm > 0.0 && *m > 0.0);

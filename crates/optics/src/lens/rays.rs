@@ -10,12 +10,12 @@ use super::Lens;
 pub struct TruthRay {
     /// The ray.
     pub ray: PupilRay,
-    /// Whether the chief ray is clipped and this one goes through the centroid of the open part of the pupil instead.
+    /// True if the chief ray is clipped and this one goes through the centroid of the open part of the pupil instead.
     pub off_centre: bool,
 }
 
 impl Lens {
-    /// The ray of a sensor point (mm) through a pupil sample in [0, 1)² at a wavelength; `None` where no light comes.
+    /// The ray of a sensor point (mm) through a pupil sample in [0, 1)² at a wavelength; `None` if no light comes.
     #[must_use]
     pub fn ray(&self, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
         each!(self,
@@ -28,7 +28,7 @@ impl Lens {
     }
 
     /// The ray of a sensor point through the centre of the entrance pupil, its weight that of the small-pupil limit;
-    /// `None` where it is clipped or the sensor point has no image.
+    /// `None` if it is clipped or the sensor point has no image.
     #[must_use]
     pub fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
         each!(self,
@@ -41,7 +41,7 @@ impl Lens {
     }
 
     /// The ray by which ground truth looks: the principal ray, or, where that is clipped but light arrives, the ray through
-    /// the centroid of the open part of the pupil. `None` where no light comes.
+    /// the centroid of the open part of the pupil. `None` if no light comes.
     #[must_use]
     pub fn truth_ray(&self, sensor_mm: DVec2) -> Option<TruthRay> {
         if let Some(ray) = self.principal_ray(sensor_mm) {
@@ -82,7 +82,7 @@ impl Lens {
         )
     }
 
-    /// Whether a ray or its weight depends on the wavelength: glasses that disperse, coatings, a filter, lateral colour. A
+    /// True if a ray or its weight depends on the wavelength: glasses that disperse, coatings, a filter, lateral colour. A
     /// sample's ray then serves one wavelength only.
     #[must_use]
     pub fn disperses(&self) -> bool {
@@ -94,7 +94,7 @@ impl Lens {
         own || self.lateral_colour().is_some()
     }
 
-    /// Whether the chief ray of a sensor point depends on the wavelength: lateral colour.
+    /// True if the chief ray of a sensor point depends on the wavelength: lateral colour.
     #[must_use]
     pub fn spreads_colours(&self) -> bool {
         let own = match self {

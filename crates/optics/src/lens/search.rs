@@ -14,7 +14,7 @@ pub(super) fn last_open(mut bracket: [f64; 2], halvings: usize, is_open: impl Fn
     bracket[0]
 }
 
-/// The greatest distance up to `reach_mm` below which all are lit, looked for at so many steps; `None` where the first is dark.
+/// The largest distance up to `reach_mm` below which all are lit, looked for at so many steps; `None` if the first is dark.
 pub(super) fn lit_as_far_as(reach_mm: f64, steps: usize, is_lit: impl Fn(f64) -> bool) -> Option<f64> {
     let at = |i: usize| reach_mm * i as f64 / steps as f64;
     let Some(dark) = (0..=steps).find(|i| !is_lit(at(*i))) else { return Some(reach_mm) };

@@ -22,8 +22,8 @@
 //! A parallel (orthographic) camera: every pixel looks along the axis, from its own place.
 //!
 //! The ideal of a lens that is telecentric on the side of the scene, with everything sharp: all its pencils have the same
-//! working f-number N on the sensor's side, so E = π τ L/(4 N²) over the whole picture (small-pupil limit). Sizes do not
-//! depend on distance: a length in the picture is the width of the field over that of the picture times as long. The camera's
+//! working f-number N on the sensor's side, so E = π τ L/(4 N²) over the whole image (small-pupil limit). Sizes do not
+//! depend on distance: a length in the image is the width of the field over that of the image times as long. The camera's
 //! position is the middle of a plane across the axis from which the rays begin; it sees nothing behind that plane.
 
 use core::f64::consts::PI;
@@ -60,7 +60,7 @@ impl Pinhole {
     /// A pinhole.
     ///
     /// # Errors
-    /// Where a parameter is outside its range.
+    /// If a parameter is outside its range.
     pub fn new(parameters: PinholeParameters) -> Result<Self, OpticsError> {
         let distance_mm = positive("focal_length_mm", parameters.focal_length_mm)?;
         let radius_mm = distance_mm / (2.0 * f_number(parameters.f_number)?);
@@ -119,7 +119,7 @@ impl Thin {
     /// A thin lens.
     ///
     /// # Errors
-    /// Where a parameter is outside its range or the focus distance not beyond the focal length.
+    /// If a parameter is outside its range or the focus distance not beyond the focal length.
     pub fn new(parameters: ThinParameters) -> Result<Self, OpticsError> {
         let size = PupilSize::new(parameters.focal_length_mm, parameters.f_number)?;
         let conjugates = Conjugates::new(parameters.focal_length_mm, 1.0, parameters.focus_distance_m)?;
@@ -186,7 +186,7 @@ impl Telecentric {
     /// A telecentric camera.
     ///
     /// # Errors
-    /// Where a parameter is outside its range.
+    /// If a parameter is outside its range.
     pub fn new(parameters: TelecentricParameters) -> Result<Self, OpticsError> {
         positive("field_width_m", parameters.metres_per_mm)?;
         let n = f_number(parameters.f_number)?;

@@ -127,7 +127,7 @@ impl Thick {
     /// A thick lens.
     ///
     /// # Errors
-    /// Where a parameter is outside its range, statements contradict each other, or a rim clips on the axis.
+    /// If a parameter is outside its range, statements contradict each other, or a rim clips on the axis.
     pub fn new(parameters: ThickParameters) -> Result<Self, OpticsError> {
         let p = &parameters;
         let size = PupilSize::new(p.focal_length_mm, p.f_number)?;
@@ -198,7 +198,7 @@ impl Thick {
         self.through(sensor_mm, sensor_mm.normalize_or(DVec2::X) * centroid, PRINCIPAL_NM)
     }
 
-    /// The ray through the point `q` of the unit disc that both pupils are; `None` where a rim stops it.
+    /// The ray through the point `q` of the unit disc that both pupils are; `None` if a rim stops it.
     fn through(&self, sensor_mm: DVec2, q: DVec2, nm: f64) -> Option<PupilRay> {
         let bundle = self.bundle(sensor_mm)?;
         let axis = sensor_mm.normalize_or(DVec2::X);

@@ -131,7 +131,7 @@ fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result<AxialOpeni
     Ok(AxialOpening::STOP)
 }
 
-/// The loss of the ray at a share of the entrance pupil's radius, at the reference wavelength; `None` where it comes through.
+/// The loss of the ray at a fraction of the entrance pupil's radius, at the reference wavelength; `None` if it comes through.
 fn lost_at(lens: &Prescription, share: f64) -> Option<Lost> {
     let ray = axial_ray(lens, share * lens.paraxial.entrance_radius_mm);
     walk(&lens.elements, 0, Way::ToSensor, &lens.media(lens.reference_nm), ray, &mut Rims::Clip).err()
@@ -161,7 +161,7 @@ impl Prescription {
     /// A checked and focused lens.
     ///
     /// # Errors
-    /// Where the surfaces are no lens, or it cannot be focused as asked.
+    /// If the surfaces are no lens, or it cannot be focused as asked.
     pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
         let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm, reference_nm, other_rims } = parameters;
         let stop = check_surfaces(&surfaces)?;

@@ -36,7 +36,7 @@ pub enum FieldPoint {
 pub struct FieldBundle {
     /// Where its light comes from.
     pub point: FieldPoint,
-    /// Shares of the stop's radius from its centre to the upper and to the lower marginal ray.
+    /// Fractions of the stop's radius from its centre to the upper and to the lower marginal ray.
     pub reach: [f64; 2],
 }
 
@@ -63,7 +63,7 @@ impl Journey for Heights {
 /// count: it may be nearly closed. Of a bundle that does not come through, the place in the list is returned.
 ///
 /// # Errors
-/// Where a chief or marginal ray misses a surface or is totally reflected, or no ray goes to the field point.
+/// If a chief or marginal ray misses a surface or is totally reflected, or no ray goes to the field point.
 pub fn clear_apertures_mm(
     lens: &Prescription,
     stop_mm: f64,

@@ -120,7 +120,7 @@ impl InterferenceFilter {
     /// A filter of a transmittance at normal incidence and an effective index above 1.
     ///
     /// # Errors
-    /// Where the index is not above 1 or the transmittance leaves 0 to 1.
+    /// If the index is not above 1 or the transmittance leaves 0 to 1.
     pub fn new(normal: Spectrum, effective_index: f64) -> Result<Self, OpticsError> {
         if finite("effective_index", effective_index)? <= 1.0 {
             return Err(OpticsError::FilterIndex { value: effective_index });

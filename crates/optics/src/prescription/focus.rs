@@ -1,7 +1,7 @@
 //! Opening the stop, and bringing a distance into focus.
 //!
 //! In focus means: the paraxial image, at the lens's reference wavelength, of the axial point at the focus distance lies on the sensor (plus the
-//! defocus that the prescription asks for). Distances are from the entrance pupil, as for every lens; moving a group moves
+//! defocus that the prescription requests). Distances are from the entrance pupil, as for every lens; moving a group moves
 //! the pupil and changes the focal length (focus breathing), both of which the search takes into account.
 
 use etendue_spectra::glass::Dispersion;

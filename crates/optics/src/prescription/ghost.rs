@@ -30,9 +30,9 @@ pub struct GhostPair {
 pub struct GhostRay {
     /// Behind the last surface.
     pub ray: LensRay,
-    /// The share of the light that comes this way, as if no rim clipped it.
+    /// The fraction of the light that comes this way, as if no rim clipped it.
     pub weight: f64,
-    /// Greatest square of a distance from the axis over that of the rim there: above 1 the ray is clipped.
+    /// Largest square of a distance from the axis over that of the rim there: above 1 the ray is clipped.
     pub filling: f64,
 }
 
@@ -98,7 +98,7 @@ impl Prescription {
     /// the rear surface reflects everything: the caller multiplies by its reflectance.
     ///
     /// # Errors
-    /// Where it misses a surface or is totally reflected where it should pass.
+    /// If it misses a surface or is totally reflected where it should pass.
     pub fn ghost(&self, pair: GhostPair, ray: LensRay, nm: f64) -> Result<GhostRay, Lost> {
         self.ghost_in(pair, ray, nm, &self.media(nm))
     }

@@ -1,6 +1,6 @@
 //! The indices of all glasses of a lens at one wavelength, quickly.
 //!
-//! Wavelengths are continuous, so every ray asks anew. A Sellmeier equation costs three divisions and a root for each
+//! Wavelengths are continuous, so every ray asks again. A Sellmeier equation costs three divisions and a root for each
 //! glass; here each glass is a polynomial of degree 7 in 1/λ on 40 equal pieces, made by interpolation at Chebyshev points,
 //! which keeps 1e-10 from 320 to 1 100 nm for every glass of the catalogue and 1e-7 below (the densest flints resonate at
 //! 288 nm and let nothing through there).

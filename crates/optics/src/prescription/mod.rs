@@ -112,7 +112,7 @@ impl Prescription {
         whole.clipped(self.axial_opening.share)
     }
 
-    /// The surface other than the stop, from 0, whose rim limits the bundle on the axis; `None` where the stop does.
+    /// The surface other than the stop, from 0, whose rim limits the bundle on the axis; `None` if the stop does.
     #[must_use]
     pub fn axial_limit(&self) -> Option<usize> {
         self.axial_opening.limit
@@ -160,7 +160,7 @@ impl Prescription {
         self.surfaces[self.stop].semi_aperture_mm
     }
 
-    /// Whether any glass disperses.
+    /// True if any glass disperses.
     #[must_use]
     pub fn disperses(&self) -> bool {
         self.surfaces.iter().any(|surface| surface.glass.disperses())
@@ -170,7 +170,7 @@ impl Prescription {
     /// surfaces.
     ///
     /// # Errors
-    /// Where the ray is lost.
+    /// If the ray is lost.
     pub fn to_sensor(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
         self.through(ray, Way::ToSensor, nm)
     }
@@ -179,7 +179,7 @@ impl Prescription {
     /// surfaces.
     ///
     /// # Errors
-    /// Where the ray is lost.
+    /// If the ray is lost.
     pub fn to_scene(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
         self.through(ray, Way::ToScene, nm)
     }
@@ -201,8 +201,8 @@ impl Prescription {
         walk(&self.elements, 0, Way::ToSensor, media, ray, &mut rims)
     }
 
-    /// How far a ray fills the clear apertures on its `way`: the greatest distance from the axis over the rim's, above 1
-    /// where it is clipped. `None` where it misses a surface or is totally reflected.
+    /// How far a ray fills the clear apertures on its `way`: the largest distance from the axis over the rim's, above 1
+    /// where it is clipped. `None` if it misses a surface or is totally reflected.
     pub(crate) fn filling(&self, ray: LensRay, way: Way, media: &Media) -> Option<f64> {
         let mut fullness = Fullness { most: 0.0 };
         walk(&self.elements, 0, way, media, ray, &mut fullness).ok()?;
@@ -216,7 +216,7 @@ impl Prescription {
         paraxial::matrix(&self.elements, &self.media(nm)).image_mm(1.0 / before)
     }
 
-    /// Least and greatest distance of the last surface's opening from the sensor, mm.
+    /// Least and largest distance of the last surface's opening from the sensor, mm.
     pub(crate) fn rear_distances_mm(&self) -> [f64; 2] {
         let vertex = self.sensor_position_mm - self.last_vertex_mm();
         let rim = self.surfaces.last().and_then(|s| s.shape().sag(s.semi_aperture_mm)).unwrap_or(0.0);
@@ -235,7 +235,7 @@ impl Prescription {
     /// Where a ray from the sensor meets the stop's surface, from its vertex, whatever the clear apertures.
     ///
     /// # Errors
-    /// Where it misses a surface or is totally reflected on the way.
+    /// If it misses a surface or is totally reflected on the way.
     pub fn at_stop(&self, ray: LensRay, nm: f64) -> Result<DVec3, Lost> {
         self.stop_point(ray, &self.media(nm))
     }

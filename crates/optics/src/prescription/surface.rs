@@ -33,7 +33,7 @@ pub struct Surface {
     pub glass: Dispersion,
     /// What the surface reflects.
     pub coating: Coating,
-    /// Whether this is the aperture stop.
+    /// True if this is the aperture stop.
     pub stop: bool,
 }
 
@@ -105,7 +105,7 @@ impl Shape {
     }
 
     /// Where the ray from `p` (from the vertex) along the unit vector `d` crosses the surface in the `sense` given (1
-    /// towards the sensor, −1 towards the scene); `None` where it does not.
+    /// towards the sensor, −1 towards the scene); `None` if it does not.
     #[inline]
     pub(super) fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
         match self {

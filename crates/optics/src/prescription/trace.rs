@@ -126,7 +126,7 @@ impl Journey for Rims {
 
 /// How far the ray fills the rims it passes; nothing is clipped.
 pub(super) struct Fullness {
-    /// Greatest square of a distance from the axis over that of the rim there: above 1 the ray is clipped.
+    /// Largest square of a distance from the axis over that of the rim there: above 1 the ray is clipped.
     pub(super) most: f64,
 }
 

@@ -1,11 +1,11 @@
-//! The geometry that holds all that a picture looks at, fine enough for it.
+//! The geometry that holds all that a sensor image looks at, fine enough for it.
 //!
 //! - Up to [`WIDEST_RECTILINEAR_RAD`] from the axis one rectilinear view, none of whose pixels is wider than a pixel of the
-//!   picture anywhere. A lens without distortion or lateral colour gets the picture's own pixels.
-//! - Beyond that six views, none of whose pixels is wider than the longer side of a pixel of the picture anywhere. (Near the
+//!   sensor image anywhere. A lens without distortion or lateral colour gets the sensor image's own pixels.
+//! - Beyond that six views, none of whose pixels is wider than the longer side of a pixel of the sensor image anywhere. (Near the
 //!   pole of an equirectangular panorama pixels are as narrow as one likes, but no less tall.)
 //!
-//! Extremes of what is seen lie on the picture's border, which is looked at pixel by pixel, on the edge of the image
+//! Extremes of what is seen lie on the sensor image's border, which is looked at pixel by pixel, on the edge of the image
 //! circle, which is found to a step of the survey and that step added, or on a face's edge.
 
 use etendue_core::WavelengthRange;
@@ -21,11 +21,11 @@ use crate::{error::OpticsError, lens::Lens};
 const ROUNDING_PX: f64 = 1e-6;
 
 impl PupilProjection {
-    /// The geometry that holds every direction of a picture and of `margin_px` more columns and rows on all its sides, at the
+    /// The geometry that holds every direction of a sensor image and of `margin_px` more columns and rows on all its sides, at the
     /// wavelengths of a range (nm).
     ///
     /// # Errors
-    /// Where the lens has no single viewpoint or cannot image the picture.
+    /// If the lens has no single viewpoint or cannot image the sensor image.
     pub fn covering(
         lens: &Lens,
         raster: &Raster,
@@ -55,7 +55,7 @@ pub(super) fn serves(lens: &Lens) -> Result<(), OpticsError> {
     }
 }
 
-/// Whether the picture is rectilinear itself.
+/// True if the sensor image is rectilinear itself.
 fn is_plain(lens: &Lens) -> bool {
     let paraxial = matches!(lens, Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_));
     paraxial && lens.distortion().is_none() && !lens.spreads_colours()
@@ -90,7 +90,7 @@ fn six_views(survey: &Survey) -> Result<PupilProjection, OpticsError> {
 fn window(survey: &Survey, face: Face, face_px: usize) -> Option<Window> {
     let half = 0.5 * face_px as f64;
     let [low, high] = bounds(survey, face, 1.0)?.map(|tangent| tangent * half + half);
-    // A picture that crosses the face's edge was sampled beyond it; one that ends before needs a pixel for rounding.
+    // A sensor image that crosses the face's edge was sampled beyond it; one that ends before needs a pixel for rounding.
     let first = |t: f64| if t < 1.0 { -BORDER_PX } else { t.floor() as i64 - 1 };
     let last = face_px as f64 - 1.0;
     let end = |t: f64| if t > last { face_px as i64 + BORDER_PX } else { t.ceil() as i64 + 1 };
@@ -104,8 +104,8 @@ fn window(survey: &Survey, face: Face, face_px: usize) -> Option<Window> {
     })
 }
 
-/// The rectangle of tangents of a face that the picture sees, among those within `reach` of the axis and a step of the survey
-/// about them; `None` where it sees none of it.
+/// The rectangle of tangents of a face that the sensor image sees, among those within `reach` of the axis and a step of the survey
+/// about them; `None` if it sees none of it.
 fn bounds(survey: &Survey, face: Face, reach: f64) -> Option<[DVec2; 2]> {
     let step = survey.step_px as f64;
     let mut bounds: Option<[DVec2; 2]> = None;

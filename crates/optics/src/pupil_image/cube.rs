@@ -44,7 +44,7 @@ impl Cube {
     /// Faces of `face_px` × `face_px` pixels of which the given windows are stored, in the order of [`Face::ALL`].
     ///
     /// # Errors
-    /// Where there is no window, or one is empty.
+    /// If there is no window, or one is empty.
     pub fn new(face_px: usize, windows: [Option<Window>; 6]) -> Result<Self, OpticsError> {
         let empty = |w: &Window| w.width == 0 || w.height == 0;
         if face_px == 0 || windows.iter().all(Option::is_none) || windows.iter().flatten().any(empty) {

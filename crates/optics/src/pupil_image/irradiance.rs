@@ -19,7 +19,7 @@ use crate::{error::OpticsError, lens::Lens};
 /// Irradiance on the sensor of a radiance image that already is in the sensor's raster.
 ///
 /// # Errors
-/// Where the image's size is not the raster's.
+/// If the image's size is not the raster's.
 pub fn irradiance(
     radiance: &SpectralCube<Radiance>,
     lens: &Lens,
@@ -50,7 +50,7 @@ pub fn irradiance(
     Ok(result)
 }
 
-/// The same for one band at a time, with the memory of that band alone: the étendue is found anew for each, row by row on the caller's threads.
+/// The same for one band at a time, with the memory of that band alone: the étendue is found again for each, row by row on the caller's threads.
 #[derive(Debug)]
 pub struct BandEtendue<'a> {
     lens: &'a Lens,
@@ -73,7 +73,7 @@ impl<'a> BandEtendue<'a> {
     /// Irradiance of the band about `centre_nm` of a radiance in the raster: the numbers that [`irradiance`] has.
     ///
     /// # Errors
-    /// Where the plane's size is not the raster's.
+    /// If the plane's size is not the raster's.
     pub fn irradiance(&self, radiance: &Plane<Radiance>, centre_nm: f64) -> Result<Plane<Irradiance>, OpticsError> {
         let (width, height) = (self.raster.width(), self.raster.height());
         check_plane(radiance, width, height)?;

@@ -6,8 +6,8 @@
 //!   convention, centres at + 0.5); a pixel that belongs to no view looks nowhere.
 //! - [`PupilProjection::Rectilinear`]: one view about the optical axis, direction = ((px − principal) · pitch, 1) with the
 //!   tangents X/Z and Y/Z of the camera frame. Without distortion and with square pixels an image made by
-//!   [`PupilProjection::covering`] has exactly the pixels of the picture.
-//! - [`PupilProjection::Cube`]: six views (`cube.rs`), for pictures that look further than [`WIDEST_RECTILINEAR_RAD`] from
+//!   [`PupilProjection::covering`] has exactly the pixels of the sensor image.
+//! - [`PupilProjection::Cube`]: six views (`cube.rs`), for sensor images that look further than [`WIDEST_RECTILINEAR_RAD`] from
 //!   the axis.
 
 use core::f64::consts::FRAC_PI_2;
@@ -38,7 +38,7 @@ impl PupilProjection {
     /// One view of `width` × `height` pixels, each `pitch_tan` wide in tangent, with the optical axis at `principal_px`.
     ///
     /// # Errors
-    /// Where a number is not finite, or size or pitch not positive.
+    /// If a number is not finite, or size or pitch not positive.
     pub fn rectilinear(width: usize, height: usize, pitch_tan: f64, principal_px: DVec2) -> Result<Self, OpticsError> {
         positive("width", width as f64)?;
         positive("height", height as f64)?;
@@ -62,7 +62,7 @@ impl PupilProjection {
         }
     }
 
-    /// [`Self::widened`] by a share of the view, or of the cube's faces.
+    /// [`Self::widened`] by a fraction of the view, or of the cube's faces.
     #[must_use]
     pub fn overscanned(&self, share: f64) -> Self {
         let [columns, rows] = match self {
@@ -114,7 +114,7 @@ impl PupilProjection {
         self.views().find(|view| view.holds(px)).map(|view| view.direction(px))
     }
 
-    /// The view that shows a direction; `None` where none does.
+    /// The view that shows a direction; `None` if none does.
     #[must_use]
     pub fn view(&self, direction: DVec3) -> Option<&View> {
         match self {
@@ -126,7 +126,7 @@ impl PupilProjection {
         }
     }
 
-    /// Refuses a direction that the image does not hold, but for rounding.
+    /// Refuses a direction that the image does not hold, except for rounding.
     ///
     /// # Errors
     /// Names the edge beyond which the direction lies and by how much, or the view that is missing.
@@ -141,7 +141,7 @@ impl PupilProjection {
     }
 }
 
-/// How far a picture may reach beyond an image before directions count as missing: rounding of the same geometry
+/// How far a sensor image may reach beyond an image before directions count as missing: rounding of the same geometry
 /// written down and read back.
 const EDGE_PX: f64 = 1e-3;
 

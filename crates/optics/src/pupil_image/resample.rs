@@ -1,12 +1,12 @@
 //! Distortion, lateral colour and raster by resampling a stored radiance image.
 //!
-//! A pixel of the picture is cut into cells, n × n with n = 2 or as many as it takes for a cell to be no wider than two stored
+//! A pixel of the sensor image is cut into cells, n × n with n = 2 or as many as it takes for a cell to be no wider than two stored
 //! pixels. Each cell is read from the view that shows its middle: its footprint is taken as the upright rectangle of the
 //! cell's own second moments there (for a cell with edges a and b: √(a_x² + b_x²) wide and √(a_y² + b_y²) high), and the
 //! cell's radiance is the mean over that rectangle of the stored image, whose pixels count as uniform. Weights sum to one,
 //! so a uniform radiance stays uniform.
 //!
-//! Blur: the picture's own pixel box, widened by the stored pixel's box. Where both grids have one pitch this is exactly
+//! Blur: the sensor image's own pixel box, widened by the stored pixel's box. Where both grids have one pitch this is exactly
 //! linear interpolation of the stored pixels (the identity where the grids coincide: then nothing is blurred); where the
 //! stored image is finer it tends to the exact pixel mean. Views overlap by a few pixels, so that across the edges of a cube
 //! the radiance is as continuous as within a face.
@@ -31,21 +31,21 @@ use crate::{error::OpticsError, lens::Lens};
 const CELLS: (usize, usize) = (2, 64);
 /// Stored pixels that a cell may be wide.
 const CELL_PX: f64 = 2.0;
-/// The least side of a cell's footprint, stored pixels: two make the box of a linear interpolation.
+/// The smallest side of a cell's footprint, stored pixels: two make the box of a linear interpolation.
 const MIN_PX: f64 = 0.5;
 
-/// The map from a stored radiance image to the picture of a lens and a raster, with a margin about it.
+/// The map from a stored radiance image to the sensor image of a lens and a raster, with a margin about it.
 #[derive(Clone, Debug)]
 pub struct Resampling<'a> {
     stored: PupilProjection,
     lens: &'a Lens,
-    /// The picture with its margin.
+    /// The sensor image with its margin.
     raster: Raster,
     /// Cells a pixel along each axis.
     cells: usize,
 }
 
-/// A share of one stored pixel in a pixel of the picture.
+/// A fraction of one stored pixel in a pixel of the sensor image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Tap {
     index: usize,
@@ -56,10 +56,10 @@ struct Tap {
 type Corners<'a> = [&'a [Option<DVec3>]; 2];
 
 impl<'a> Resampling<'a> {
-    /// A resampling of images of geometry `stored` into the raster of the picture with `margin_px` more columns and rows on all sides.
+    /// A resampling of images of geometry `stored` into the raster of the sensor image with `margin_px` more columns and rows on all sides.
     ///
     /// # Errors
-    /// Where the picture needs directions that the image does not hold, or the lens cannot image the picture.
+    /// If the sensor image needs directions that the image does not hold, or the lens cannot image the sensor image.
     pub fn new(
         stored: PupilProjection,
         lens: &'a Lens,
@@ -81,16 +81,16 @@ impl<'a> Resampling<'a> {
         Ok(Self { stored, lens, raster, cells })
     }
 
-    /// The pixels of the result: those of the picture and of its margin.
+    /// The pixels of the result: those of the sensor image and of its margin.
     #[must_use]
     pub fn raster(&self) -> &Raster {
         &self.raster
     }
 
-    /// The radiance image in the raster of the picture.
+    /// The radiance image in the raster of the sensor image.
     ///
     /// # Errors
-    /// Where the image's size is not that of its geometry, or directions are missing after all.
+    /// If the image's size is not that of its geometry, or directions are missing after all.
     pub fn apply(&self, radiance: &SpectralCube<Radiance>) -> Result<SpectralCube<Radiance>, OpticsError> {
         check_size(radiance, self.stored.width(), self.stored.height())?;
         let bands = radiance.bands();
@@ -98,11 +98,11 @@ impl<'a> Resampling<'a> {
         Ok(SpectralCube::from_planes(bands, planes).expect("a plane a band, all of the raster's size"))
     }
 
-    /// Some bands of a radiance image in the raster of the picture, each of the wavelength in its middle, nm: the numbers that
+    /// Some bands of a radiance image in the raster of the sensor image, each of the wavelength in its middle, nm: the numbers that
     /// [`apply`](Self::apply) has.
     ///
     /// # Errors
-    /// Where a band's size is not that of the geometry, or directions are missing after all.
+    /// If a band's size is not that of the geometry, or directions are missing after all.
     pub fn apply_to_bands(
         &self,
         radiance: &[Plane<Radiance>],
@@ -124,11 +124,11 @@ impl<'a> Resampling<'a> {
         Ok(result)
     }
 
-    /// A stored plane in the raster of the picture, each pixel the stored one nearest to its centre's chief ray (587.56 nm):
+    /// A stored plane in the raster of the sensor image, each pixel the stored one nearest to its centre's chief ray (587.56 nm):
     /// never averaged. `nothing` where no ray is.
     ///
     /// # Errors
-    /// Where the plane's size is not that of the geometry.
+    /// If the plane's size is not that of the geometry.
     pub fn nearest<Q: Quantity>(&self, plane: &Plane<Q>, nothing: Q::Sample) -> Result<Plane<Q>, OpticsError> {
         check_plane(plane, self.stored.width(), self.stored.height())?;
         let aim = Aim::principal(self.lens, self.raster.max_radius_mm() * REACH);
@@ -156,7 +156,7 @@ impl<'a> Resampling<'a> {
         Ok(())
     }
 
-    /// A row of the picture in all planes, plane after plane.
+    /// A row of the sensor image in all planes, plane after plane.
     fn row(&self, aim: &Aim<'_>, y: usize, from: &[Plane<Radiance>]) -> Result<Vec<f32>, OpticsError> {
         let (n, width) = (self.cells, self.raster.width());
         let lines: Vec<Vec<Option<DVec3>>> = (0..=n).map(|i| self.corner_row(aim, y * n + i)).collect();
@@ -237,7 +237,7 @@ impl<'a> Resampling<'a> {
     }
 }
 
-/// Refuses a picture that looks where the image holds nothing.
+/// Refuses a sensor image that looks where the image holds nothing.
 fn check_covers(stored: &PupilProjection, survey: &Survey) -> Result<(), OpticsError> {
     let mut worst: Option<(f64, OpticsError)> = None;
     for look in &survey.looks {
@@ -267,7 +267,7 @@ fn footprint(view: &View, corners: [DVec3; 4], middle: DVec3) -> Option<[DVec2; 
 }
 
 /// The pixels from `first` on, `count` of them, that the interval [low, high] touches, with the length in each. Pixels at the
-/// edge stand for what lies beyond (rounding only: the picture lies inside).
+/// edge stand for what lies beyond (rounding only: the sensor image lies inside).
 fn overlaps(low: f64, high: f64, first: usize, count: usize) -> impl Iterator<Item = (usize, f64)> {
     let index = move |p: f64| (p.floor().max(first as f64) as usize).min(first + count - 1);
     let (start, end) = (index(low), index(high));

@@ -1,6 +1,6 @@
-//! Where a picture looks, in samples: what decides the geometry of a stored image.
+//! Where a sensor image looks, in samples: what decides the geometry of a stored image.
 //!
-//! Where the points of a picture look, by wavelength, at the cost of a table where the lens itself is dear.
+//! Where the points of a sensor image look, by wavelength, at the cost of a table where the lens itself is dear.
 //!
 //! A prescription's chief rays (through the centre of the stop, of the wavelength) are traced at [`KNOTS`] radii; their field
 //! angles are interpolated by cubics through the neighbours' slopes (Catmull and Rom 1974). The angle is a smooth function
@@ -10,7 +10,7 @@
 //!
 //! Ω at 587.56 nm stands at [`KNOTS`] radii, its ratio at another wavelength at one in [`STRIDE`] of them; both are
 //! interpolated linearly. The error is tested to stay below 1e-3 of the étendue on the axis (2e-4 where no aperture begins
-//! or ends to clip); where the lens gets dark the last step is one of 1/256 of the picture's radius.
+//! or ends to clip); where the lens gets dark the last step is one of 1/256 of the sensor image's radius.
 
 use core::f64::consts::PI;
 
@@ -23,12 +23,12 @@ use super::view::Face;
 use crate::lens::{DIRECTIONS, FieldAngles, Lens, Prescribed};
 use crate::overlap::PRINCIPAL_NM;
 
-/// Samples along a side of the picture, at least; its border is looked at pixel by pixel.
+/// Samples along a side of the sensor image, at least; its border is looked at pixel by pixel.
 const SAMPLES: usize = 256;
 /// Wavelengths at which a lens is asked whose chief rays depend on them.
 const WAVELENGTHS: usize = 5;
 
-/// A sample of a picture.
+/// A sample of a sensor image.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     pub(super) direction: DVec3,
@@ -45,13 +45,13 @@ impl Look {
     }
 }
 
-/// Samples of a picture.
+/// Samples of a sensor image.
 #[derive(Clone, Debug)]
 pub(super) struct Survey {
     pub(super) looks: Vec<Look>,
-    /// Pixels between samples inside the picture.
+    /// Pixels between samples inside the sensor image.
     pub(super) step_px: usize,
-    /// Whether some samples look nowhere.
+    /// True if some samples look nowhere.
     pub(super) dark: bool,
 }
 
@@ -78,14 +78,14 @@ impl Survey {
         self.looks.push(Look { direction, around });
     }
 
-    /// The greatest angle from the axis, rad.
+    /// The largest angle from the axis, rad.
     pub(super) fn widest_rad(&self) -> f64 {
         let angle = |look: &Look| atan2(look.direction.truncate().length(), look.direction.z);
         self.looks.iter().map(angle).fold(0.0, f64::max).min(PI)
     }
 }
 
-/// Tables reach a little beyond the picture.
+/// Tables reach a little beyond the sensor image.
 pub(super) const REACH: f64 = 1.02;
 
 /// The wavelengths whose chief rays differ.
@@ -96,7 +96,7 @@ fn wavelengths(lens: &Lens, range: WavelengthRange) -> Vec<f64> {
     (0..WAVELENGTHS).map(|i| range.low_nm + range.width_nm() * i as f64 / (WAVELENGTHS - 1) as f64).collect()
 }
 
-/// Pixel corners: a lattice inside the picture, all along its border.
+/// Pixel corners: a lattice inside the sensor image, all along its border.
 fn points(raster: &Raster, step_px: usize) -> impl Iterator<Item = DVec2> {
     let (w, h) = (raster.width(), raster.height());
     let row = move |y: usize| {
@@ -139,7 +139,7 @@ impl<'a> Aim<'a> {
         Self::new(lens, reach_mm, PRINCIPAL_NM)
     }
 
-    /// The unit direction seen at a sensor point; `None` where there is none.
+    /// The unit direction seen at a sensor point; `None` if there is none.
     pub(crate) fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
         match self {
             Self::Lens { lens, nm } => lens.direction_at(sensor_mm, *nm).map(DVec3::normalize),

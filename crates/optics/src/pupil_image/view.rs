@@ -39,7 +39,7 @@ impl Face {
         }
     }
 
-    /// Unit vectors (camera frame) to the right, down and ahead in the face's picture.
+    /// Unit vectors (camera frame) to the right, down and ahead in the face's sensor image.
     #[must_use]
     pub fn axes(self) -> [DVec3; 3] {
         let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
@@ -72,7 +72,7 @@ impl Face {
         }
     }
 
-    /// The direction's point on the plane at unit distance; `None` where it does not look ahead.
+    /// The direction's point on the plane at unit distance; `None` if it does not look ahead.
     #[must_use]
     pub fn tangent(self, direction: DVec3) -> Option<DVec2> {
         let [right, down, ahead] = self.axes();
@@ -134,7 +134,7 @@ impl View {
         self.face.direction((px - self.principal_px) * self.pitch_tan)
     }
 
-    /// The pixel coordinates of a direction, within the view's pixels or not; `None` where it does not look ahead.
+    /// The pixel coordinates of a direction, within the view's pixels or not; `None` if it does not look ahead.
     #[must_use]
     pub fn px(&self, direction: DVec3) -> Option<DVec2> {
         self.face.tangent(direction).map(|t| t / self.pitch_tan + self.principal_px)
@@ -146,7 +146,7 @@ impl View {
         [low, low + DVec2::new(self.size[0] as f64, self.size[1] as f64)]
     }
 
-    /// Whether a pixel of the stored image belongs to the view.
+    /// True if a pixel of the stored image belongs to the view.
     #[must_use]
     pub fn holds(&self, px: DVec2) -> bool {
         let [low, high] = self.bounds();

@@ -25,7 +25,7 @@ pub struct Transfer {
     pub point: [Polynomial; 3],
     /// dx and dy of the unit direction.
     pub direction: [Polynomial; 2],
-    /// A polynomial whose sign is that of dz; `None` where all rays go forwards.
+    /// A polynomial whose sign is that of dz; `None` if all rays go forwards.
     pub forwards: Option<Polynomial>,
 }
 
@@ -51,7 +51,7 @@ impl RayTransfer {
     /// Of functions of rising wavelengths.
     ///
     /// # Errors
-    /// Where there are none, or their wavelengths do not rise.
+    /// If there are none, or their wavelengths do not rise.
     pub fn new(thickness_mm: f64, input_offset_mm: f64, transfers: Vec<Transfer>) -> Result<Self, RayTransferError> {
         let rising = transfers.windows(2).all(|pair| pair[1].wavelength_nm > pair[0].wavelength_nm);
         let first = transfers.first().is_some_and(|t| t.wavelength_nm > 0.0);
@@ -95,7 +95,7 @@ impl RayTransfer {
         sensor_mm - self.input_offset_mm + self.transfers[0].pass.plane_mm
     }
 
-    /// Whether the functions of an index let a ray through, from a point of the sensor to one of the pupil's plane (mm).
+    /// True if the functions of an index let a ray through, from a point of the sensor to one of the pupil's plane (mm).
     #[inline]
     pub(crate) fn passes(&self, index: usize, from: &Entry) -> bool {
         let pass = &self.transfers[index].pass;
@@ -103,7 +103,7 @@ impl RayTransfer {
         pass.passes(from.height_mm, at)
     }
 
-    /// The ray that leaves the lens at a wavelength, passed or not; of wavelengths between two it is linear between theirs, beyond them theirs. `None` where the
+    /// The ray that leaves the lens at a wavelength, passed or not; of wavelengths between two it is linear between theirs, beyond them theirs. `None` if the
     /// functions give no direction.
     #[inline]
     pub(crate) fn leaving(&self, from: &Entry, sensor_mm: f64, nm: f64) -> Option<TransferRay> {
@@ -210,7 +210,7 @@ impl RayPass {
     /// Of a region of the plane at `plane_mm` from the input plane.
     ///
     /// # Errors
-    /// Where the heights do not rise from 0, the region is empty or a number is none.
+    /// If the heights do not rise from 0, the region is empty or a number is none.
     pub fn new(plane_mm: f64, region: PassRegion) -> Result<Self, RayTransferError> {
         let legal = match &region {
             PassRegion::Ellipses(list) => {
@@ -229,7 +229,7 @@ impl RayPass {
         if legal && plane_mm.is_finite() { Ok(Self { plane_mm, region }) } else { Err(RayTransferError::Pass) }
     }
 
-    /// Whether a ray of a height passes that meets the plane there (y along the meridian).
+    /// True if a ray of a height passes that meets the plane there (y along the meridian).
     #[inline]
     fn passes(&self, height_mm: f64, at_mm: DVec2) -> bool {
         match &self.region {
@@ -292,7 +292,7 @@ impl Polynomial {
     /// The sum of terms.
     ///
     /// # Errors
-    /// Where a coefficient is not finite or a power is above [`MAX_POWER`].
+    /// If a coefficient is not finite or a power is above [`MAX_POWER`].
     pub fn new(terms: Vec<Term>) -> Result<Self, RayTransferError> {
         let legal = |t: &Term| t.coefficient.is_finite() && t.powers.iter().all(|p| usize::from(*p) <= MAX_POWER);
         if terms.iter().all(legal) { Ok(Self { terms }) } else { Err(RayTransferError::Polynomial) }

@@ -87,7 +87,7 @@ fn ideal_projections_fall_off_by_their_closed_forms() {
     }
 }
 
-/// The light that a whole-sphere picture collects from a uniform surround: L A_p times the sphere's 4π.
+/// The light that a whole-sphere image collects from a uniform surround: L A_p times the sphere's 4π.
 #[test]
 fn a_sphere_s_worth_of_solid_angle_lands_on_a_panorama() {
     let f_px = 640.0 / (2.0 * PI);

@@ -36,7 +36,7 @@ fn clipped() -> Lens {
     .expect("legal")
 }
 
-/// A picture seen along principal rays: what stands where, by the tangents of the direction.
+/// An image seen along principal rays: what stands where, by the tangents of the direction.
 fn seen(
     lens: &Lens,
     raster: &Raster,
@@ -69,7 +69,7 @@ fn physical(
     DepthOfField::Physical.apply(&view)
 }
 
-/// Sum, mean and root of the mean variance along both axes, px, of the light of a picture.
+/// Sum, mean and root of the mean variance along both axes, px, of the light of an image.
 fn spot(cube: &SpectralCube<Radiance>) -> (f64, DVec2, f64) {
     let at = |i: usize| DVec2::new((i % cube.width()) as f64 + 0.5, (i / cube.width()) as f64 + 0.5);
     let light: Vec<f64> = cube.planes()[0].samples().iter().map(|l| f64::from(*l)).collect();
@@ -79,7 +79,7 @@ fn spot(cube: &SpectralCube<Radiance>) -> (f64, DVec2, f64) {
     (sum, mean, (0.5 * square / sum).sqrt())
 }
 
-/// The share of a pixel's pupil through which a half plane x < edge in front is seen, by the lens's own rays.
+/// The fraction of a pixel's pupil through which a half plane x < edge in front is seen, by the lens's own rays.
 fn covered(lens: &Lens, sensor_mm: DVec2, near_m: f64, edge_m: f64) -> f64 {
     const SIDE: usize = 48;
     let sample = |i: usize| DVec2::new((i % SIDE) as f64 + 0.5, (i / SIDE) as f64 + 0.5) / SIDE as f64;

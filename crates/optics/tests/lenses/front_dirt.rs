@@ -29,7 +29,7 @@ fn lens() -> Lens {
     Lens::thin(p).expect("a lens")
 }
 
-/// Share of a disc of radius 1 to the left of the line x = h.
+/// Fraction of a disc of radius 1 to the left of the line x = h.
 fn left_of(h: f64) -> f64 {
     if h >= 1.0 {
         1.0
@@ -94,7 +94,7 @@ fn beyond_the_mask_the_glass_is_clean_and_a_mask_is_upright() {
         let bare = lens.ray(at, DVec2::splat(0.5), 550.0).expect("light").weight_sr;
         front.ray(&lens, at, DVec2::splat(0.5), 550.0).map_or(0.0, |ray| ray.ray.weight_sr / bare)
     };
-    // Right is right and down is down, as in the picture.
+    // Right is right and down is down, as in the image.
     for (x, y, expected) in [(-3.0, -3.0, 0.0), (3.0, -3.0, 0.25), (-3.0, 3.0, 0.5), (3.0, 3.0, 1.0), (-5.0, -3.0, 1.0)]
     {
         assert!((seen(x, y) - expected).abs() < 1e-12, "{x} {y}: {}", seen(x, y));

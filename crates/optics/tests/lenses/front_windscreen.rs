@@ -1,4 +1,4 @@
-//! Wind-screens in front of the lens, against closed forms.
+//! Windscreens in front of the lens, against closed forms.
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{asin, pow, sin_cos};
@@ -45,7 +45,7 @@ fn doubled_axis(parameters: WindscreenParameters) -> FrontRay {
     front.ray(&pinhole(), DVec2::ZERO, DVec2::new(0.25, 0.5), 550.0).expect("a ray")
 }
 
-/// Share of the light that passes on the axis.
+/// Fraction of the light that passes on the axis.
 fn share(ray: &FrontRay) -> f64 {
     ray.ray.weight_sr / pinhole().principal_ray(DVec2::ZERO).expect("a ray").weight_sr
 }

@@ -139,7 +139,7 @@ fn rays_near_the_axis_follow_first_order() {
 const PIXELS: usize = 120;
 const PITCH_MM: f64 = 0.3;
 
-/// A picture of 36 mm with one bright pixel, and its ghosts, for two bands.
+/// An image of 36 mm with one bright pixel, and its ghosts, for two bands.
 fn ghosts_of(lens: &Prescribed, pixel: [usize; 2], sensor: f64) -> SpectralCube<Irradiance> {
     let raster = Raster::centred(PIXELS, PIXELS, PITCH_MM).expect("a raster");
     let bands = Bands::new(560.0, 20.0, 2).expect("bands");
@@ -152,7 +152,7 @@ fn prescribed(lens: Prescription) -> Prescribed {
     Prescribed::new(lens, None, 26.0).expect("lit")
 }
 
-/// Light of the pixel's ghosts on the picture by a plain sum over a fine grid of rays over the whole front, without tables:
+/// Light of the pixel's ghosts on the image by a plain sum over a fine grid of rays over the whole front, without tables:
 /// its sum and centroid, over the light of the pixel.
 fn plain_sum(lens: &Prescribed, at_mm: DVec2, nm: f64, sensor: f64) -> (f64, DVec2) {
     const SIDE: i32 = 160;
@@ -178,7 +178,7 @@ fn plain_sum(lens: &Prescribed, at_mm: DVec2, nm: f64, sensor: f64) -> (f64, DVe
             let Ok(ghost) = p.ghost(pair, LensRay { point, direction: travel }, nm) else { continue };
             let end = ghost.ray.point
                 + ghost.ray.direction * ((p.sensor_position_mm() - ghost.ray.point.z) / ghost.ray.direction.z);
-            // The picture is erect.
+            // The image is erect.
             let end = -end.truncate();
             if ghost.filling <= 1.0 && end.abs().max_element() < edge {
                 sum += ghost.weight * mirrored * step * step;
@@ -209,7 +209,7 @@ fn a_layer_holds_the_light_of_a_plain_sum_over_rays() {
         let at = (DVec2::new(pixel[0] as f64, pixel[1] as f64) + 0.5 - PIXELS as f64 / 2.0) * PITCH_MM;
         let (sum, centre) = measured(&cube);
         let (expected, middle) = plain_sum(&lens, at, 590.0, sensor);
-        // 0.5 % of pairs are left out; grids, edges of the picture and tables by angle take as much.
+        // 0.5 % of pairs are left out; grids, edges of the image and tables by angle take as much.
         assert!((sum / expected - 1.0).abs() < 0.02, "{sum} {expected}");
         assert!((centre - middle).length() < 0.3, "{centre} {middle}");
     }

@@ -64,7 +64,7 @@ fn the_meeting_point_is_the_lens_equation_s() {
     let lens = thin(0.6);
     let magnification = 16.0 / (600.0 - 16.0);
     let meeting = at_depth(&lens.principal_ray(DVec2::new(2.0, 0.0)).expect("open"), 0.6);
-    // The erect picture: a point on its right is an object on the right.
+    // The erect image: a point on its right is an object on the right.
     assert!((meeting.x - 2e-3 / magnification).abs() < 1e-14);
     assert!((lens.sensor_plane_m() + 0.016 * (1.0 + magnification)).abs() < 1e-16);
 }

@@ -11,7 +11,7 @@ use etendue_spectra::glass::{Dispersion, LINE_C_NM, LINE_F_NM};
 use etendue_spectra::{Outside, Spectrum};
 use glam::{DVec2, DVec3};
 
-/// The published lenses with the radius of picture that each is for, mm.
+/// The published lenses with the radius of image that each is for, mm.
 const LENSES: [(&str, f64); 4] = [("double-gauss", 21.6), ("wide-angle", 19.2), ("fisheye", 12.75), ("telephoto", 6.3)];
 
 fn focused(surfaces: Vec<Surface>, focus: Focus) -> Prescription {
@@ -60,7 +60,7 @@ fn few_proposals_fail_and_the_mean_weight_is_the_etendue() {
                 failed += f64::from(u8::from(lens.ray(sensor_mm, pupil, nm).is_none()));
                 mean_sr += lens.ray(sensor_mm, pupil, 587.56).map_or(0.0, |ray| ray.weight_sr) / 4000.0;
             }
-            // Quasi-random points: the share of the region's edge that they miscount, some 1/√4000^(3/2) of a few.
+            // Quasi-random points: the fraction of the region's edge that they miscount, some 1/√4000^(3/2) of a few.
             let projected_solid_angle_sr = lens.projected_solid_angle_sr(sensor_mm);
             assert!(
                 (mean_sr / projected_solid_angle_sr - 1.0).abs() < 6e-3,

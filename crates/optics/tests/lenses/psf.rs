@@ -55,7 +55,7 @@ fn a_point_keeps_its_light_and_its_place() {
     let effects = effects(PsfParameters { reach_mm: Some(0.1), blades: 6, ..round() }, &lens(50.0, 8.0), &raster);
     let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 60, 50), None).0;
     let sum: f64 = picture.samples().iter().map(|v| f64::from(*v)).sum();
-    // 32-bit pixels; the pattern's lattice has one row more on the side of the picture's origin.
+    // 32-bit pixels; the pattern's lattice has one row more on the side of the image's origin.
     assert!((sum - 1.0).abs() < 1e-6 && (centroid(&picture) - DVec2::new(60.0, 50.0)).length() < 1e-3, "{sum}");
 }
 

@@ -60,7 +60,7 @@ fn in_the_lens(ray: &PupilRay) -> (DVec2, DVec2) {
     (ray.origin_m.truncate() * 1e3 * flip, ray.direction.truncate() * flip)
 }
 
-/// What an ideal lens of a power makes of the ray from a point of the erect picture through a point of the lens.
+/// What an ideal lens of a power makes of the ray from a point of the erect image through a point of the lens.
 fn ideal_direction(sensor_mm: DVec2, at_mm: DVec2, power: f64) -> DVec2 {
     // The image is upside down: what is seen to the right falls on the left of the sensor.
     let film = DVec2::new(-sensor_mm.x, sensor_mm.y);
@@ -79,7 +79,7 @@ fn skew_rays_are_bent_as_by_an_ideal_lens() {
         assert!(at.length() <= 8.0 && (ray.direction.length() - 1.0).abs() < 1e-12);
         count += 1;
     }
-    // Of a disc drawn evenly all pass, but for the margin of what is drawn from.
+    // Of a disc drawn evenly all pass, except for the margin of what is drawn from.
     assert!(count > 700, "{count} of 768 rays");
 }
 

@@ -33,7 +33,7 @@ fn effects(psf: PointSpread, spread_by: Option<SpreadBy>) -> Result<Effects, Eff
     Effects::new(parameters, &raster())
 }
 
-/// A picture of a Gaussian, sampled at twelfths of a pixel.
+/// An image of a Gaussian, sampled at twelfths of a pixel.
 fn gaussian(sigma_px: f64) -> PointSpread {
     const SIDE: usize = 85;
     let step = 1.0 / 12.0;

@@ -110,7 +110,7 @@ fn a_retrofocus_lens_has_lateral_colour_of_the_right_sign() {
         let um = [f.centroid_mm, f.chief_mm.expect("a ray"), c.centroid_mm, c.chief_mm.expect("a ray")];
         told.push(um.map(|mm| (1e6 * mm).round() / 1e3));
     }
-    // At 0°, 15° and 30°: F by centroid and chief ray, C likewise, µm; optiland's and rayoptics's to the last digit but for the centroids' 0.002.
+    // At 0°, 15° and 30°: F by centroid and chief ray, C likewise, µm; optiland's and rayoptics's to the last digit except for the centroids' 0.002.
     assert_eq!(told, RETROFOCUS_UM);
 }
 

@@ -1,4 +1,4 @@
-//! Point-spread functions from pictures on a film.
+//! Point-spread functions from images on a film.
 
 use etendue_core::Plane;
 use etendue_core::WavelengthRange;

@@ -1,6 +1,6 @@
 //! F-theta cameras: a polynomial from the field angle to the radius, or from the radius to the field angle.
 //!
-//! r = c₁ θ + c₂ θ² + … or θ = c₁ r + c₂ r² + …, up to a stated greatest angle, then the affine map c, d, e: the f-theta
+//! r = c₁ θ + c₂ θ² + … or θ = c₁ r + c₂ r² + …, up to a stated largest angle, then the affine map c, d, e: the f-theta
 //! model of NVIDIA DriveWorks ("angle-to-pixeldistance", "pixeldistance-to-angle"). A polynomial in pixels goes with a
 //! camera matrix of fx = fy = 1; one in focal lengths with the camera's own. [`Affine`] stretches the rows by c, in
 //! OCamCalib's order; files whose c stretches the columns have to be put in that order.
@@ -30,7 +30,7 @@ impl FTheta {
     /// The camera of c₀ = 0, c₁, c₂, …, up to a field angle.
     ///
     /// # Errors
-    /// Where c₀ is not 0, c₁ not positive, a number not finite, the angle not in (0, π] or the affine map mirrors.
+    /// If c₀ is not 0, c₁ not positive, a number not finite, the angle not in (0, π] or the affine map mirrors.
     pub fn new(
         sense: FThetaSense,
         coefficients: Vec<f64>,
@@ -81,9 +81,9 @@ struct Polynomial {
     sense: FThetaSense,
     c: Vec<f64>,
     slope: Vec<f64>,
-    /// The greatest angle as stated.
+    /// The largest angle as stated.
     stated_rad: f64,
-    /// The greatest argument: an angle or a radius.
+    /// The largest argument: an angle or a radius.
     greatest: f64,
     edge: Edge,
 }
@@ -110,7 +110,7 @@ impl Polynomial {
         [polynomial(&self.c, x), polynomial(&self.slope, x)]
     }
 
-    /// The argument of a value; `None` at the greatest or beyond.
+    /// The argument of a value; `None` at the largest or beyond.
     fn inverse(&self, value: f64) -> Option<f64> {
         increasing(value, [0.0, self.greatest], value / self.c[1], |x| self.value(x))
     }

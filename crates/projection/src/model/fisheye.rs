@@ -34,7 +34,7 @@ impl KannalaBrandt {
     /// The fisheye with these coefficients, k₁ first.
     ///
     /// # Errors
-    /// Where one is not finite.
+    /// If one is not finite.
     pub fn new(k: [f64; 4]) -> Result<Self, ModelError> {
         Self::long([k[0], k[1], k[2], k[3], 0.0, 0.0])
     }
@@ -42,7 +42,7 @@ impl KannalaBrandt {
     /// The fisheye with six coefficients.
     ///
     /// # Errors
-    /// Where one is not finite.
+    /// If one is not finite.
     pub fn long(coefficients: [f64; LONGEST]) -> Result<Self, ModelError> {
         finite_list("k", 1, &coefficients)?;
         let mut slope = [1.0; LONGEST + 1];
@@ -99,7 +99,7 @@ impl ThinPrismFisheye {
     /// The fisheye of a polynomial and the terms of the distortion of its plane.
     ///
     /// # Errors
-    /// Where a number is not finite.
+    /// If a number is not finite.
     pub fn new(fisheye: KannalaBrandt, terms: DistortionTerms) -> Result<Self, ModelError> {
         terms.check()?;
         let reach = fisheye.radius(Profile::edge(&fisheye).angle_rad);

@@ -20,7 +20,7 @@
 //! | equirectangular | azimuth λ | elevation φ below the horizon | cos φ |
 //!
 //! λ runs from −π to π, rad, and is 0 ahead; φ from −π/2 to π/2 and is positive downwards, as y is. The cylinder leaves out
-//! the poles. A picture of the whole sphere has fx = width/2π and fy = height/π (COLMAP's EQUIRECTANGULAR).
+//! the poles. An image of the whole sphere has fx = width/2π and fy = height/π (COLMAP's EQUIRECTANGULAR).
 
 use core::f64::consts::{FRAC_PI_2, PI};
 

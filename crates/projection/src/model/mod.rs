@@ -96,19 +96,19 @@ impl Model {
         self.projection().project(direction)
     }
 
-    /// The unit direction seen at an image point; `None` where nothing is.
+    /// The unit direction seen at an image point; `None` if nothing is.
     #[must_use]
     pub fn unproject(&self, point: DVec2) -> Option<DVec3> {
         self.projection().unproject(point)
     }
 
-    /// dΩ/dA, the solid angle (sr) that unit area of the image plane sees at an image point; `None` where nothing is seen.
+    /// dΩ/dA, the solid angle (sr) that unit area of the image plane sees at an image point; `None` if nothing is seen.
     #[must_use]
     pub fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
         self.projection().solid_angle_per_area(point)
     }
 
-    /// The direction and the solid angle of an image point, for little more than one of them; `None` where nothing is seen.
+    /// The direction and the solid angle of an image point, for little more than one of them; `None` if nothing is seen.
     #[must_use]
     pub fn sight(&self, point: DVec2) -> Option<Sight> {
         self.projection().sight(point)
@@ -213,7 +213,7 @@ pub enum Family {
     Perspective {
         /// Radial terms.
         radial: Radial,
-        /// Whether p₁ and p₂ are fitted.
+        /// True if p₁ and p₂ are fitted.
         tangential: bool,
     },
     /// Perspective with r (1 + k₁ r² + k₂ r⁴) in either direction, r in focal lengths.
@@ -274,7 +274,7 @@ impl Family {
     /// The model of coefficients.
     ///
     /// # Errors
-    /// Where they are not legal.
+    /// If they are not legal.
     pub fn model(self, c: &[f64]) -> Result<Model, ModelError> {
         let at = |i: usize| c.get(i).copied().unwrap_or(0.0);
         Ok(match self {

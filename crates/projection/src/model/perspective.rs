@@ -44,7 +44,7 @@ impl Perspective {
     /// The camera of distortion terms and of a sensor tilt τx, τy (rad; zeros for none).
     ///
     /// # Errors
-    /// Where a number is not finite or a tilt reaches a right angle.
+    /// If a number is not finite or a tilt reaches a right angle.
     pub fn new(terms: DistortionTerms, tilt_rad: [f64; 2]) -> Result<Self, ModelError> {
         terms.check()?;
         finite_list("tau", 1, &tilt_rad)?;
@@ -155,7 +155,7 @@ impl Division {
     /// The camera of k.
     ///
     /// # Errors
-    /// Where k is not finite.
+    /// If k is not finite.
     pub fn new(k: f64) -> Result<Self, ModelError> {
         finite([("k", k)])?;
         Ok(Self { k })
@@ -239,7 +239,7 @@ impl FieldOfView {
     /// The camera of ω, rad.
     ///
     /// # Errors
-    /// Where ω is not between 0 and π.
+    /// If ω is not between 0 and π.
     pub fn new(omega_rad: f64) -> Result<Self, ModelError> {
         let inside = omega_rad > 0.0 && omega_rad < core::f64::consts::PI;
         legal("omega", omega_rad, inside, "an angle between 0 and 3.14159 rad")?;

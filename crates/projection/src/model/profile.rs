@@ -15,7 +15,7 @@ use crate::plane::{Affine, Distortion};
 pub struct Edge {
     /// The field angle that is no longer seen (from the axis), rad.
     pub angle_rad: f64,
-    /// Whether the picture folds over there: the fitted function turns back, and says nothing of what is beyond.
+    /// True if the image folds over there: the fitted function turns back, and says nothing of what is beyond.
     /// Otherwise the formula or the calibration ends.
     pub folds: bool,
 }

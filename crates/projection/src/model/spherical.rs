@@ -20,7 +20,7 @@
 //! r = sin θ/(α d + (1 − α)(ξ + cos θ)), d = √(sin² θ + (ξ + cos θ)²), −1 < ξ < 1, 0 ≤ α ≤ 1
 //! (Usenko, Demmel & Cremers 2018, eqs. 40–45; Kalibr's ds-none).
 //!
-//! The field ends without a fold where r is greatest (α > ½) or infinite: at ξ + cos θ = −w d with w = α/(1 − α) or its
+//! The field ends without a fold where r is largest (α > ½) or infinite: at ξ + cos θ = −w d with w = α/(1 − α) or its
 //! inverse, whichever is smaller, that is at cos θ = −ξ (1 − w²) − w √(1 − ξ² (1 − w²)). The paper's bound −w₂ (eq. 43)
 //! comes before it for ξ > 0 and, where two directions share a point already, after it for ξ < 0.
 
@@ -39,7 +39,7 @@ impl Unified {
     /// The camera of ξ ≥ 0 and distortion terms; Mei's are `numerator` k₁, k₂ and `tangential` p₁, p₂.
     ///
     /// # Errors
-    /// Where ξ is negative or a number is not finite.
+    /// If ξ is negative or a number is not finite.
     pub fn new(xi: f64, terms: DistortionTerms) -> Result<Self, ModelError> {
         legal("xi", xi, xi >= 0.0, "0 or a positive number")?;
         terms.check()?;
@@ -110,7 +110,7 @@ impl ExtendedUnified {
     /// The camera of α and β.
     ///
     /// # Errors
-    /// Where α is not in [0, 1] or β not positive.
+    /// If α is not in [0, 1] or β not positive.
     pub fn new(alpha: f64, beta: f64) -> Result<Self, ModelError> {
         legal("alpha", alpha, (0.0..=1.0).contains(&alpha), "a number from 0 to 1")?;
         legal("beta", beta, beta > 0.0, "a positive number")?;
@@ -172,7 +172,7 @@ impl DoubleSphere {
     /// The camera of ξ and α.
     ///
     /// # Errors
-    /// Where ξ is not between −1 and 1 or α not in [0, 1].
+    /// If ξ is not between −1 and 1 or α not in [0, 1].
     pub fn new(xi: f64, alpha: f64) -> Result<Self, ModelError> {
         legal("xi", xi, xi.abs() < 1.0, "a number between -1 and 1")?;
         legal("alpha", alpha, (0.0..=1.0).contains(&alpha), "a number from 0 to 1")?;

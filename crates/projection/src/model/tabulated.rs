@@ -34,7 +34,7 @@ impl Tabulated {
     /// A curve through (field angle, rad; radius in units of the image plane), two points or more beyond the axis, which is not among them.
     ///
     /// # Errors
-    /// Where there are fewer, angles do not rise within (0, π], radii do not rise from above 0, or the curve through them falls between two of them.
+    /// If there are fewer, angles do not rise within (0, π], radii do not rise from above 0, or the curve through them falls between two of them.
     pub fn new(points: &[(f64, f64)]) -> Result<Self, ModelError> {
         legal("the number of points", points.len() as f64, points.len() >= 2, "two or more beyond the axis")?;
         let mut last = (0.0, 0.0);

@@ -76,7 +76,7 @@ impl Distortion {
         self.terms
     }
 
-    /// The ideal radius at which it folds over; `None` where it does not.
+    /// The ideal radius at which it folds over; `None` if it does not.
     #[must_use]
     pub fn fold(&self) -> Option<f64> {
         self.folds.then_some(self.limit)
@@ -88,7 +88,7 @@ impl Distortion {
         (ideal.length() < self.limit).then(|| self.image(ideal)).filter(|p| p.is_finite())
     }
 
-    /// The ideal point of a distorted one; `None` where none before the fold has this image.
+    /// The ideal point of a distorted one; `None` if none before the fold has this image.
     #[must_use]
     pub fn ideal(&self, distorted: DVec2) -> Option<DVec2> {
         if !distorted.is_finite() {
@@ -134,14 +134,14 @@ impl Distortion {
         ])
     }
 
-    /// The ideal point of a distorted one by the radial terms alone; `None` where it is not in the disc.
+    /// The ideal point of a distorted one by the radial terms alone; `None` if it is not in the disc.
     fn radial_ideal(&self, distorted: DVec2) -> Option<DVec2> {
         let r = distorted.length();
         let ideal = self.terms.radial().inverse(r, self.limit)?;
         Some(if r > 0.0 { distorted * (ideal / r) } else { distorted })
     }
 
-    /// Damped Newton from `p`: steps are halved until the residual falls. `None` where it does not get there.
+    /// Damped Newton from `p`: steps are halved until the residual falls. `None` if it does not get there.
     fn newton(&self, distorted: DVec2, mut p: DVec2) -> Option<DVec2> {
         let scale = 1.0 + distorted.length();
         let mut error = self.image(p) - distorted;

@@ -28,7 +28,7 @@ impl Rational {
         [g, (dn - g * dd) / d]
     }
 
-    /// The first radius with a vanishing derivative or a pole; `None` where there is none below `reach`.
+    /// The first radius with a vanishing derivative or a pole; `None` if there is none below `reach`.
     pub(super) fn fold(&self, reach: f64) -> Option<f64> {
         let reach = reach.min(FARTHEST);
         let pole = first_sign_change(&self.denominator, reach * reach);
@@ -48,7 +48,7 @@ impl Rational {
         sum
     }
 
-    /// r of r′; `None` where r would not be below `limit`.
+    /// r of r′; `None` if r would not be below `limit`.
     pub(super) fn inverse(&self, distorted: f64, limit: f64) -> Option<f64> {
         increasing(distorted, [0.0, limit], distorted, |r| {
             let [g, dg] = self.factor(r * r);

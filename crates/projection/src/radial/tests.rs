@@ -8,7 +8,7 @@ fn distortion(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> RadialDistortion 
 
 #[test]
 fn barrel_pulls_points_inwards_in_either_direction() {
-    // OpenCV's barrel has k1 < 0; the same picture written as a fetching filter has k1 > 0.
+    // OpenCV's barrel has k1 < 0; the same image written as a fetching filter has k1 > 0.
     let forward = distortion(Sense::IdealToObserved, -0.1, 0.0, 10.0);
     let fetch = distortion(Sense::ObservedToIdeal, 0.1, 0.0, 10.0);
     for d in [forward, fetch] {

@@ -129,7 +129,7 @@ proptest! {
     }
 }
 
-/// Whether a direction is clear of the edge, and of the horizon of a tilted sensor, where all far points crowd.
+/// True if a direction is clear of the edge, and of the horizon of a tilted sensor, where all far points crowd.
 fn inside(model: &Model, direction: DVec3) -> bool {
     let tilted = matches!(model, Model::Perspective(m) if m.tilt().is_some());
     let limit = if tilted { model.edge().angle_rad.min(1.2) } else { model.edge().angle_rad };

@@ -22,7 +22,7 @@ macro_rules! domain {
                 $( visitor.visit(&self.$field); )*
             }
 
-            /// The effects that a capture has, made ready.
+            /// The effects that a capture has, prepared.
             pub(crate) fn stages(
                 &self,
                 context: &$crate::effect::Context,

@@ -1,7 +1,7 @@
 //! What an effect is: its own parameters, whether it is modelled, and what it does to one quantity.
 //!
 //! An effect acts on mean electrons, on charge or on voltage ([`EffectOn`]), pixel by pixel along a row or on the whole plane
-//! ([`Action`]). The three quantities are types, so that an effect cannot stand where the picture is something else: only counting makes
+//! ([`Action`]). The three quantities are types, so that an effect cannot stand where the image is something else: only counting makes
 //! charge of mean electrons, and only the response makes voltage of charge ([`RowConversion`]).
 
 mod domain;
@@ -106,11 +106,11 @@ pub(crate) trait EffectOn: Effect {
     /// The component of the signal breakdown that has what the effect adds or takes.
     const COMPONENT: SignalComponent;
 
-    /// The effect made ready for a capture that has it.
+    /// The effect prepared for a capture that has it.
     fn prepare(&self, context: &Context, memory: &mut Memory) -> Action<Self::On>;
 }
 
-/// What an effect does, made ready for a capture.
+/// What an effect does, prepared for a capture.
 pub(crate) enum Action<Q: Quantity> {
     /// To each pixel on its own, row by row in f64.
     Rows(Box<dyn RowEffect<Q>>),
@@ -139,7 +139,7 @@ pub(crate) trait PlaneEffect<Q: Quantity> {
     fn apply(&self, plane: Plane<Q>, traces: &mut Traces<'_>) -> Plane<Q>;
 }
 
-/// What effects on planes leave beside the picture.
+/// What effects on planes leave beside the image.
 pub(crate) struct Traces<'a> {
     /// What the sensor remembers after the frame.
     pub(crate) after: &'a mut SensorState,
@@ -160,7 +160,7 @@ pub(crate) trait RowConversion: Send + Sync {
     fn convert<'a>(&self, row: Row<'a, Self::From>) -> Row<'a, Self::To>;
 }
 
-/// An effect that a capture has, made ready.
+/// An effect that a capture has, prepared.
 pub(crate) struct Stage<Q: Quantity> {
     pub(crate) component: SignalComponent,
     pub(crate) action: Action<Q>,
@@ -170,7 +170,7 @@ pub(crate) struct Stage<Q: Quantity> {
 pub(crate) trait Listed: Effect {
     type On: Quantity<Sample = f32>;
 
-    /// The effect made ready; `None` where the capture does not have it.
+    /// The effect prepared; `None` if the capture does not have it.
     fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<Self::On>>;
 }
 
@@ -226,7 +226,7 @@ impl<'a> Row<'a, Charge> {
 /// What all captures of a sensor have in common.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SensorFacts {
-    /// Whether randomness from frame to frame is modelled.
+    /// True if randomness from frame to frame is modelled.
     pub(crate) noise: bool,
     /// The specimen's seed; `None`: that of the camera's place in the job.
     pub(crate) specimen: Option<u64>,
@@ -236,11 +236,11 @@ pub(crate) struct SensorFacts {
     pub(crate) first_lit: [usize; 2],
     /// Time of collection, as described, s.
     pub(crate) exposure_s: f64,
-    /// Time from frame to frame, s; `None` where it is not described.
+    /// Time from frame to frame, s; `None` if it is not described.
     pub(crate) frame_period_s: Option<f64>,
     /// Exposures of a frame, one after the other: captures that do not read the charge of the one before.
     pub(crate) exposures: usize,
-    /// Whether captures have photodiodes of their own.
+    /// True if captures have photodiodes of their own.
     pub(crate) is_split_pixel: bool,
     /// The largest full well of all captures, e⁻.
     pub(crate) max_full_well_e: f64,
@@ -262,7 +262,7 @@ pub(crate) struct Context {
     pub(crate) height: usize,
 }
 
-/// Seed of the patterns of cameras that are told apart by their place in the job alone.
+/// Seed of the patterns of cameras that are distinguished by their place in the job alone.
 const SPECIMENS: u64 = 0x7061_7474_6572_6e73;
 
 impl Context {

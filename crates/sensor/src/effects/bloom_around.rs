@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn a_wide_light_ends_after_the_rounds_of_its_series() {
         // 0.95ⁿ · 1e5 e⁻ is a thousandth of an electron after 360 rounds. A well of 1e5 e⁻ ends in a hundredth: rounded with it, the
-        // rest of an even picture would not fall any more.
+        // rest of an even image would not fall any more.
         let plane = Plane::filled(300, 200, 2e5);
         let (out, account) = bloomed(&plane, 1e5, 0.95);
         assert!(out.samples().iter().all(|q| *q == 1e5));

@@ -5,7 +5,7 @@
 //!
 //! p gives n: T = ½ a (q_p − q_n) · ½ (q_p + q_n) = ¼ a (q_p² − q_n²), over the four sides.
 //!
-//! What one gives the other gets: charge is conserved, and nothing crosses the array's edge. For an even picture of mean μ the
+//! What one gives the other gets: charge is conserved, and nothing crosses the array's edge. For an even image of mean μ the
 //! covariance of neighbours is a μ² and the variance μ − 4 a μ² in first order: the photon-transfer curve bends (Antilogus et
 //! al. 2014; Astier et al. 2019, whose a₁₀ is a). Charges above the full well count as a full well.
 //! Left out: neighbours farther away, different borders along rows and columns, colour.

@@ -3,7 +3,7 @@
 //! k ~ Poisson(I t), I the dark current (e⁻/s) of the pixel at the sensor's temperature ([`temperature`](super::temperature)); the
 //! mean I t itself where noise is off. I is the same for all pixels unless the description says how they differ:
 //!
-//! - spread: I f, f of mean 1 (but for the cut) with a white, a row and a column part of stated standard deviation (fractions of the mean). Normal:
+//! - spread: I f, f of mean 1 (except for the cut) with a white, a row and a column part of stated standard deviation (fractions of the mean). Normal:
 //!   f = max(1 + d, 0). Log-normal (the long tail of most sensors): the white part is exp(s z − s²/2), s² = ln(1 + σ²);
 //! - hot pixels: a fraction of pixels has an exponential current more, of a stated mean;
 //! - blinking pixels: a fraction of pixels has it only at the upper one of two levels ([`two_level`]).
@@ -59,7 +59,7 @@ pub struct Hot {
 pub struct DarkCurrent {
     /// Mean dark current of a pixel at the reference temperature, e⁻·s⁻¹.
     pub current_e_s: f64,
-    /// Temperatures; `None` where the stated current is that of the sensor as it is.
+    /// Temperatures; `None` if the stated current is that of the sensor as it is.
     pub temperature: Option<Temperature>,
     /// How pixels differ.
     pub spread: DarkSpread,
@@ -82,7 +82,7 @@ impl DarkCurrent {
         self.temperature.map_or(1.0, |t| t.factor())
     }
 
-    /// The mean over all pixels, hot ones among them, e⁻/s at the sensor's temperature; without what blinks, and but for the cut of a
+    /// The mean over all pixels, hot ones among them, e⁻/s at the sensor's temperature; without what blinks, and except for the cut of a
     /// wide normal spread at no current.
     #[must_use]
     pub fn mean_e_s(&self) -> f64 {
@@ -201,9 +201,9 @@ struct DarkElectrons {
     key: NoiseKey,
     /// Mean of a pixel that is as all others, e⁻.
     mean_e: f64,
-    /// `None` where only the mean is added.
+    /// `None` if only the mean is added.
     counts: Option<Poisson>,
-    /// `None` where all pixels are alike.
+    /// `None` if all pixels are alike.
     pattern: Option<DarkPattern>,
 }
 

@@ -6,7 +6,7 @@
 //!
 //! What stands between the lists or around them is named by hand, twice: exposure control, shot noise, layout, response, converter, merging
 //! and companding stand beside the lists in `SensorParameters::show`, of which all checks and the plan are made, and in `Sensor::frame`
-//! and what it calls, which runs them. What needs the whole sensor or the picture's size is checked elsewhere: captures and companding in
+//! and what it calls, which runs them. What needs the whole sensor or the image's size is checked elsewhere: captures and companding in
 //! `validity`, the layout where the size is known.
 //!
 //! | effect | on | acts on |

@@ -52,7 +52,7 @@ impl Neighbours {
         2.0 * self.horizontal + 2.0 * self.vertical + 4.0 * self.corner
     }
 
-    /// The share of a pixel's value afterwards that comes from the pixel `dx` − 1 columns and `dy` − 1 rows from it, where no edge is near;
+    /// The fraction of a pixel's value afterwards that comes from the pixel `dx` − 1 columns and `dy` − 1 rows from it, where no edge is near;
     /// `dx` and `dy` are 0 to 2, and (1, 1) is the pixel itself.
     #[must_use]
     pub fn weight(&self, dx: usize, dy: usize) -> f64 {

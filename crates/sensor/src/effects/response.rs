@@ -88,7 +88,7 @@ impl Response {
         }
     }
 
-    /// The response as what makes voltage of charge; `None` where the numbers are the same.
+    /// The response as what makes voltage of charge; `None` if the numbers are the same.
     pub(crate) fn prepare(&self) -> Option<Self> {
         (*self != Self::Linear).then(|| self.clone())
     }

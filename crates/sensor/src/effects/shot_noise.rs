@@ -15,7 +15,7 @@ use crate::{capture::Operation, check::Checks, random::Poisson, signal_breakdown
 pub(crate) struct ShotNoise;
 
 impl ShotNoise {
-    /// Counting, prepared; `None` where charge is its mean.
+    /// Counting, prepared; `None` if charge is its mean.
     pub(crate) fn prepare(self, context: &Context) -> Option<Counting> {
         let counted = self.status(&context.facts, &context.operation).is_modelled();
         counted.then(|| Counting { key: context.noise(NoiseDraw::Shot) })

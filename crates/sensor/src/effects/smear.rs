@@ -5,7 +5,7 @@
 //! S(x) = ε t_line Σ_y μ(x, y) / t_exp, added to the mean of every pixel of the column, dark rows included.
 //!
 //! - Interline: ε is a leak into the covered register, from the smear figure of the data sheet (dB, a spot of one tenth of the
-//!   picture's height): ε = 10 · 10^(Sm/20) · (t_acc/t_frame of that measurement); t_line = frame period / rows.
+//!   image's height): ε = 10 · 10^(Sm/20) · (t_acc/t_frame of that measurement); t_line = frame period / rows.
 //! - Frame transfer: the rows pass the open pixels, ε = 1, t_line = the time of one fast shift.
 //!
 //! S is added to the mean before counting, so it has its own shot noise: a sum of Poisson counts is a Poisson count.
@@ -43,7 +43,7 @@ impl Smear {
         }
     }
 
-    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many lit rows among `rows`, s.
+    /// The exposure that smear adds to every pixel of an evenly and steadily lit image of so many lit rows among `rows`, s.
     pub(crate) fn even_s(&self, frame_period_s: Option<f64>, lit: usize, rows: usize) -> f64 {
         self.leak() * self.line_s(frame_period_s, rows) * lit as f64
     }
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(raw.plane.at(0, 0), 0);
     }
 
-    /// An even picture shows what is told of it, with shielded rows and without.
+    /// An even image shows what is told of it, with shielded rows and without.
     #[test]
     fn an_even_picture_has_the_exposure_told() {
         for dark in [0, 20] {

@@ -20,7 +20,7 @@ fn has(p: SensorParameters, mean_e: f32, mean_dn: f64, variance_dn2: f64) {
     assert!((variance - variance_dn2).abs() <= 4.0 * variance_dn2 * (2.0 / N).sqrt(), "{variance} for {variance_dn2}");
 }
 
-/// Share of the pixels of a flat frame that have the number.
+/// Fraction of the pixels of a flat frame that have the number.
 #[track_caller]
 fn share_is(p: SensorParameters, mean_e: f32, dn: u32, share: f64) {
     let raw = expose(p, mean_e, SIZE);

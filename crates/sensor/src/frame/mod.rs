@@ -1,4 +1,4 @@
-//! From mean electrons to a raw picture, frame after frame.
+//! From mean electrons to a raw image, frame after frame.
 
 mod pass;
 
@@ -32,7 +32,7 @@ struct Taken {
 }
 
 impl Sensor {
-    /// One frame: the raw picture that `mean_electrons` (of photons, in the described exposure) become, and the state for the
+    /// One frame: the raw image that `mean_electrons` (of photons, in the described exposure) become, and the state for the
     /// next frame.
     ///
     /// Runs in the rayon pool of the caller; the bits depend on the state, `address` and the means alone.

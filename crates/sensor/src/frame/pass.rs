@@ -1,7 +1,7 @@
 //! Passes over the array: rows one after another in f64, planes in f32 where neighbours matter.
 //!
-//! A pass says what its picture is: mean electrons, charge or voltage. Effects on rows that follow each other share one pass over the
-//! array, also where the picture becomes another quantity between them, and a plane is stored only before an effect on planes, before a
+//! A pass says what its image is: mean electrons, charge or voltage. Effects on rows that follow each other share one pass over the
+//! array, also where the image becomes another quantity between them, and a plane is stored only before an effect on planes, before a
 //! second reading, and never where there is neither: an ordinary sensor goes from means to digital numbers row by row.
 
 use core::marker::PhantomData;
@@ -15,10 +15,10 @@ use crate::effect::{Action, Row, RowConversion, Stage, Traces};
 use crate::signal_breakdown::{ChargeAccount, RowTally, SignalBreakdown, SignalComponent, SignalComponentRow};
 use crate::{capture::SensorState, cfa::Cfa, effects::converter::Converter, layout::Binning};
 
-/// A capture on its way: its picture, and what is noted beside it.
+/// A capture on its way: its image, and what is noted beside it.
 pub(super) struct Pass<'a, Q> {
     source: Source<'a>,
-    /// What is noted, where it is asked for.
+    /// What is noted, where it is requested.
     pub(super) signal_breakdown: Option<SignalBreakdown>,
     /// Where charge went at the full well.
     pub(super) account: Option<ChargeAccount>,
@@ -56,7 +56,7 @@ impl<'a, Q: Quantity<Sample = f32>> Pass<'a, Q> {
         }
     }
 
-    /// The picture as the quantity that a conversion makes of it; the same numbers where there is none.
+    /// The image as the quantity that a conversion makes of it; the same numbers where there is none.
     pub(super) fn converted<C>(mut self, conversion: Option<C>) -> Pass<'a, C::To>
     where
         C: RowConversion<From = Q> + 'static,
@@ -132,7 +132,7 @@ impl Pass<'_, Voltage> {
     }
 }
 
-/// Whether a mean can be a mean of electrons.
+/// True if a mean can be a mean of electrons.
 pub(super) fn is_valid(mean: f32) -> bool {
     mean.is_finite() && mean >= 0.0
 }
@@ -152,7 +152,7 @@ struct Source<'a> {
     samples: Cow<'a, [f32]>,
     width: usize,
     height: usize,
-    /// Factor on the means; `None` where the numbers are those of a pass.
+    /// Factor on the means; `None` if the numbers are those of a pass.
     light: Option<f64>,
     waiting: Vec<Step>,
 }

@@ -38,7 +38,7 @@ pub struct Capture {
     pub full_well_e: Option<f64>,
     /// Its read noise, e⁻; `None`: the first's.
     pub read_noise_e: Option<f64>,
-    /// Whether it reads the charge of the capture before it once more.
+    /// True if it reads the charge of the capture before it once more.
     pub dual_conversion_gain: bool,
 }
 
@@ -119,7 +119,7 @@ impl HighDynamicRange {
         }
     }
 
-    /// The scale, but for the gain, of the charge that capture `k` holds.
+    /// The scale, except for the gain, of the charge that capture `k` holds.
     fn charge_scale(&self, k: usize) -> f64 {
         match k.checked_sub(1).map(|i| &self.captures[i]) {
             None => 1.0,

@@ -32,7 +32,7 @@ enum Method {
 const REJECTION_FROM: f64 = 10.0;
 
 impl Poisson {
-    /// The distribution of a mean. `None` where the mean is negative or not finite.
+    /// The distribution of a mean. `None` if the mean is negative or not finite.
     #[must_use]
     pub fn new(mean: f64) -> Option<Self> {
         if !(mean.is_finite() && mean >= 0.0) {

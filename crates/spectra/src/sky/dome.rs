@@ -70,7 +70,7 @@ impl SkyModel {
     /// π/2; below the horizon see [`sky`](super).
     ///
     /// # Errors
-    /// Where a number is out of range.
+    /// If a number is out of range.
     pub fn new(turbidity: f64, ground_albedo: f64, sun_elevation_rad: f64) -> Result<Self, SkyError> {
         check_turbidity(turbidity)?;
         check_albedo(ground_albedo)?;

@@ -13,7 +13,7 @@
 //! **Below the horizon** the model ends. See below for the sky, [`mod@sun`] for the Sun.
 //!
 //! **Left out.** Clouds, refraction, altitude, polarisation, ozone and water vapour that vary, the blue hour's colour,
-//! city light, Moon and stars but for the floor of the night.
+//! city light, Moon and stars except for the floor of the night.
 //!
 //! Sources: L. Hosek and A. Wilkie, *An Analytic Model for Full Spectral Sky-Dome Radiance*, ACM TOG 31(4), 2012;
 //! *Adding a Solar-Radiance Function to the Hošek–Wilkie Skylight Model*, IEEE CG&A 33(3), 2013; the authors' tables,

@@ -29,7 +29,7 @@ const PIECES: usize = 45;
 /// of −π/2 to π/2; zero below the horizon.
 ///
 /// # Errors
-/// Where a number is out of range.
+/// If a number is out of range.
 pub fn radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     Ok(sun_spectrum(&band_radiances(turbidity, elevation_rad)?))
 }
@@ -37,7 +37,7 @@ pub fn radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError
 /// Radiance at the disc's centre in each band, W·m⁻²·sr⁻¹·nm⁻¹.
 ///
 /// # Errors
-/// Where a number is out of range.
+/// If a number is out of range.
 pub fn band_radiances(turbidity: f64, elevation_rad: f64) -> Result<[f64; BANDS], SkyError> {
     check_turbidity(turbidity)?;
     check_elevation(elevation_rad)?;
@@ -86,7 +86,7 @@ pub fn limb(nm: f64) -> [f64; 6] {
 /// Spectral radiance in the mean over the disc, W·m⁻²·sr⁻¹·nm⁻¹.
 ///
 /// # Errors
-/// Where a number is out of range.
+/// If a number is out of range.
 pub fn mean_radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     Ok(radiance(turbidity, elevation_rad)?.product(&Spectrum::from_fn(limb_mean)))
 }
@@ -94,7 +94,7 @@ pub fn mean_radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, Sky
 /// Spectral irradiance of a plane that faces the Sun, W·m⁻²·nm⁻¹: π sin²R times the mean radiance.
 ///
 /// # Errors
-/// Where a number is out of range.
+/// If a number is out of range.
 pub fn normal_irradiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     let sin = maths::f64::sin(0.5 * ANGULAR_DIAMETER_DEG.to_radians());
     Ok(mean_radiance(turbidity, elevation_rad)?.scaled(PI * sin * sin))

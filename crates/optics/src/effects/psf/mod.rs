@@ -5,10 +5,10 @@
 //! the rim and cos³ θ′ towards the axis, θ′ the chief ray's angle at the exit pupil, so that the pattern is wider by as much
 //! (Goodman, Introduction to Fourier Optics).
 //!
-//! The function varies over the picture by patches (`patches`).
+//! The function varies over the image by patches (`patches`).
 //!
 //! Zernike terms are in units of length (root mean square over the pupil of the f-number), the same at all wavelengths. Terms
-//! with a table over the field turn with it: they are stated for a point of the picture to the right of the axis.
+//! with a table over the field turn with it: they are stated for a point of the image to the right of the axis.
 //!
 //! Left out: the pupil's being cut by rims away from the axis; what the lens's own rays make of a wavefront (a traced lens
 //! has its aberrations already); light beyond the pattern's end, which is shared out over it.
@@ -40,7 +40,7 @@ pub(super) const VISIBLE: WavelengthRange = WavelengthRange::new(380.0, 780.0);
 const CORE_STEPS: f64 = 16.0;
 /// Patches where the function varies and nothing is said.
 const PATCHES: [usize; 2] = [5, 3];
-/// A pattern that is wider by less in the picture's corner counts as the same everywhere.
+/// A pattern that is wider by less in the image's corner counts as the same everywhere.
 const SAME: f64 = 1.05;
 
 /// A Zernike term of the wavefront.
@@ -55,7 +55,7 @@ pub struct ZernikeTerm {
 }
 
 impl ZernikeTerm {
-    /// The coefficient at a distance from the axis, linear in between, the ends held.
+    /// The coefficient at a distance from the axis, linear in between, clamped at the ends.
     fn at(&self, radius_mm: f64) -> f64 {
         let (field, rms) = (&self.field_mm, &self.rms_um);
         let next = field.partition_point(|r| *r <= radius_mm);
@@ -87,7 +87,7 @@ pub struct PsfParameters {
     pub blades: u32,
     /// Curvature of the blades: 0 straight, 1 a circle.
     pub curvature: f64,
-    /// Where the first corner stands, from the picture's x towards its y, rad.
+    /// Where the first corner stands, from the image's x towards its y, rad.
     pub rotation_rad: f64,
     /// Radius of an obstruction in the middle over the pupil's.
     pub obstruction: f64,
@@ -112,10 +112,10 @@ pub struct Psf {
 }
 
 impl Psf {
-    /// The function behind `lens` over a picture.
+    /// The function behind `lens` over an image.
     ///
     /// # Errors
-    /// Where a table is none, or the wavefront is steeper than the pupil's lattice can hold.
+    /// If a table is none, or the wavefront is steeper than the pupil's lattice can hold.
     pub fn new(parameters: PsfParameters, lens: &Lens, picture: &Raster) -> Result<Self, EffectsError> {
         parameters.wavefront.iter().try_for_each(ZernikeTerm::check)?;
         let (f_number, exit_mm) = (lens.working_f_number(), lens.exit_pupil_distance_mm());
@@ -233,7 +233,7 @@ impl Psf {
         self.parameters.wavefront.iter().map(term).sum()
     }
 
-    /// What it has to do on so many pictures a band: all bands as the middle one.
+    /// What it has to do on so many images a band: all bands as the middle one.
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let half_nm = 0.5 * bands.width_nm();
         let middle_nm = bands.low_nm() + half_nm * bands.count() as f64;
@@ -261,7 +261,7 @@ impl Psf {
         Patches::new(self.patches, Stand::Middles, canvas)
     }
 
-    /// The function made ready for a film and the wavelengths of a range.
+    /// The function prepared for a film and the wavelengths of a range.
     pub(super) fn ready(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> Ready {
         let fineness = self.fineness(range.high_nm, canvas.pitch_mm().min_element());
         Ready { part, patterns: self.patterns(canvas, fineness) }
@@ -276,7 +276,7 @@ impl Psf {
         Patterns { extent: self.extent(fineness), canvas: *canvas, pupil, shared, places, patches }
     }
 
-    /// Adds where light of a wavelength lands by the function in the middle of the picture, px, and how much.
+    /// Adds where light of a wavelength lands by the function in the middle of the image, px, and how much.
     pub(super) fn deposit_middle(&self, canvas: &Canvas, nm: f64, to: impl FnMut(DVec2, f64)) {
         let [columns, rows] = self.patches;
         let only = Self { patches: [1, 1], ..self.clone() };

@@ -1,8 +1,8 @@
 //! The diffraction pattern of a pupil: |∫ P(u) exp(2πi (W(u)/λ − u·x/2λN)) du|².
 //!
-//! u is a point of the pupil in units of its radius, x one of the picture, N the working f-number, W the wavefront error: a
-//! ray through u lands at x = 2N ∂W/∂u, in the axes of the erect picture. The pupil is sampled on a square lattice, each
-//! cell with the share of it that is open; the pattern then comes at steps of λN/Q, as far as the lattice's number of cells
+//! u is a point of the pupil in units of its radius, x one of the image, N the working f-number, W the wavefront error: a
+//! ray through u lands at x = 2N ∂W/∂u, in the axes of the erect image. The pupil is sampled on a square lattice, each
+//! cell with the fraction of it that is open; the pattern then comes at steps of λN/Q, as far as the lattice's number of cells
 //! times half of that. Q is at least 2, so that its sum is its integral.
 //!
 //! The outline of the aperture, in units of the radius that the f-number states.
@@ -35,7 +35,7 @@ pub(super) struct Pupil {
     fineness: f64,
     /// Rows that are not all dark, and the cells of one side about the middle.
     half: usize,
-    /// Open shares of the cells about the middle, row by row.
+    /// Open fractions of the cells about the middle, row by row.
     open: Vec<f64>,
 }
 
@@ -98,7 +98,7 @@ fn open(outline: &Outline, centre: DVec2, step: f64) -> f64 {
 }
 
 impl Pattern {
-    /// Places, in steps of λN/Q, and shares of the light.
+    /// Places, in steps of λN/Q, and fractions of the light.
     #[cfg(test)]
     pub(super) fn points(&self) -> impl Iterator<Item = (DVec2, f64)> {
         self.points_within(CELLS / 2)
@@ -166,7 +166,7 @@ impl Outline {
         self.radius
     }
 
-    /// Whether light passes at a point.
+    /// True if light passes at a point.
     pub(super) fn passes(&self, point: DVec2) -> bool {
         let r2 = point.length_squared();
         let within = |edge: &Edge| match edge.curve {
@@ -248,7 +248,7 @@ mod tests {
         Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), fineness).pattern(None)
     }
 
-    /// Share of the light within a radius in units of λN.
+    /// Fraction of the light within a radius in units of λN.
     fn within(pattern: &Pattern, fineness: f64, radius: f64) -> f64 {
         pattern.points().filter(|(p, _)| p.length() <= radius * fineness).map(|(_, v)| v).sum()
     }

@@ -8,7 +8,7 @@ use crate::effects::core_table::{CORE_PX, CoreBuilder, CoreTable};
 use crate::effects::film_part::{FilmPart, KernelBuilder, MM_PER_NM, NM_PER_UM, mid_wavelengths};
 use crate::{effects::Canvas, effects::convolve::Field, effects::kernel::Kernel, effects::patches::Patches};
 
-/// A part of the picture with a function of its own.
+/// A part of the image with a function of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     pub(super) stretch: DMat2,
@@ -77,7 +77,7 @@ impl Patterns {
         }
     }
 
-    /// The core of a patch at a wavelength; `None` where no light is in it.
+    /// The core of a patch at a wavelength; `None` if no light is in it.
     pub(super) fn core(&self, nm: f64, patch: &Patch) -> Option<CoreTable> {
         let mut builder = CoreBuilder::default();
         self.deposit(nm, patch, CORE_PX, |offset_px, mass| builder.deposit(offset_px, mass));

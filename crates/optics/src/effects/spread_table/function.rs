@@ -37,10 +37,10 @@ impl fmt::Debug for FieldSpread {
 }
 
 impl FieldSpread {
-    /// Whether the samples can stand on the pixels of a picture.
+    /// Whether the samples can stand on the pixels of an image.
     ///
     /// # Errors
-    /// Where they are no light, are farther apart than pixels, or reach beyond 512 px.
+    /// If they are no light, are farther apart than pixels, or reach beyond 512 px.
     pub fn check(&self, picture: &Raster) -> Result<(), EffectsError> {
         let step_mm = positive("spacing", self.pitch_um)? * MM_PER_UM;
         let (width, count) = (self.width, self.light.len());
@@ -86,7 +86,7 @@ impl FieldSpread {
     }
 }
 
-/// A function made ready to be turned.
+/// A function prepared to be turned.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Function {
     spread: FieldSpread,
@@ -118,7 +118,7 @@ impl Function {
         Self { spread, radius_mm, reach_mm, turn, sum, centroid_mm, moments }
     }
 
-    /// Where light lands around a place of the sensor, mm, and which share of all.
+    /// Where light lands around a place of the sensor, mm, and which fraction of all.
     pub(super) fn landings(&self, outwards: DVec2) -> impl Iterator<Item = (DVec2, f64)> {
         let turn = axes(outwards) * self.turn;
         self.spread.lit().map(move |(offset, light)| (turn * offset, light / self.sum))
@@ -128,7 +128,7 @@ impl Function {
         self.spread.light.len()
     }
 
-    /// Second moments about the point in the picture, mm².
+    /// Second moments about the point in the image, mm².
     pub(super) fn moments(&self, outwards: DVec2) -> DMat2 {
         let turn = axes(outwards);
         turn * self.moments * turn.transpose()
@@ -164,7 +164,7 @@ pub(super) fn patches_needed(picture: &Raster, shape: impl Fn(DVec2) -> Shape) -
     counts.find(kept).map_or(([MOST, down(MOST, picture)], false), |counts| (counts, true))
 }
 
-/// Whether centroids and second moments at patches and midway between them are near those of the mean of the nearest patches.
+/// True if centroids and second moments at patches and midway between them are near those of the mean of the nearest patches.
 pub(super) fn keeps_shapes([across, down]: [usize; 2], picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> bool {
     let size = DVec2::new(picture.width() as f64, picture.height() as f64);
     let at = |x: f64, y: f64| shape(picture.sensor_mm(size * DVec2::new(x, y)));
@@ -182,7 +182,7 @@ pub(super) fn keeps_shapes([across, down]: [usize; 2], picture: &Raster, shape: 
     })
 }
 
-/// Places along an axis, as shares of its length, each with the two patches that its pixels are between: those of patches and midway between them; of a single one,
+/// Places along an axis, as fractions of its length, each with the two patches that its pixels are between: those of patches and midway between them; of a single one,
 /// which holds from edge to edge, the edges and the middle.
 fn stations(count: usize) -> Vec<(f64, [f64; 2])> {
     if count == 1 {

@@ -5,17 +5,17 @@
 //! light that falls at o from the point in the samples' axes falls at
 //!
 //! ```text
-//! u (e·o) + u⊥ (e⊥·o)        u away from the axis at the place in the picture, u⊥ across it
+//! u (e·o) + u⊥ (e⊥·o)        u away from the axis at the place in the image, u⊥ across it
 //! ```
 //!
 //! Samples have their rows from the top and their columns from the left as the physical image is seen against the light, and x·y turn from the
-//! right to the bottom, as in the picture. The picture taken is that image turned by 180° about the axis, so nothing is mirrored, and
+//! right to the bottom, as in the image. The image taken is that image turned by 180° about the axis, so nothing is mirrored, and
 //! what points away from the axis there does so here.
 //!
 //! Between the two nearest distances, and between the two nearest wavelengths, the function is the linear mean of both; beyond the ends that of the end. One
 //! function on the axis alone has no direction of its own: it takes that of the farthest.
 //!
-//! The picture has patches (`patches`) whose functions stand on its edges and evenly between. Unless their number is said, there are as few as
+//! The image has patches (`patches`) whose functions stand on its edges and evenly between. Unless their number is said, there are as few as
 //! keep centroids midway between patches within a hundredth of the width and second moments within half a per cent of the table's, eleven across at most.
 //!
 //! Left out: lenses that are not symmetric about their axis; the change of shape between two distances (both are seen at once, weighted); light beyond the samples.

@@ -30,11 +30,11 @@ pub struct TabledWavelength {
 pub struct SpreadTableParameters {
     /// Rising; one, or all with a wavelength.
     pub wavelengths: Vec<TabledWavelength>,
-    /// Patches across and down; `None` for as many as the functions need.
+    /// Patches across and down; `None`: as many as the functions need.
     pub patches: Option<[usize; 2]>,
 }
 
-/// The functions of a wavelength, made ready.
+/// The functions of a wavelength, prepared.
 #[derive(Clone, Debug, PartialEq)]
 struct Wavelength {
     nm: Option<f64>,
@@ -50,10 +50,10 @@ pub struct SpreadTable {
 }
 
 impl SpreadTable {
-    /// The functions over a picture.
+    /// The functions over an image.
     ///
     /// # Errors
-    /// Where distances or wavelengths do not rise or are not the same number everywhere, or a function cannot stand on the pixels.
+    /// If distances or wavelengths do not rise or are not the same number everywhere, or a function cannot stand on the pixels.
     pub fn new(parameters: SpreadTableParameters, picture: &Raster) -> Result<Self, EffectsError> {
         let SpreadTableParameters { wavelengths, patches } = parameters;
         check_grid(&wavelengths)?;
@@ -73,7 +73,7 @@ impl SpreadTable {
         self.patches
     }
 
-    /// Whether centroids and second moments between the patches are kept, to a hundredth of the width and half a hundredth.
+    /// True if centroids and second moments between the patches are kept, to a hundredth of the width and half a hundredth.
     #[must_use]
     pub fn keeps_shapes(&self) -> bool {
         self.keeps_shapes
@@ -91,7 +91,7 @@ impl SpreadTable {
         self.wavelengths.iter().filter_map(|wavelength| wavelength.nm).collect()
     }
 
-    /// Whether the function is of another shape at other wavelengths.
+    /// True if the function is of another shape at other wavelengths.
     pub(in crate::effects) fn varies_by_wavelength(&self) -> bool {
         self.wavelengths.len() > 1
     }
@@ -126,7 +126,7 @@ impl SpreadTable {
         let divergence = |pair: &[Function]| {
             let [near, far] = pair else { return 0.0 };
             let slope = (far.centroid_mm - near.centroid_mm) / (far.radius_mm - near.radius_mm);
-            // c/r is greatest at one of the ends.
+            // c/r is largest at one of the ends.
             (slope + turned(near)).abs().max((slope + turned(far)).abs())
         };
         let held = self.wavelengths.iter().map(|wavelength| turned(&wavelength.functions[0]).abs());
@@ -204,7 +204,7 @@ impl SpreadTable {
         places.max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or(DVec2::ZERO)
     }
 
-    /// How narrow it is where it is widest: on the axis, at the distances within the picture that have functions, and in the corner.
+    /// How narrow it is where it is widest: on the axis, at the distances within the image that have functions, and in the corner.
     pub(in crate::effects) fn width(&self, canvas: &Canvas, nm: f64) -> SpreadWidth {
         let (corner_mm, pitch_mm) = (Self::corner_mm(canvas), canvas.pitch_mm());
         let outwards = corner_mm.try_normalize().unwrap_or(DVec2::X);
@@ -221,7 +221,7 @@ impl SpreadTable {
         Patches::new(self.patches, Stand::Edges, canvas)
     }
 
-    /// The cores by which samples are displaced, for the wavelengths of a range; `None` where no light is in them.
+    /// The cores by which samples are displaced, for the wavelengths of a range; `None` if no light is in them.
     pub(in crate::effects) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         let places = self.places(canvas);
         let parts = if self.varies_by_wavelength() { mid_wavelengths(range).count() } else { 1 };
@@ -240,7 +240,7 @@ impl SpreadTable {
         Some(SampleSpread::new(places.into_hats(), range.low_nm, step_nm, tables))
     }
 
-    /// What it has to do on so many pictures a band: all bands as the middle one.
+    /// What it has to do on so many images a band: all bands as the middle one.
     pub(in crate::effects) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let (places, reach) = (self.places(canvas), self.reach_px(canvas.pitch_mm()));
         let count = bands.count() as f64;
@@ -282,7 +282,7 @@ fn ready_wavelength(wavelength: TabledWavelength) -> Wavelength {
     Wavelength { nm, functions: fields.into_iter().map(|field| Function::new(field, outwards)).collect() }
 }
 
-/// The two that are nearest to a value, by index, with their weights: linear between, the ends held.
+/// The two that are nearest to a value, by index, with their weights: linear between, clamped at the ends.
 fn between<T>(rising: &[T], at: f64, value: impl Fn(&T) -> f64) -> [(usize, f64); 2] {
     match rising.partition_point(|item| value(item) <= at) {
         0 => [(0, 1.0), (0, 0.0)],

@@ -120,7 +120,7 @@ struct Bins {
 }
 
 impl Bins {
-    /// `None` without drops. Bins are as wide as the two greatest drops reach, so that those that touch are in neighbouring ones.
+    /// `None` without drops. Bins are as wide as the two largest drops reach, so that those that touch are in neighbouring ones.
     fn of(drops: &[Droplet], reach_factor: f64) -> Option<Self> {
         let greatest = drops.iter().map(|d| d.radius_mm).max_by(f64::total_cmp)?;
         let width_mm = 2.0 * greatest * reach_factor;

@@ -8,7 +8,7 @@
 //!
 //! v = v₁ (a² sin α − a₀²)/(a₁² − a₀²), never below 0,
 //!
-//! with the slope α of the glass, the radius a₀ below which a drop stays on upright glass, and the speed v₁ there of a drop of the greatest
+//! with the slope α of the glass, the radius a₀ below which a drop stays on upright glass, and the speed v₁ there of a drop of the largest
 //! radius a₁ that falls. Larger ones, which have joined, are faster. Left out: wind along the glass, trails, paths that wind.
 //!
 //! A wiper that clears drops along its arc.
@@ -35,9 +35,9 @@ pub struct Droplet {
 /// How drops slide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sliding {
-    /// Speed of a drop of the greatest radius that falls on upright glass, mm/s.
+    /// Speed of a drop of the largest radius that falls on upright glass, mm/s.
     pub speed_mm_s: f64,
-    /// Radius below which a drop stays on upright glass, mm; below the greatest radius.
+    /// Radius below which a drop stays on upright glass, mm; below the largest radius.
     pub still_radius_mm: f64,
 }
 
@@ -110,7 +110,7 @@ impl Wiper {
         rest + (turn - rest) * way
     }
 
-    /// What the blade passes between two times less than a sweep apart, least and greatest angle, rad; `None` while it rests.
+    /// What the blade passes between two times less than a sweep apart, least and largest angle, rad; `None` while it rests.
     fn passed_rad(&self, from_s: f64, to_s: f64) -> Option<[f64; 2]> {
         let first = ((from_s - self.start_s) / self.period_s).floor();
         let turns = [0.0, 1.0].iter().flat_map(|n| {
@@ -156,7 +156,7 @@ pub struct Course {
     pub start_s: f64,
     /// How they slide; `None` for drops that stay.
     pub sliding: Option<Sliding>,
-    /// How long a drop of the greatest radius that falls takes to dry, s; `None` for drops that do not.
+    /// How long a drop of the largest radius that falls takes to dry, s; `None` for drops that do not.
     pub drying_s: Option<f64>,
     /// Drops that fall on the rectangle, 1/s; 0 for none.
     pub arrivals_hz: f64,

@@ -1,7 +1,7 @@
 //! Drops over time: they fall, dry, slide, join and are wiped away.
 //!
 //! The drops at a time are a pure function of the parameters and the time: they are followed from their beginning in steps of [`STEP_S`] at
-//! fixed times, and in one shorter step to the time asked for. Frames may be made in any order, anywhere. What that costs grows with
+//! fixed times, and in one shorter step to the time requested. Frames may be made in any order, anywhere. What that costs grows with
 //! the time since the beginning.
 //!
 //! In a step, drops arrive, shrink, slide, join, are wiped, and leave the rectangle, in this order. A drop that dries keeps its contact angle,
@@ -120,7 +120,7 @@ mod tests {
         }
         assert!(alone.len() > 100);
         assert_eq!(at(&p, &course, 0.5, DOWN), at(&p, &course, 1.0, DOWN), "still before the beginning");
-        // Over a step's border as within a step: nothing is 40 µs later where it was not before, but for what falls or is wiped.
+        // Over a step's border as within a step: nothing is 40 µs later where it was not before, except for what falls or is wiped.
         for border in [3.0, 3.01] {
             let (before, after) = (at(&p, &course, border - 2e-5, DOWN), at(&p, &course, border + 2e-5, DOWN));
             let moved = before.iter().filter(|b| !after.iter().any(|a| a.centre_mm.distance(b.centre_mm) < 0.01));
@@ -148,7 +148,7 @@ mod tests {
         assert_eq!(shifted, slid, "what does not slide stays");
     }
 
-    /// The square of the radius falls evenly: a drop of the greatest radius dries in the time stated, smaller ones by their squares.
+    /// The square of the radius falls evenly: a drop of the largest radius dries in the time stated, smaller ones by their squares.
     #[test]
     fn drops_dry_by_the_law_of_squares() {
         let (p, mut course) = rain();

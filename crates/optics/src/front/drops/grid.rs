@@ -72,7 +72,7 @@ impl Grid {
         let (mut cell, last) = (self.cell(from), self.cell(to));
         let way = to - from;
         let step = IVec2::new(way.x.signum() as i32, way.y.signum() as i32);
-        // Shares of the segment at the next border, and from border to border.
+        // Fractions of the segment at the next border, and from border to border.
         let border = |i: usize| {
             let next = f64::from(cell[i] + step[i].max(0)) * self.cell_mm + self.origin_mm[i];
             if way[i] == 0.0 { f64::INFINITY } else { (next - from[i]) / way[i] }

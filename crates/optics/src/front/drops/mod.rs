@@ -1,4 +1,4 @@
-//! Drops of water on the outer face of a wind-screen.
+//! Drops of water on the outer face of a windscreen.
 //!
 //! **Modelled**: each drop is a spherical cap ([`Cap`]) on the plane that touches the glass in its middle. A ray that leaves the glass
 //! under a drop is refracted into water, and where it meets the sphere, into air; one that leaves beside it may enter another drop from
@@ -60,7 +60,7 @@ impl Drops {
     /// Drops on a face.
     ///
     /// # Errors
-    /// Where a number is outside its range, or the glass does not reach as far as the drops.
+    /// If a number is outside its range, or the glass does not reach as far as the drops.
     pub(super) fn new(parameters: DropsParameters, face: Face<'_>) -> Result<Self, FrontError> {
         population::check(&parameters)?;
         let mut droplets = population::first(&parameters);
@@ -99,14 +99,14 @@ impl Drops {
         &self.droplets
     }
 
-    /// Share of their rectangle that is under drops (those that reach over its edge included).
+    /// Fraction of their rectangle that is under drops (those that reach over its edge included).
     #[must_use]
     pub fn cover(&self) -> f64 {
         let squares: f64 = self.droplets.iter().map(|d| d.radius_mm * d.radius_mm).sum();
         core::f64::consts::PI * squares / (self.parameters.size_mm.x * self.parameters.size_mm.y)
     }
 
-    /// Whether a point of the glass lies in their rectangle.
+    /// True if a point of the glass lies in their rectangle.
     pub(super) fn is_over(&self, point_mm: DVec3) -> bool {
         let p = &self.parameters;
         ((point_mm.truncate() - p.offset_mm).abs() * 2.0).cmple(p.size_mm).all()

@@ -33,8 +33,8 @@ impl Drops {
         })
     }
 
-    /// A ray that has left the glass into the drop `inside`, or into air, where it is in the open air, and the share of light that
-    /// comes this way; `None` where it ends in the glass or goes on too long. `normal` is the glass's where the ray left it, outwards.
+    /// A ray that has left the glass into the drop `inside`, or into air, where it is in the open air, and the fraction of light that
+    /// comes this way; `None` if it ends in the glass or goes on too long. `normal` is the glass's where the ray left it, outwards.
     pub(in crate::front) fn leave(
         &self,
         mut line: Line,
@@ -75,7 +75,7 @@ impl Drops {
         None
     }
 
-    /// The first drop that a ray in air meets, but for the one that it has just left: spheres are convex.
+    /// The first drop that a ray in air meets, except for the one that it has just left: spheres are convex.
     fn ahead(&self, line: &Line, normal: DVec3, left: Option<usize>) -> Option<Hit> {
         // Beyond this way it is higher than all drops: glass bends away from the plane that touches it.
         let rise = line.direction.dot(normal);
@@ -95,7 +95,7 @@ impl Drops {
 }
 
 impl Body {
-    /// The point where a ray from within meets the sphere above the glass; `None` where it meets the glass first.
+    /// The point where a ray from within meets the sphere above the glass; `None` if it meets the glass first.
     fn surface_from_within(&self, line: &Line) -> Option<DVec3> {
         let from = line.point_mm - self.centre_mm;
         let along = from.dot(line.direction);

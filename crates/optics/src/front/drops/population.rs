@@ -2,7 +2,7 @@
 //!
 //! Drops as they fall on the glass: independent of each other, evenly over the rectangle, of sizes by a power law.
 //!
-//! Numbers by base radius a fall as a^(−exponent). The usual exponent, 8/3, is that of drops that condense and coalesce: the share of
+//! Numbers by base radius a fall as a^(−exponent). The usual exponent, 8/3, is that of drops that condense and coalesce: the fraction of
 //! the area under drops above a is 1 − (a/a_max)^(1/3) (E. J. Le Fevre and J. W. Rose, "A theory of heat transfer by dropwise
 //! condensation", Third International Heat Transfer Conference, 1966).
 
@@ -27,7 +27,7 @@ pub struct DropsParameters {
     pub size_mm: DVec2,
     /// How many fell on it before the beginning, before those that touch become one; 1 to 1 000 000, or 0 where others arrive.
     pub count: u32,
-    /// Radii of their bases: least and greatest, mm, before those that touch become one.
+    /// Radii of their bases: least and largest, mm, before those that touch become one.
     pub radius_mm: [f64; 2],
     /// The size law: numbers by base radius a fall as a^(−exponent) between the two, 0 … 6.
     pub size_exponent: f64,
@@ -117,7 +117,7 @@ mod tests {
     use super::super::tests::parameters;
     use super::*;
 
-    /// The share of drops below a radius is that of the truncated power law; 4 σ of the binomial spread.
+    /// The fraction of drops below a radius is that of the truncated power law; 4 σ of the binomial spread.
     #[test]
     fn sizes_follow_the_law() {
         for exponent in [0.0, 1.0, 8.0 / 3.0] {

@@ -3,7 +3,7 @@
 //! A mirror by triangles, with smooth normals.
 //!
 //! A ray meets the flat triangles, but is reflected by the normal interpolated between their corners (Phong 1975), so that the
-//! picture has no facets: directions err by the square of the triangles' size. The test of a ray and a triangle is that of
+//! image has no facets: directions err by the square of the triangles' size. The test of a ray and a triangle is that of
 //! Woop, Benthin and Wald ("Watertight ray/triangle intersection", 2013) in double precision: a shared edge has one sign for
 //! both sides and belongs to both, so nothing leaks between.
 
@@ -133,7 +133,7 @@ pub struct MeshMirror {
 }
 
 impl fmt::Debug for MeshMirror {
-    /// Every vertex, normal and triangle: what decides its pictures.
+    /// Every vertex, normal and triangle: what decides its images.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "MeshMirror({:?}, {:?}, {:?})", self.positions_mm, self.normals, self.triangles)
     }
@@ -144,7 +144,7 @@ impl MeshMirror {
     /// normals, each corner has the mean normal of its triangles, weighted by their areas.
     ///
     /// # Errors
-    /// Where it has no triangles, one names a corner that is not there, has no area, or numbers are not finite.
+    /// If it has no triangles, one names a corner that is not there, has no area, or numbers are not finite.
     pub fn new(positions_mm: Vec<DVec3>, normals: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, FrontError> {
         let refuse = |what| Err(FrontError::Mesh { what });
         if triangles.is_empty() {
@@ -175,7 +175,7 @@ impl MeshMirror {
         self.triangles.len()
     }
 
-    /// Whether there are none, which cannot be.
+    /// True if there are none, which cannot be.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()

@@ -37,7 +37,7 @@ pub struct MirrorParameters {
     pub shape: MirrorShape,
     /// Where it stands: a quadric with its vertex (a cone with its apex) at the origin.
     pub placement: Placement,
-    /// The share of light that it reflects.
+    /// The fraction of light that it reflects.
     pub reflectance: Reflectance,
 }
 
@@ -59,7 +59,7 @@ impl Mirror {
     /// A mirror.
     ///
     /// # Errors
-    /// Where its reflectance is none.
+    /// If its reflectance is none.
     pub fn new(parameters: MirrorParameters) -> Result<Self, FrontError> {
         parameters.reflectance.check()?;
         Ok(Self { parameters })
@@ -71,7 +71,7 @@ impl Mirror {
         &self.parameters
     }
 
-    /// The share of light that it reflects.
+    /// The fraction of light that it reflects.
     #[must_use]
     pub fn reflectance(&self) -> &Reflectance {
         &self.parameters.reflectance

@@ -44,7 +44,7 @@ impl Quadric {
     /// A mirror from `hole_mm` (0 for none) to `rim_mm` from its axis.
     ///
     /// # Errors
-    /// Where a number is outside its range, the surface does not reach its rim, or the hole reaches it.
+    /// If a number is outside its range, the surface does not reach its rim, or the hole reaches it.
     pub fn new(kind: QuadricKind, rim_mm: f64, hole_mm: f64) -> Result<Self, FrontError> {
         let (radius_mm, shape) = match kind {
             QuadricKind::Conic { radius_mm, conic } => {
@@ -98,7 +98,7 @@ impl Quadric {
         self.rim_mm
     }
 
-    /// Whether a point of the mirror's frame lies within the sheet.
+    /// True if a point of the mirror's frame lies within the sheet.
     pub(super) fn holds(&self, p: DVec3) -> bool {
         let value = p.x * p.x + p.y * p.y + self.shape * p.z * p.z - 2.0 * self.radius_mm * p.z;
         value < 0.0 && self.radius_mm - self.shape * p.z > 0.0

@@ -5,7 +5,7 @@ use etendue_spectra::metal::ComplexIndex;
 use super::super::Curve;
 use crate::error::FrontError;
 
-/// The share of light that a mirror reflects.
+/// The fraction of light that a mirror reflects.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reflectance {
     /// A share, whatever the angle.
@@ -23,7 +23,7 @@ impl Reflectance {
         if right { Ok(()) } else { Err(FrontError::Share { name: "reflectance", value, range: "0 and 1, not all 0" }) }
     }
 
-    /// Whether it depends on the wavelength.
+    /// True if it depends on the wavelength.
     #[must_use]
     pub fn varies(&self) -> bool {
         match self {

@@ -1,6 +1,6 @@
-//! What a wind-screen is made of.
+//! What a windscreen is made of.
 //!
-//! Faces of a wind-screen: parallel surfaces of constant distance from the inner one, but for the wedge.
+//! Faces of a windscreen: parallel surfaces of constant distance from the inner one, except for the wedge.
 //!
 //! A section upwards is a circle of radius R_u that turns about an upright axis at the distance R_a behind the vertex: a
 //! torus, a sphere for R_a = R_u, a cylinder where one radius is infinite, a plane where both are. The height of a point over
@@ -14,7 +14,7 @@ use crate::error::front::{FrontError, positive};
 use crate::front::{Line, Placement};
 use crate::{front::placement::Curve, prescription::coating::Coating};
 
-/// A layer of a wind-screen.
+/// A layer of a windscreen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// Thickness, mm.
@@ -28,11 +28,11 @@ pub struct Layer {
 pub struct Tint {
     /// Internal transmittance (without reflections) of the reference thickness.
     pub transmittance: Curve,
-    /// The reference thickness, mm; `None` for that of the wind-screen.
+    /// The reference thickness, mm; `None` for that of the windscreen.
     pub thickness_mm: Option<f64>,
 }
 
-/// What a wind-screen is made of.
+/// What a windscreen is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindscreenParameters {
     /// Where it stands: the origin on its inner face, z outwards.
@@ -49,7 +49,7 @@ pub struct WindscreenParameters {
     pub tint: Option<Tint>,
     /// What the outer faces let through.
     pub coating: Coating,
-    /// Share of samples that look for the double image; 0 for no double image, `None` for as much as it has light.
+    /// Fraction of samples that look for the double image; 0 for no double image, `None` for as much as it has light.
     pub double_image_fraction: Option<f64>,
 }
 
@@ -102,7 +102,7 @@ pub(super) struct Face {
     across_mm: f64,
     upright_mm: f64,
     height_mm: f64,
-    /// From the wind-screen's frame to the inner face's, about the point of the face on the z axis: the wedge.
+    /// From the windscreen's frame to the inner face's, about the point of the face on the z axis: the wedge.
     turn: DMat3,
 }
 
@@ -154,7 +154,7 @@ impl Face {
         (height, direction * (z / length) + DVec3::Y * (p.y / length))
     }
 
-    /// The point of the face at a place of the wind-screen's x and y, mm, and the outward normal there; `None` where it has none.
+    /// The point of the face at a place of the windscreen's x and y, mm, and the outward normal there; `None` if it has none.
     pub(super) fn at(&self, place_mm: DVec2) -> Option<(DVec3, DVec3)> {
         let mut p = place_mm.extend(self.height_mm);
         for _ in 0..STEPS {

@@ -1,4 +1,4 @@
-//! A wind-screen: laminated, tilted, curved glass between the camera and the scene.
+//! A windscreen: laminated, tilted, curved glass between the camera and the scene.
 //!
 //! **Modelled**: Snell's law at every face (lateral offset, and the deflection by curvature and by a wedge); Fresnel's losses (or a
 //! coating's) at the two outer faces and Fresnel's at the faces between layers; absorption in the bulk, the internal
@@ -39,7 +39,7 @@ pub(super) enum Way {
     Doubled,
 }
 
-/// A wind-screen.
+/// A windscreen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Windscreen {
     parameters: WindscreenParameters,
@@ -50,10 +50,10 @@ pub struct Windscreen {
 }
 
 impl Windscreen {
-    /// A wind-screen.
+    /// A windscreen.
     ///
     /// # Errors
-    /// Where a number is outside its range, or it stands behind or in the camera.
+    /// If a number is outside its range, or it stands behind or in the camera.
     pub fn new(parameters: WindscreenParameters) -> Result<Self, FrontError> {
         check(&parameters)?;
         let faces = face::faces(&parameters);
@@ -69,7 +69,7 @@ impl Windscreen {
     /// The same glass with drops of water on its outer face.
     ///
     /// # Errors
-    /// Where a number is outside its range, or the glass ends before the drops.
+    /// If a number is outside its range, or the glass ends before the drops.
     pub fn with_drops(self, parameters: DropsParameters) -> Result<Self, FrontError> {
         let outer = self.faces[self.faces.len() - 1];
         let drops = Drops::new(parameters, &|place_mm| outer.at(place_mm))?;
@@ -108,13 +108,13 @@ impl Windscreen {
         self.thickness_mm
     }
 
-    /// Share of samples that look for the double image.
+    /// Fraction of samples that look for the double image.
     #[must_use]
     pub fn double_image_fraction(&self) -> f64 {
         self.double_image_fraction
     }
 
-    /// Transmittances on the camera's axis at 587.56 nm: straight, and of the double image; `None` where it is not met.
+    /// Transmittances on the camera's axis at 587.56 nm: straight, and of the double image; `None` if it is not met.
     #[must_use]
     pub fn axial_transmittances(&self) -> Option<[f64; 2]> {
         let axis = Line { point_mm: DVec3::ZERO, direction: DVec3::Z };
@@ -131,13 +131,13 @@ impl Windscreen {
         Self { parameters, ..self.clone() }
     }
 
-    /// The double image's share of the light on the axis; of usual glass where the axis does not meet this one.
+    /// The double image's fraction of the light on the axis; of usual glass where the axis does not meet this one.
     fn share_of_double(&self) -> f64 {
         let share = |[straight, doubled]: [f64; 2]| (straight > 0.0).then(|| doubled / (straight + doubled));
         self.axial_transmittances().and_then(share).unwrap_or(USUAL_SHARE)
     }
 
-    /// Whether a ray or its weight depends on the wavelength.
+    /// True if a ray or its weight depends on the wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         let p = &self.parameters;
@@ -153,7 +153,7 @@ impl Windscreen {
         if u < q { (Way::Doubled, u / q, 1.0 / q) } else { (Way::Straight, (u - q) / (1.0 - q), 1.0 / (1.0 - q)) }
     }
 
-    /// Whether a point of the camera frame is on the camera's side.
+    /// True if a point of the camera frame is on the camera's side.
     fn is_before(&self, point_mm: DVec3) -> bool {
         let local = self.parameters.placement.inward(Line { point_mm, direction: DVec3::Z });
         self.faces[0].height(local.point_mm).0 < 0.0

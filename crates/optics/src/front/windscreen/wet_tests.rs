@@ -111,7 +111,7 @@ fn a_drop_inverts_and_scales_what_is_behind_it() {
     }
 }
 
-/// Under even light only Fresnel's losses are seen: a ray r from the axis passes T(glass, water) T(water, air at asin(r/R)) in place
+/// Under uniform illumination only Fresnel's losses are seen: a ray r from the axis passes T(glass, water) T(water, air at asin(r/R)) in place
 /// of T(glass, air), up to r = R/n, where total reflection begins. In the middle the drop is 1.9 % brighter than the glass beside it.
 #[test]
 fn in_even_light_a_drop_is_seen_by_its_fresnel_losses_alone() {

@@ -1,7 +1,7 @@
 //! The parts of a plane through which rays come through the lens: its bundles.
 //!
 //! The plane's points q stand for rays (rays of one source in front of the lens, or rays of one sensor point by their slopes),
-//! and a function tells how far a ray fills the clear apertures: at most 1 where it passes, `None` where it misses a surface or
+//! and a function tells how far a ray fills the clear apertures: at most 1 where it passes, `None` if it misses a surface or
 //! is totally reflected. Both are symmetric about the line q.y = 0, so that q.y ≥ 0 is searched.
 //!
 //! Cells are halved until those that hold an edge are 1/192 of the searched box. Where nothing near passes, cells whose filling
@@ -140,7 +140,7 @@ pub(super) fn bundles(bounds: Cell, filling: &impl Fn(DVec2) -> Option<f64>) -> 
     without_crumbs(connected(found), size.max_element())
 }
 
-/// Crumbs joined to the greatest part that is nearer than `reach`.
+/// Crumbs joined to the largest part that is nearer than `reach`.
 fn without_crumbs(mut parts: Vec<Bundle>, reach: f64) -> Vec<Bundle> {
     parts.sort_by(|a, b| b.area().total_cmp(&a.area()));
     let mut list: Vec<Bundle> = Vec::new();

@@ -17,7 +17,7 @@ const KNOTS: usize = 128;
 /// Roots are found to this slope: rounding of the tracing itself.
 const SLOPE: f64 = 1e-15;
 const STEPS: usize = 100;
-/// How far beyond the picture principal rays are known.
+/// How far beyond the image principal rays are known.
 const OVERSCAN: f64 = 1.02;
 
 /// Slopes and field angles of principal rays by height.
@@ -60,7 +60,7 @@ impl Chiefs {
         FieldAngles { step_mm: self.step_mm, angles: self.angles }
     }
 
-    /// The greatest height that has a principal ray, mm.
+    /// The largest height that has a principal ray, mm.
     pub(super) fn limit_mm(&self) -> f64 {
         self.step_mm * (self.slopes.len() - 1) as f64
     }
@@ -77,7 +77,7 @@ impl Chiefs {
         self.slopes[i] + (place - i as f64) * (self.slopes[i + 1] - self.slopes[i])
     }
 
-    /// The principal ray's slope at a height; `None` where there is none.
+    /// The principal ray's slope at a height; `None` if there is none.
     pub(super) fn slope(&self, lens: &Prescription, s_mm: f64) -> Option<f64> {
         if s_mm == 0.0 {
             return Some(0.0);

@@ -79,7 +79,7 @@ impl Prescribed {
 }
 
 /// An integral over an opening that is one piece as seen from its region's centre: for each of some directions the edge is found by bisection, then
-/// Gauss's rule along the radius and equal steps around. `None` where the opening has a gap along a direction.
+/// Gauss's rule along the radius and equal steps around. `None` if the opening has a gap along a direction.
 fn over_a_star(opening: &Opening<'_>, ellipse: &Ellipse, directions: usize, f: &impl Fn(DVec2) -> f64) -> Option<f64> {
     let centre = DVec2::new(ellipse.centre, 0.0);
     let edge = |direction: DVec2| {

@@ -36,7 +36,7 @@ pub use spot::{OtherBundle, Spot};
 
 pub(crate) use light::DIRECTIONS;
 
-/// A prescription, focused, with its pupils found for a picture of a given size.
+/// A prescription, focused, with its pupils found for an image of a given size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prescribed {
     prescription: Prescription,
@@ -46,11 +46,11 @@ pub struct Prescribed {
 }
 
 impl Prescribed {
-    /// A lens for pictures that reach `picture_radius_mm` from the axis; further out it is dark. With a filter in front of
+    /// A lens for images that reach `picture_radius_mm` from the axis; further out it is dark. With a filter in front of
     /// the sensor, where there is one.
     ///
     /// # Errors
-    /// Where no light reaches the middle of the sensor or the radius is not positive.
+    /// If no light reaches the middle of the sensor or the radius is not positive.
     pub fn new(
         prescription: Prescription,
         filter: Option<InterferenceFilter>,
@@ -69,14 +69,14 @@ impl Prescribed {
         &self.prescription
     }
 
-    /// Whether a ray or its weight depends on the wavelength: by a glass, a coating or the filter.
+    /// True if a ray or its weight depends on the wavelength: by a glass, a coating or the filter.
     #[must_use]
     pub fn disperses(&self) -> bool {
         let layered = |s: &Surface| matches!(s.coating, Coating::QuarterWave { .. });
         self.filter.is_some() || self.prescription.disperses() || self.prescription.surfaces().iter().any(layered)
     }
 
-    /// How far from the axis light arrives, mm: the picture's radius, or less where the lens is dark before.
+    /// How far from the axis light arrives, mm: the image's radius, or less where the lens is dark before.
     #[must_use]
     pub fn lit_radius_mm(&self) -> f64 {
         self.regions.limit_mm
@@ -98,7 +98,7 @@ impl Prescribed {
         }
     }
 
-    /// The angle from the axis at which a height on the sensor looks, rad; `None` where it has no principal ray.
+    /// The angle from the axis at which a height on the sensor looks, rad; `None` if it has no principal ray.
     pub(crate) fn field_angle(&self, height_mm: f64) -> Option<f64> {
         self.chiefs.ray(&self.prescription, height_mm).map(|ray| chief::field_angle(ray.direction))
     }
@@ -124,7 +124,7 @@ impl Prescribed {
     /// The principal ray's direction in the camera frame, clipped or not.
     pub(super) fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
         let ray = self.chiefs.ray(&self.prescription, sensor_mm.length())?;
-        // In the picture's erect sense the scene lies on the point's own side.
+        // In the image's erect sense the scene lies on the point's own side.
         let across = -sensor_mm.normalize_or_zero() * ray.direction.x;
         Some(across.extend(-ray.direction.z))
     }

@@ -29,7 +29,7 @@ pub(super) struct Meridian {
 }
 
 impl Meridian {
-    /// Of a point of the erect picture: the light itself falls on its negative.
+    /// Of a point of the erect image: the light itself falls on its negative.
     pub(super) fn new(point_mm: DVec2, sensor_mm: f64) -> Self {
         let outward = (-point_mm).normalize_or(DVec2::X);
         Self { s_mm: point_mm.length(), outward, sensor_mm }
@@ -75,7 +75,7 @@ const SCAN: usize = 1024;
 const HALVINGS: usize = 24;
 /// Places along a radius at which an opening is looked at for gaps.
 const LOOKS: usize = 20;
-/// Places of the meridional plane at which pieces are told apart, and of a grid across all slopes.
+/// Places of the meridional plane at which pieces are distinguished, and of a grid across all slopes.
 const PIECES: usize = 256;
 const GRID: usize = 96;
 /// What is added to the box of all slopes, of its width.
@@ -90,7 +90,7 @@ impl Opening<'_> {
         self.lens.passes(self.meridian.ray(t), self.media, Rims::Clip).is_ok()
     }
 
-    /// The interval of meridional slopes that passes, from its first to its last point; `None` where none does. `seed`
+    /// The interval of meridional slopes that passes, from its first to its last point; `None` if none does. `seed`
     /// is a slope likely to be inside (the chief ray's).
     pub(super) fn meridional(&self, seed: Option<f64>) -> Option<[f64; 2]> {
         let along = |x: f64| self.passes(DVec2::new(x, 0.0));
@@ -113,7 +113,7 @@ impl Opening<'_> {
         last_open([inside, inside + step], halvings, along)
     }
 
-    /// Whether what passes in the meridional plane is one piece.
+    /// True if what passes in the meridional plane is one piece.
     pub(super) fn is_one_piece(&self) -> bool {
         let [low, high] = rear_slopes(self.lens, self.meridian.s_mm);
         let at = |i: usize| self.passes(DVec2::new(low + (high - low) * i as f64 / PIECES as f64, 0.0));
@@ -130,7 +130,7 @@ impl Opening<'_> {
         })
     }
 
-    /// A box of slopes about all pieces, from the meridional plane on, by a grid: larger by its steps. `None` where nothing passes.
+    /// A box of slopes about all pieces, from the meridional plane on, by a grid: larger by its steps. `None` if nothing passes.
     pub(super) fn extent(&self) -> Option<Cell> {
         let Cell { low, high } = self.bounds();
         let step = (high - low) / GRID as f64;
@@ -145,7 +145,7 @@ impl Opening<'_> {
         held.high.is_finite().then(|| Cell { low: DVec2::new(held.low.x - step.x, 0.0), high: held.high + step })
     }
 
-    /// Whether all passes from `centre` to an edge.
+    /// True if all passes from `centre` to an edge.
     pub(super) fn is_open_to(&self, centre: DVec2, edge: DVec2) -> bool {
         (0..LOOKS).all(|i| self.passes(centre + edge * (i as f64 / LOOKS as f64)))
     }

@@ -67,7 +67,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         nodes
     }
 
-    /// The point of the edge at which `f` is greatest, near a point of it and between the rows beside: where two rims meet,
+    /// The point of the edge at which `f` is largest, near a point of it and between the rows beside: where two rims meet,
     /// the edge has a corner there.
     pub(super) fn highest(&self, near: DVec2, rows: usize, f: impl Fn(DVec2) -> f64) -> f64 {
         let Cell { low, high } = self.bundles[self.own].bounds();
@@ -131,7 +131,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         (self.fullness(at, y) <= 1.0).then(|| [self.edge(at, a, y), self.edge(at, b, y)])
     }
 
-    /// Whether a point that passes belongs to this bundle.
+    /// True if a point that passes belongs to this bundle.
     fn is_own(&self, q: DVec2) -> bool {
         if self.bundles.len() == 1 {
             return true;

@@ -76,7 +76,7 @@ pub(super) struct Proposal {
 
 impl Regions {
     /// By tracing, as far as `picture_mm` from the axis or the light reaches. `chief` is the chief ray's slope at a
-    /// height, where it has one. `None` where the middle of the sensor is dark.
+    /// height, where it has one. `None` if the middle of the sensor is dark.
     pub(super) fn new(lens: &Prescription, picture_mm: f64, chief: impl Fn(f64) -> Option<f64>) -> Option<Self> {
         let look = |s_mm: f64| ellipse(lens, s_mm, chief(s_mm));
         let limit_mm = lit_as_far_as(picture_mm, 2 * INTERVALS, |s_mm| look(s_mm).is_some())?;
@@ -211,7 +211,7 @@ impl Interval {
     fn raise(&mut self, place: f64, by: f64) {
         let i = (place as usize).min(DIRECTIONS - 1);
         let share = place - i as f64;
-        // The least change of both neighbours that raises the line between them by `by`.
+        // The smallest change of both neighbours that raises the line between them by `by`.
         let scale = by / (share * share + (1.0 - share) * (1.0 - share));
         self.radius[i] += scale * (1.0 - share);
         self.radius[i + 1] += scale * share;

@@ -1,11 +1,11 @@
-//! What a lens does to its image, measured by its rays, without a picture.
+//! What a lens does to its image, measured by its rays, without an image.
 //!
 //! Per field height, for the point of the plane in focus (or of infinity) that the principal ray at 587.56 nm comes from:
 //!
 //! - **distortion**: height over that of a rectilinear lens, c tan θ, and of an equidistant one, c θ, less 1, with c the
 //!   principal distance and θ the principal ray's angle;
 //! - **relative illumination**: irradiance per radiance, over that of the axis;
-//! - **spot**: where rays that fill the open pupil evenly in light land: root-mean-square and greatest distance from
+//! - **spot**: where rays that fill the open pupil evenly in light land: root-mean-square and largest distance from
 //!   their centroid (see `spot.rs`; for the converged quadrature and its error too);
 //! - **other bundles**: light of the same point that passes the lens elsewhere, as by a rim beside the pupil;
 //! - **field curvature**: where narrow fans about the principal ray come to focus, behind the sensor positive: in the
@@ -40,7 +40,7 @@ pub struct LensReport {
     pub sensor_mm: f64,
     /// Transmittance on the axis at 587.56 nm.
     pub transmittance: f64,
-    /// Angle across the whole lit picture, rad; `None` where its edge has no principal ray.
+    /// Angle across the whole lit image, rad; `None` if its edge has no principal ray.
     pub field_of_view_rad: Option<f64>,
     /// Paraxial image at the F line less that at d, mm, towards the sensor's back positive.
     pub axial_colour_f_mm: f64,
@@ -57,7 +57,7 @@ pub struct FieldReport {
     pub height_mm: f64,
     /// Irradiance over that on the axis.
     pub relative_illumination: f64,
-    /// What its principal ray tells; `None` where it has none.
+    /// What its principal ray tells; `None` if it has none.
     pub image: Option<ImageReport>,
 }
 
@@ -74,9 +74,9 @@ pub struct ImageReport {
     pub tangential_mm: f64,
     /// Sagittal focus behind the sensor, mm.
     pub sagittal_mm: f64,
-    /// The spot at 587.56 nm; `None` where no ray arrives.
+    /// The spot at 587.56 nm; `None` if no ray arrives.
     pub spot: Option<Spot>,
-    /// Lateral colour of the F line; `None` where no light of it arrives.
+    /// Lateral colour of the F line; `None` if no light of it arrives.
     pub lateral_f: Option<LateralShift>,
     /// Lateral colour of the C line.
     pub lateral_c: Option<LateralShift>,
@@ -91,12 +91,12 @@ pub struct LateralShift {
     pub centroid_mm: f64,
     /// Estimated error of [`Self::centroid_mm`], mm.
     pub centroid_error_mm: f64,
-    /// By the chief rays, through the centre of the stop at either wavelength, mm; `None` where there is none.
+    /// By the chief rays, through the centre of the stop at either wavelength, mm; `None` if there is none.
     pub chief_mm: Option<f64>,
 }
 
 impl Prescribed {
-    /// Measures the lens at `fields` heights (at least 2) from the axis to the edge of the lit picture, first-order quantities at the lens's reference
+    /// Measures the lens at `fields` heights (at least 2) from the axis to the edge of the lit image, first-order quantities at the lens's reference
     /// wavelength.
     #[must_use]
     pub fn report(&self, fields: usize) -> LensReport {

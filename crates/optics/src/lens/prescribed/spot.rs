@@ -23,7 +23,7 @@ pub struct Spot {
     pub rms_mm: f64,
     /// Estimated error of [`Self::rms_mm`], mm: what the last doubling of its rays changed.
     pub rms_error_mm: f64,
-    /// Greatest distance from the centroid, mm.
+    /// Largest distance from the centroid, mm.
     pub radius_mm: f64,
     /// The centroid's distance from the axis, mm; negative on the side of the axis opposite to the field point.
     pub centroid_mm: f64,
@@ -54,7 +54,7 @@ pub(super) struct Pupil {
 }
 
 impl Pupil {
-    /// `None` where no ray comes through.
+    /// `None` if no ray comes through.
     pub(super) fn new(beam: &Beam<'_>) -> Option<Self> {
         let list = bundles(beam.bounds(), &|q| beam.filling(q));
         let distance = |bundle: &Bundle| bundle.distance(DVec2::ZERO);
@@ -97,7 +97,7 @@ impl Pupil {
     }
 }
 
-/// Greatest distance from the centroid, mm: of the rays, and of the edge about the farthest of them.
+/// Largest distance from the centroid, mm: of the rays, and of the edge about the farthest of them.
 fn farthest<F>(beam: &Beam<'_>, area: &Area<'_, F>, rows: usize, nodes: &[Node], centroid_mm: f64) -> f64
 where
     F: Fn(DVec2) -> Option<f64>,

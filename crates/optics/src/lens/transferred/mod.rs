@@ -52,17 +52,17 @@ pub struct Transferred {
 }
 
 const KNOTS: usize = 128;
-/// How far beyond the picture principal rays are known.
+/// How far beyond the image principal rays are known.
 const OVERSCAN: f64 = 1.02;
 const HALVINGS: usize = 60;
 /// Directions of the quadrature over the pupil.
 const DIRECTIONS: usize = 96;
 
 impl Transferred {
-    /// A lens for pictures that reach `picture_radius_mm` from the axis; further out it is dark.
+    /// A lens for images that reach `picture_radius_mm` from the axis; further out it is dark.
     ///
     /// # Errors
-    /// Where no light reaches the middle of the sensor, no place of it is in focus, or a number is outside its range.
+    /// If no light reaches the middle of the sensor, no place of it is in focus, or a number is outside its range.
     pub fn new(
         transfer: RayTransfer,
         place: SensorPlace,
@@ -101,13 +101,13 @@ impl Transferred {
         self.near.sensor_mm
     }
 
-    /// How far from the axis light arrives, mm: a little more than the picture's radius, or less where the functions end before.
+    /// How far from the axis light arrives, mm: a little more than the image's radius, or less where the functions end before.
     #[must_use]
     pub fn lit_radius_mm(&self) -> f64 {
         self.pupils.limit_mm
     }
 
-    /// Whether a ray depends on the wavelength.
+    /// True if a ray depends on the wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         self.transfer.transfers().len() > 1
@@ -213,7 +213,7 @@ impl Transferred {
         let origin_m = if radius_mm > 0.0 {
             let outwards = sensor_mm / radius_mm;
             let point = self.point_m(ray.point_mm);
-            // The plane x = 0 of the lens holds the sensor point (0, radius) of its frame, which the picture has at its negative.
+            // The plane x = 0 of the lens holds the sensor point (0, radius) of its frame, which the image has at its negative.
             (outwards * -(ray.point_mm.y * MM)).extend(point.z)
         } else {
             DVec3::ZERO
@@ -275,7 +275,7 @@ impl Transferred {
     }
 }
 
-/// The point of the lens's frame on which the light of a point of the erect picture falls.
+/// The point of the lens's frame on which the light of a point of the erect image falls.
 fn film_point(sensor_mm: DVec2) -> DVec2 {
     DVec2::new(-sensor_mm.x, sensor_mm.y)
 }

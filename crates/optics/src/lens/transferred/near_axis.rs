@@ -119,7 +119,7 @@ fn rim_height(sight: &Sight<'_>, oval: &Oval, direction: DVec2, entrance_mm: f64
     Some(at.truncate().length())
 }
 
-/// f of rays that come along the axis: they leave at −ρ/f. `None` where they are not bent towards it.
+/// f of rays that come along the axis: they leave at −ρ/f. `None` if they are not bent towards it.
 fn focal_length_mm(transfer: &RayTransfer, radius_mm: f64) -> Option<f64> {
     // From a sensor far enough behind for the rays to be parallel, at the height of each.
     let sensor_mm = transfer.input_offset_mm().max(0.0) + radius_mm;

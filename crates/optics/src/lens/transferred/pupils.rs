@@ -41,7 +41,7 @@ pub(super) struct Proposal {
 }
 
 impl Pupils {
-    /// As far as `reach_mm` from the axis or the light reaches; `None` where the middle of the sensor is dark.
+    /// As far as `reach_mm` from the axis or the light reaches; `None` if the middle of the sensor is dark.
     pub(super) fn new(sight: &Sight<'_>, reach_mm: f64) -> Option<Self> {
         let limit_mm = lit_as_far_as(reach_mm, 2 * INTERVALS, |radius_mm| sight.meridional(radius_mm).is_some())
             .filter(|limit_mm| *limit_mm > 0.0)?;
@@ -79,7 +79,7 @@ impl Pupils {
         (place <= INTERVALS as f64).then_some((index, place - index as f64))
     }
 
-    /// The oval at a distance from the axis, not stretched; `None` where no light arrives.
+    /// The oval at a distance from the axis, not stretched; `None` if no light arrives.
     pub(super) fn oval(&self, radius_mm: f64) -> Option<Oval> {
         let (i, share) = self.place(radius_mm)?;
         let (a, b) = (self.ovals[i], self.ovals[i + 1]);

@@ -39,7 +39,7 @@ impl Sight<'_> {
         }
     }
 
-    /// The interval of the meridian that passes, from its first to its last point, mm; `None` where none does.
+    /// The interval of the meridian that passes, from its first to its last point, mm; `None` if none does.
     pub(super) fn meridional(&self, radius_mm: f64) -> Option<[f64; 2]> {
         let step = MAX_SLOPE * self.distance_mm() / f64::from(SCAN);
         let at = |i: i32| radius_mm + step * f64::from(i);
@@ -58,7 +58,7 @@ impl Sight<'_> {
         last.map_or(0.0, |i| last_open([at(i), at(i + 1)], HALVINGS, is_open))
     }
 
-    /// The ray of the meridian that leaves by a place of it, as its height above the axis at a distance from the sensor, and its slope; `None` where there is
+    /// The ray of the meridian that leaves by a place of it, as its height above the axis at a distance from the sensor, and its slope; `None` if there is
     /// none.
     pub(super) fn meridian_ray(&self, radius_mm: f64, along_mm: f64, nm: f64) -> Option<TransferRay> {
         let (point, pupil) = (DVec2::new(0.0, radius_mm), DVec2::new(0.0, along_mm));
