@@ -1,16 +1,16 @@
-//! Where a sensor image looks, in samples: what decides the geometry of a stored image.
+//! Samples of the viewing directions of a sensor image, which decide the geometry of a stored image.
 //!
-//! Where the points of a sensor image look, by wavelength, at the cost of a table where the lens itself is dear.
+//! Chief-ray directions by wavelength, tabulated if the lens itself is expensive.
 //!
-//! A prescription's chief rays (through the centre of the stop, of the wavelength) are traced at [`KNOTS`] radii; their field
-//! angles are interpolated by cubics through the neighbours' slopes (Catmull and Rom 1974). The angle is a smooth function
-//! of the radius, and the error is tested to stay below 1e-7 rad, a thousandth of any pixel.
+//! A prescription's chief rays (through the centre of the stop, per wavelength) are traced at [`KNOTS`] radii. Their field angles are interpolated by
+//! cubics through the neighbours' slopes (Catmull and Rom 1974). The angle is a smooth function of the radius; tests hold the error below 1e-7 rad, a
+//! thousandth of any pixel.
 //!
 //! The étendue of a prescription over the radius.
 //!
-//! Ω at 587.56 nm stands at [`KNOTS`] radii, its ratio at another wavelength at one in [`STRIDE`] of them; both are
-//! interpolated linearly. The error is tested to stay below 1e-3 of the étendue on the axis (2e-4 where no aperture begins
-//! or ends to clip); where the lens gets dark the last step is one of 1/256 of the sensor image's radius.
+//! Ω at 587.56 nm is tabulated at [`KNOTS`] radii, its ratio at another wavelength at one in [`STRIDE`] of them; both are interpolated linearly.
+//! Tests hold the error below 1e-3 of the étendue on the axis (2e-4 where no aperture begins or ends to clip); where the lens becomes dark the last
+//! step is 1/256 of the radius of the sensor image.
 
 use core::f64::consts::PI;
 
@@ -23,16 +23,16 @@ use super::view::Face;
 use crate::lens::{DIRECTIONS, FieldAngles, Lens, Prescribed};
 use crate::overlap::PRINCIPAL_NM;
 
-/// Samples along a side of the sensor image, at least; its border is looked at pixel by pixel.
+/// Minimum number of samples along a side of the sensor image; its border is sampled pixel by pixel.
 const SAMPLES: usize = 256;
-/// Wavelengths at which a lens is asked whose chief rays depend on them.
+/// Number of wavelengths sampled for a lens whose chief rays depend on them.
 const WAVELENGTHS: usize = 5;
 
-/// A sample of a sensor image.
+/// One sample of a sensor image.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     pub(super) direction: DVec3,
-    /// Directions half a pixel to the left, right, above, below, where all are.
+    /// Directions half a pixel to the left, right, above and below, if all exist.
     around: Option<[DVec3; 4]>,
 }
 
@@ -51,12 +51,12 @@ pub(super) struct Survey {
     pub(super) looks: Vec<Look>,
     /// Pixels between samples inside the sensor image.
     pub(super) step_px: usize,
-    /// True if some samples look nowhere.
+    /// True if some samples have no direction.
     pub(super) dark: bool,
 }
 
 impl Survey {
-    /// Of a lens and a raster, at the wavelengths of a range where they matter.
+    /// Samples a lens and a raster, at several wavelengths of a range if they differ.
     pub(super) fn new(lens: &Lens, raster: &Raster, range: WavelengthRange) -> Self {
         let step_px = raster.width().max(raster.height()).div_ceil(SAMPLES);
         let mut survey = Self { looks: Vec::new(), step_px, dark: false };
@@ -85,7 +85,7 @@ impl Survey {
     }
 }
 
-/// Tables reach a little beyond the sensor image.
+/// Tables extend slightly beyond the sensor image.
 pub(super) const REACH: f64 = 1.02;
 
 /// The wavelengths whose chief rays differ.
@@ -96,7 +96,7 @@ fn wavelengths(lens: &Lens, range: WavelengthRange) -> Vec<f64> {
     (0..WAVELENGTHS).map(|i| range.low_nm + range.width_nm() * i as f64 / (WAVELENGTHS - 1) as f64).collect()
 }
 
-/// Pixel corners: a lattice inside the sensor image, all along its border.
+/// Pixel corners: a lattice inside the sensor image, and all along its border.
 fn points(raster: &Raster, step_px: usize) -> impl Iterator<Item = DVec2> {
     let (w, h) = (raster.width(), raster.height());
     let row = move |y: usize| {
@@ -114,7 +114,7 @@ const KNOTS: usize = 512;
 /// The chief rays of a wavelength.
 #[derive(Clone, Debug)]
 pub(crate) enum Aim<'a> {
-    /// Asked of the lens, point by point.
+    /// Queried from the lens, point by point.
     Lens {
         /// The lens.
         lens: &'a Lens,
@@ -126,7 +126,7 @@ pub(crate) enum Aim<'a> {
 }
 
 impl<'a> Aim<'a> {
-    /// Of points as far as `reach_mm` from the axis.
+    /// Creates the chief rays of points up to `reach_mm` from the axis.
     pub(crate) fn new(lens: &'a Lens, reach_mm: f64, nm: f64) -> Self {
         match lens {
             Lens::Prescription(prescribed) => Self::Table(prescribed.field_angles(reach_mm, nm, KNOTS)),
@@ -134,7 +134,7 @@ impl<'a> Aim<'a> {
         }
     }
 
-    /// Of the wavelength of ground truth.
+    /// Chief rays at the wavelength of ground truth.
     pub(crate) fn principal(lens: &'a Lens, reach_mm: f64) -> Self {
         Self::new(lens, reach_mm, PRINCIPAL_NM)
     }
@@ -148,7 +148,7 @@ impl<'a> Aim<'a> {
     }
 }
 
-/// Radii at which the quadrature is done.
+/// Radii of the quadrature.
 const RADIAL_KNOTS: usize = 257;
 /// Of which every so many serve for the ratio of other wavelengths.
 const STRIDE: usize = 8;
