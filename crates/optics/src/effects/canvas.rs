@@ -28,7 +28,7 @@ impl Canvas {
         self.film.sensor_mm(film_px)
     }
 
-    /// How far from the axis the film goes.
+    /// Maximum distance from the axis to the film's edge.
     pub(super) fn max_radius_mm(&self) -> f64 {
         self.film.max_radius_mm()
     }
@@ -37,7 +37,7 @@ impl Canvas {
         self.film.pitch_mm()
     }
 
-    /// All of the film.
+    /// The whole film.
     pub(super) fn whole(&self) -> Region {
         Region { x: 0..self.film.width(), y: 0..self.film.height() }
     }

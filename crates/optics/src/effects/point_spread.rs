@@ -1,4 +1,4 @@
-//! The point-spread functions that there are.
+//! The kinds of point-spread functions.
 
 use core::fmt;
 
@@ -12,7 +12,7 @@ use super::spread_image::{ReadyImage, SpreadImage};
 use super::spread_table::{ReadyTable, SpreadTable};
 use super::{Canvas, sample_spread::SampleSpread};
 
-/// Where it is told how narrow a function is, nm.
+/// Wavelength at which the width of a function is stated, nm.
 const GREEN_NM: f64 = 555.0;
 
 /// A point-spread function.
@@ -27,7 +27,7 @@ pub enum PointSpread {
 }
 
 impl fmt::Debug for PointSpread {
-    /// That of its member.
+    /// Delegates to the member.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Aperture(psf) => psf.fmt(f),
@@ -47,7 +47,7 @@ impl PointSpread {
         }
     }
 
-    /// Columns and rows that light is spread over.
+    /// Columns and rows over which light is spread.
     pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
         match self {
             Self::Aperture(psf) => psf.reach_px(pitch_mm),
@@ -56,7 +56,7 @@ impl PointSpread {
         }
     }
 
-    /// What it has to do on so many images a band.
+    /// Operation counts for the given number of images per band.
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         match self {
             Self::Aperture(psf) => psf.operation_counts(canvas, bands, pictures),
@@ -74,7 +74,7 @@ impl PointSpread {
         }
     }
 
-    /// The cores by which samples are displaced, for the wavelengths of a range; `None` if no light is in them.
+    /// The cores by which samples are displaced, for the wavelengths of a range; `None` if they hold no light.
     pub(super) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         match self {
             Self::Aperture(psf) => psf.sample_spread(canvas, range),
@@ -83,7 +83,7 @@ impl PointSpread {
         }
     }
 
-    /// How narrow it is on the pixels of a film.
+    /// Width of the function on the pixels of a film.
     pub(super) fn width(&self, canvas: &Canvas) -> SpreadWidth {
         let reach = self.reach_px(canvas.pitch_mm());
         match self {
@@ -97,7 +97,7 @@ impl PointSpread {
     }
 }
 
-/// A point-spread function of a film.
+/// A point-spread function prepared for a film.
 #[derive(Debug)]
 pub(super) enum ReadySpread {
     /// Of an aperture.

@@ -19,7 +19,7 @@ pub struct GhostReport {
     pub pair: GhostPair,
     /// Light of the ghost over light of the image.
     pub light: f64,
-    /// Where its centroid lies: mm from the axis towards the image, negative on the other side.
+    /// Position of its centroid: mm from the axis towards the image, negative on the other side.
     pub height_mm: f64,
     /// Radius of the even disc that has its root-mean-square size, mm.
     pub radius_mm: f64,

@@ -1,4 +1,4 @@
-//! An image as far sources: single pixels where it is bright, blocks of pixels where it is dim.
+//! An image as sources at infinity: single pixels where it is bright, blocks of pixels where it is dim.
 
 use etendue_core::{plane::Plane, quantity::Quantity};
 use glam::DVec2;
@@ -53,7 +53,7 @@ impl<Q: Quantity<Sample = f32>> SourceImage<'_, Q> {
         sources
     }
 
-    /// Light of all bands of each pixel.
+    /// Total light of all bands of each pixel.
     fn strength(&self) -> Vec<f64> {
         let mut strength = vec![0.0; self.pixel_factor.len()];
         for (plane, band) in self.planes.iter().zip(&self.band_factor) {
@@ -83,12 +83,12 @@ impl Block {
         (self.x[1] - self.x[0]) * (self.y[1] - self.y[0])
     }
 
-    /// Places of its pixels in an image of a width.
+    /// Indices of its pixels in an image of a width.
     fn pixels(self, width: usize) -> impl Iterator<Item = usize> {
         (self.y[0]..self.y[1]).flat_map(move |y| (self.x[0]..self.x[1]).map(move |x| y * width + x))
     }
 
-    /// Halves, each way that has more than one pixel.
+    /// Halves along each direction with more than one pixel.
     fn parts(self) -> Vec<Self> {
         let halves = |[low, high]: [usize; 2]| {
             let middle = usize::midpoint(low, high);

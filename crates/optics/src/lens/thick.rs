@@ -22,25 +22,26 @@
 //! Both pupils are images of one stop, so each is the image of the other: p′ = p f/(f + p) and m_p = p′/p = f/(f + p) = 1 − p′/f. One of the three
 //! keys therefore determines the others: p = f (1/m_p − 1), p′ = f (1 − m_p). Several keys are legal if they agree (to 1e-6 in m_p); a contradiction
 //! is refused.
+//!
 //! # Light
 //!
-//! A point of the exit pupil is imaged to the point of the entrance pupil 1/m_p times as far from the axis; a sensor point
 //! A point of the exit pupil is imaged to the point of the entrance pupil 1/m_p times as far from the axis; a sensor point is imaged to the plane in
 //! focus; the ray joins both image points. The exit pupil is m_p c from the sensor (c of `focus.rs`), so on the axis E = π τ L / (1 + 4N²(1 −
 //! m/m_p)²) with m < 0 for a real image: the classical form with the **flat-disc convention** tan θ′ = 1/(2N (1 − m/m_p)).
-//! Off the axis a flat disc of fixed size cannot be both pupils at once (étendue would not be conserved; the two choices
+//!
 //! Off the axis a flat disc of fixed size cannot be both pupils at once (étendue would not be conserved; the two choices differ by a factor of 1.52
 //! at 30° for m_p = 2), so the lens states the pupil that keeps its area:
 //! - `exit`: the exit pupil keeps its radius; irradiance falls with cos⁴ θ′ of the angle in image space.
 //! - `entrance`: the entrance pupil keeps its radius; irradiance falls with cos⁴ θ of the field angle (times the area ratio of the distortion).
+//!
 //! The other pupil's radius is then scaled by √g or 1/√g, g = cos⁴θ · (ideal area per observed area) / cos⁴θ′, which
 //! conserves étendue along the chief ray.
 //!
-//! Rims clip the straight rays (object-side ray at the front rim, image-side ray at the rear rim): mechanical vignetting is
 //! The apertures clip the straight rays (object-side ray at the front aperture, image-side ray at the rear aperture). Mechanical vignetting is the
 //! intersection of the pupil and the projected apertures, three circles whose centres lie on one line. An aperture that clips on the axis is refused,
 //! because the f-number would not hold.
-//! With m_p = 1, no rims and no distortion this is the thin lens. Left out: aberrations, dispersion, diffraction, and
+//!
+//! With m_p = 1, no apertures and no distortion this is the thin lens. Left out: aberrations, dispersion, diffraction, and
 //! telecentric lenses (a pupil at infinity).
 
 use etendue_core::ray::PupilRay;

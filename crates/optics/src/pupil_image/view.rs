@@ -5,7 +5,7 @@
 
 use glam::{DVec2, DVec3};
 
-/// A face of the cube about the entrance pupil: the way a view looks.
+/// A face of the cube about the entrance pupil: the direction of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Face {
     /// Along the optical axis, +z.
@@ -53,7 +53,7 @@ impl Face {
         }
     }
 
-    /// The face through which a direction leaves the cube; where two share an edge the earlier one.
+    /// The face through which a direction leaves the cube; of two that share an edge, the earlier one.
     #[must_use]
     pub fn towards(direction: DVec3) -> Self {
         let most = direction.abs().max_element();
@@ -91,11 +91,11 @@ impl Face {
 /// A view within a stored image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// Where it looks.
+    /// Direction of the view.
     pub(super) face: Face,
     /// A pixel's side on the plane at unit distance.
     pub(super) pitch_tan: f64,
-    /// Where the face's axis is, in pixel coordinates of the stored image.
+    /// Position of the face's axis, in pixel coordinates of the stored image.
     pub(super) principal_px: DVec2,
     /// First column and row of its pixels in the stored image.
     pub(super) first: [usize; 2],
@@ -104,13 +104,13 @@ pub struct View {
 }
 
 impl View {
-    /// Where it looks.
+    /// Direction of the view.
     #[must_use]
     pub fn face(&self) -> Face {
         self.face
     }
 
-    /// Where the face's axis is, in pixel coordinates of the stored image.
+    /// Position of the face's axis, in pixel coordinates of the stored image.
     #[must_use]
     pub fn principal_px(&self) -> DVec2 {
         self.principal_px

@@ -1,14 +1,14 @@
-//! How much light a mirror reflects.
+//! Reflectance of a mirror.
 
 use etendue_spectra::metal::ComplexIndex;
 
 use super::super::Curve;
 use crate::error::FrontError;
 
-/// The fraction of light that a mirror reflects.
+/// Reflectance of a mirror.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reflectance {
-    /// A share, whatever the angle.
+    /// A reflectance independent of the angle.
     Share(Curve),
     /// A bare metal: Fresnel's equations with a complex index, mean of both polarisations.
     Metal(Box<ComplexIndex>),
@@ -32,7 +32,7 @@ impl Reflectance {
         }
     }
 
-    /// The share at a wavelength and the cosine of the angle of incidence.
+    /// The reflectance at a wavelength and the cosine of the angle of incidence.
     #[must_use]
     pub fn at(&self, nm: f64, cosine: f64) -> f64 {
         match self {
