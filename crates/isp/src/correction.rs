@@ -45,7 +45,7 @@ pub enum Shading {
     },
 }
 
-/// Why a table cannot be used.
+/// Error of a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShadingError {
     /// Too few entries or no rectangle.
@@ -53,18 +53,19 @@ pub enum ShadingError {
     Shape {
         /// Gains given.
         entries: usize,
-        /// What is wrong with them.
+        /// Description of the problem.
         shape: &'static str,
     },
-    /// A gain that is none.
+    /// An invalid gain.
     #[error("a shading gain is {0}, but finite gains of at least 1 are needed: divide them by the smallest")]
     Gain(f64),
 }
 
 impl Shading {
-    /// Whether the table can be used.
+    /// Checks the table.
     ///
     /// # Errors
+    ///
     /// If it is too small, not a rectangle, or holds a gain below 1.
     pub fn check(&self) -> Result<(), ShadingError> {
         let (gains, shape) = match self {
@@ -80,7 +81,7 @@ impl Shading {
         gains.iter().find(|g| !(g.is_finite() && **g >= 1.0)).map_or(Ok(()), |g| Err(ShadingError::Gain(*g)))
     }
 
-    /// The gains of row `y` of an image of `width` × `height` pixels. The table is a checked one.
+    /// The gains of row `y` of an image of `width` × `height` pixels. The table must have been checked.
     pub(crate) fn row(&self, y: usize, width: usize, height: usize) -> Vec<f32> {
         let gain = |x: usize| match self {
             Self::Radial { centre_px, gains } => radial(gains, *centre_px, [x, y], [width, height]),
@@ -109,14 +110,14 @@ fn grid(gains: &[f64], columns: usize, pixel: [usize; 2], size: [usize; 2]) -> f
     top + v * (bottom - top)
 }
 
-/// The node below a fraction of the whole, and how far beyond it, of `count` nodes.
+/// The node below a fraction of the whole, and the fraction towards the next, for `count` nodes.
 fn place(share: f64, count: usize) -> (usize, f64) {
     let at = share.clamp(0.0, 1.0) * (count - 1) as f64;
     let low = (at as usize).min(count - 2);
     (low, at - low as f64)
 }
 
-/// Which pixels are defective.
+/// Defective pixels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Defects {
     /// Columns and rows of pixels known to be defective.
@@ -126,14 +127,14 @@ pub struct Defects {
 }
 
 impl Defects {
-    /// True if there is nothing to look for.
+    /// True if no correction is enabled.
     #[must_use]
     pub fn is_off(&self) -> bool {
         self.map.is_empty() && self.outlier_threshold.is_none()
     }
 }
 
-/// The corrected samples and how many pixels were corrected.
+/// The corrected samples and the number of corrected pixels.
 pub(crate) fn corrected(samples: Vec<f32>, width: usize, mosaic: &Mosaic, defects: &Defects) -> (Vec<f32>, usize) {
     if defects.is_off() {
         return (samples, 0);
@@ -162,7 +163,7 @@ struct Picture<'a> {
 }
 
 impl Picture<'_> {
-    /// Places and new values of a row's defective pixels.
+    /// Positions and new values of a row's defective pixels.
     fn corrections(&self, y: usize, threshold: Option<f32>) -> Vec<(usize, f32)> {
         let mut neighbours = Vec::new();
         let correction = |x: usize| {
@@ -197,7 +198,7 @@ impl Picture<'_> {
     }
 }
 
-/// Of sorted values; of two in the middle their mean.
+/// The median of sorted values; the mean of the two middle values for an even number.
 fn median(sorted: &[f32]) -> f32 {
     let half = sorted.len() / 2;
     if sorted.len() % 2 == 1 { sorted[half] } else { 0.5 * (sorted[half - 1] + sorted[half]) }
@@ -210,7 +211,7 @@ mod tests {
 
     #[test]
     fn a_radial_table_undoes_the_vignetting_it_was_made_of() {
-        // 1/gain of a fall-off 1 − 0.5 r², tabulated in 64 steps: linear interpolation errs by at most h² max|g″|/8.
+        // 1/gain of a fall-off 1 − 0.5 r², tabulated in 64 steps: the error of linear interpolation is at most h² max|g″|/8.
         let gains: Vec<f64> = (0..=64).map(|i| 1.0 / (1.0 - 0.5 * square(f64::from(i) / 64.0))).collect();
         let table = Shading::Radial { centre_px: [32.0, 24.0], gains };
         table.check().expect("a legal table");

@@ -46,7 +46,7 @@ use rayon::prelude::*;
 
 use crate::raw::{Mosaic, Tile};
 
-/// How colours are interpolated.
+/// Method of colour interpolation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Demosaic {
     /// The weighted mean of the neighbours of each colour.
@@ -59,7 +59,7 @@ pub enum Demosaic {
 }
 
 impl Demosaic {
-    /// The smallest image, px a side, that the method can work on.
+    /// The smallest image side, px, for the method.
     #[must_use]
     pub fn least_px(self, mosaic: &Mosaic) -> usize {
         match (self, mosaic) {
@@ -70,8 +70,8 @@ impl Demosaic {
         }
     }
 
-    /// All `N` channels at every pixel. The caller has checked that the method fits the tile. Runs in the rayon pool of
-    /// the caller; the result does not depend on it.
+    /// All `N` channels at every pixel. The caller has checked that the method fits the tile. Runs in the rayon pool of the caller; the result does
+    /// not depend on it.
     pub(crate) fn apply<const N: usize>(self, samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; N]> {
         let three = |rgb: Vec<[f32; 3]>| rgb.into_iter().map(|v| core::array::from_fn(|c| v[c])).collect();
         match self {
@@ -90,7 +90,7 @@ struct Padded {
 }
 
 impl Padded {
-    /// At least `margin + 1` columns and rows are needed.
+    /// Needs at least `margin + 1` columns and rows.
     fn new(samples: &[f32], width: usize, margin: usize) -> Self {
         let (height, stride) = (samples.len() / width, width + 2 * margin);
         let mut padded = Vec::with_capacity(stride * (height + 2 * margin));
@@ -103,14 +103,14 @@ impl Padded {
         Self { samples: padded, stride, margin }
     }
 
-    /// The row `dy` away from row `y`, margins included: column x stands at x + margin.
+    /// The row `dy` away from row `y`, margins included: column x is at x + margin.
     fn row(&self, y: usize, dy: isize) -> &[f32] {
         let row = (y + self.margin).wrapping_add_signed(dy);
         &self.samples[row * self.stride..][..self.stride]
     }
 }
 
-/// The row of the image that row `y` of the padded one shows.
+/// The row of the image shown by row `y` of the padded one.
 fn mirrored(y: usize, margin: usize, height: usize) -> usize {
     let folded = y.abs_diff(margin);
     if folded < height { folded } else { 2 * (height - 1) - folded }
@@ -178,7 +178,7 @@ fn interpolated<const N: usize>(rows: &[NeighbourRow<'_>], x: usize, reach: usiz
     core::array::from_fn(|c| sums[c] / weights[c])
 }
 
-/// How far the filters reach, px.
+/// Reach of the filters, px.
 const MALVAR_MARGIN: usize = 2;
 
 const GREEN: usize = 1;
@@ -204,7 +204,7 @@ fn interpolate_malvar(samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; 3
     plane
 }
 
-/// Sums of the neighbours that the filters weigh alike.
+/// Sums of the neighbours with equal weights.
 struct Sums {
     own: f32,
     row: f32,
@@ -244,7 +244,7 @@ impl Sums {
     }
 }
 
-/// How far the method reaches, px: green to 2, then the others 1 more.
+/// Reach of the method, px: green to 2, then the others 1 more.
 const HAMILTON_ADAMS_MARGIN: usize = 3;
 
 fn interpolate_hamilton_adams(samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; 3]> {
@@ -279,12 +279,12 @@ fn green_at(rows: &[&[f32]; 5], x: usize) -> f32 {
     better(along_row, along_column)
 }
 
-/// Twice the middle less both sides.
+/// Twice the centre less both sides.
 fn second(before: f32, middle: f32, after: f32) -> f32 {
     2.0 * middle - before - after
 }
 
-/// A value along one direction, and how much the image changes along it.
+/// A value along one direction, and the gradient of the image along it.
 struct Estimate {
     value: f32,
     change: f32,
@@ -313,7 +313,7 @@ struct Around<'a> {
 }
 
 impl Around<'_> {
-    /// Steps 2 and 3, at a pixel of colour `own` with `beside` in its row.
+    /// Steps 2 and 3, at a pixel of colour `own` whose row neighbours have the colour `beside`.
     fn colours(&self, x: usize, own: usize, beside: usize) -> [f32; 3] {
         let mut rgb = [0.0; 3];
         rgb[own] = self.mosaic[1][x];

@@ -27,9 +27,9 @@ pub use super::colour_space::{Affine, ColourSpace};
 /// An affine matrix on colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourChange {
-    /// What it works on.
+    /// The stage it applies to.
     pub stage: Stage,
-    /// What is done, in this order.
+    /// Operations, in this order.
     pub operations: Vec<Operation>,
 }
 
@@ -38,7 +38,7 @@ impl ColourChange {
         self.operations.iter().try_for_each(|operation| operation.check(self.stage))
     }
 
-    /// All operations in one.
+    /// All operations as one matrix.
     #[must_use]
     pub fn matrix(&self) -> Affine {
         self.operations.iter().fold(Affine::IDENTITY, |all, next| all.then(&next.matrix(self.stage)))
@@ -67,20 +67,20 @@ pub enum Operation {
     Offset([f64; 3]),
     /// A factor on all channels, 0 or more.
     Brightness(f64),
-    /// 0 is grey, 1 as it was, more is more colourful; 0 or more.
+    /// 0 is grey, 1 unchanged, above 1 more colourful; 0 or more.
     Saturation(f64),
     /// Degrees, red towards green.
     HueRotationDeg(f64),
-    /// To a colour space: its components take the places of red, green and blue.
+    /// Conversion to a colour space: its components replace red, green and blue.
     To(ColourSpace),
-    /// From a colour space.
+    /// Conversion from a colour space.
     From(ColourSpace),
     /// Any affine map.
     Matrix(Affine),
 }
 
 impl Operation {
-    /// Whether its numbers are in range and it is made for the stage.
+    /// Checks the ranges and the stage.
     fn check(&self, stage: Stage) -> Result<(), FilterError> {
         let finite = |name, values: &[f64]| {
             let fault = values.iter().find(|v| !v.is_finite());
@@ -134,8 +134,8 @@ fn saturation(s: f64, w: [f64; 3]) -> Affine {
     Affine::new([0, 1, 2].map(|i| [0, 1, 2].map(|j| s * one(i, j) + (1.0 - s) * w[j])), [0.0; 3])
 }
 
-/// Column by column: the part of a primary across the grey axis is turned, then greyed to leave no luminance, and the
-/// primary's own luminance is added.
+/// Column by column: the part of a primary perpendicular to the grey axis is rotated, then shifted along grey to zero luminance, and the primary's
+/// own luminance is added.
 fn hue_rotation(angle: f64, w: [f64; 3]) -> Affine {
     let columns = [0, 1, 2].map(|j| {
         let across: [f64; 3] = core::array::from_fn(|i| f64::from(u8::from(i == j)) - 1.0 / 3.0);
@@ -146,7 +146,7 @@ fn hue_rotation(angle: f64, w: [f64; 3]) -> Affine {
     Affine::new([0, 1, 2].map(|i| [0, 1, 2].map(|j| columns[j][i])), [0.0; 3])
 }
 
-/// A vector across (1, 1, 1), turned about it (Rodrigues), red towards green.
+/// A vector perpendicular to (1, 1, 1), rotated about it (Rodrigues), red towards green.
 fn turned_about_grey(v: [f64; 3], angle: f64) -> [f64; 3] {
     let (sin, cos) = sin_cos(angle);
     let k = sin / 3.0_f64.sqrt();
@@ -228,7 +228,7 @@ mod tests {
             assert!(near(turn(40.0).then(&turn(-40.0)).apply(colour), colour));
             assert!(near(turn(120.0).then(&turn(240.0)).apply(colour), colour));
         }
-        // A third of a turn takes red to where green is, except for luminance.
+        // A third of a turn maps red to green, except for luminance.
         let green = turn(120.0).apply([1.0, 0.0, 0.0]);
         assert!((green[0] - green[2]).abs() < 1e-12 && (green[1] - green[0] - 1.0).abs() < 1e-12, "{green:?}");
     }

@@ -23,17 +23,17 @@ use crate::detail;
 /// Drops on the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drops {
-    /// How many, 1 to 100 000.
+    /// Number of drops, 1 to 100 000.
     pub count: u32,
-    /// Least and largest radius, px, above 0.
+    /// Smallest and largest radius, px, above 0.
     pub radius_px: [f64; 2],
-    /// How many times smaller the image is in a drop, above 0.
+    /// Reduction factor of the image in a drop, above 0.
     pub scale: f64,
-    /// σ of its blur, and width of its soft rim, px, above 0; times `scale` at most 500.
+    /// σ of its blur, and width of its soft edge, px, above 0; times `scale` at most 500.
     pub blur_px: f64,
-    /// How far a drop flows downwards from frame to frame, px, 0 or more.
+    /// Downward flow of a drop from frame to frame, px, 0 or more.
     pub flow_px_per_frame: f64,
-    /// How many frames a drop lives, fading; `None` for drops that stay as they are.
+    /// Lifetime of a drop in frames, fading; `None` for static drops.
     pub fade_frames: Option<u32>,
 }
 
@@ -45,7 +45,7 @@ struct Disc {
     opacity: f64,
 }
 
-/// Tells these words from others of the same seed.
+/// Separates these random numbers from others of the same seed.
 const DOMAIN: u32 = 0x7261_696e;
 
 impl Drops {
@@ -84,7 +84,7 @@ impl Drops {
         let (life, age, left) = match self.fade_frames {
             None => (0, 0.0, 1.0),
             Some(frames) => {
-                // The first words are of no life but of the age in frame 0.
+                // The first random numbers give no life but the age in frame 0.
                 let first = (words(u32::MAX)[0] * f64::from(frames)) as u64;
                 let since = first + u64::from(address.frame);
                 let age = (since % u64::from(frames)) as f64;
@@ -143,11 +143,11 @@ mod tests {
         FrameAddress { seed: 3, camera: 0, frame, capture: 0 }
     }
 
-    /// A ramp upwards is one downwards, twice as steep.
+    /// An upward ramp appears as a downward one, twice as steep.
     #[test]
     fn a_drop_shows_the_picture_upside_down_and_smaller() {
         let still = Drops { fade_frames: None, ..DROPS };
-        // The first seed whose drop lies well within the image.
+        // The first seed whose drop lies well inside the image.
         let of = |seed| FrameAddress { seed, ..frame(5) };
         let centre = |seed| still.drop(0, SIZE, of(seed)).centre_px;
         let is_inside = |seed: &u64| {

@@ -35,11 +35,11 @@ use crate::{detail, tone::ToneCurve};
 /// Gain control and blooming.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glow {
-    /// Percentile of the luminances that the gain looks at, above 0 and at most 100.
+    /// Percentile of the luminances used for the gain, above 0 and at most 100.
     pub percentile: f64,
-    /// The luminance that this percentile gets, fraction of white, above 0.
+    /// Target luminance of this percentile, fraction of white, above 0.
     pub target: f64,
-    /// What exceeds this glows, fraction of white, 0 or more.
+    /// Values above this glow, fraction of white, 0 or more.
     pub threshold: f64,
     /// σ of the glow, px, above 0 and at most 500.
     pub radius_px: f64,
@@ -67,7 +67,7 @@ impl Glow {
         for_each(picture, |i, rgb| core::array::from_fn(|c| rgb[c] + strength * glow[i][c]));
     }
 
-    /// What brings the percentile to the target.
+    /// The gain that brings the percentile to the target.
     fn gain(&self, picture: &Plane<LinearRgb>) -> f64 {
         let mut luminances: Vec<f32> = picture.samples().par_iter().map(|rgb| luma(*rgb)).collect();
         let Some(last) = luminances.len().checked_sub(1) else { return 1.0 };
@@ -131,7 +131,7 @@ mod tests {
     fn the_median_is_brought_to_the_target_and_the_lamp_glows() {
         let mut picture = night();
         GLOW.apply(&mut picture);
-        // Far from the lamp only the gain of 2 works; the excess of 19, 9 and 0 comes back by half.
+        // Far from the lamp only the gain of 2 acts; half of the excess of 19, 9 and 0 is added.
         assert!(picture.at(0, 0).iter().all(|v| (v - 0.2).abs() < 1e-6));
         let added = |c: usize| -> f32 {
             let lit: f32 = picture.samples().iter().map(|rgb| rgb[c]).sum();

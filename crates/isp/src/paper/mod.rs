@@ -55,7 +55,7 @@ pub enum Filter {
 }
 
 impl Filter {
-    /// What it works on.
+    /// The stage it applies to.
     #[must_use]
     pub fn stage(&self) -> Stage {
         match self {
@@ -65,10 +65,11 @@ impl Filter {
         }
     }
 
-    /// Whether its numbers are in range.
+    /// Checks the ranges of the parameters.
     ///
     /// # Errors
-    /// If one is not.
+    ///
+    /// If one is out of range.
     pub fn check(&self) -> Result<(), FilterError> {
         match self {
             Self::Glow(filter) => filter.check(),
@@ -102,9 +103,10 @@ impl Filter {
     }
 }
 
-/// Whether a list of filters can be applied.
+/// Checks that a list of filters can be applied.
 ///
 /// # Errors
+///
 /// If a number is out of range or the order mixes the stages.
 pub fn check(filters: &[Filter]) -> Result<(), FilterError> {
     filters.iter().try_for_each(Filter::check)?;
@@ -146,7 +148,7 @@ mod tests {
         let noise = Filter::GaussianNoise(GaussianNoise { sigma_dn: 6.0 });
         let mut picture = Plane::filled(200, 200, [0.5; 3]);
         apply_display(&[noise.clone(), noise], &mut picture, FrameAddress::default());
-        // √2 · 6 DN; of 40 000 numbers 4.5 standard errors are 1.6 %. The same numbers twice would give 12 DN.
+        // √2 · 6 DN; of 40 000 numbers 4.5 standard errors are 1.6 %. Equal numbers in both would give 12 DN.
         assert!((spread(&picture) / 72.0_f64.sqrt() - 1.0).abs() < 0.016, "{}", spread(&picture));
     }
 
@@ -155,7 +157,7 @@ mod tests {
         let (pulse, seed) = (PulseNoise { amplitude_dn: 51.0, probability: 0.5 }, FrameAddress::default());
         let mut picture = Plane::filled(64, 64, [0.1, 0.5, 0.9]);
         apply_display(&[Filter::PulseNoise(pulse)], &mut picture, seed);
-        // 51 of 255 are 0.2; black and white are the ends.
+        // 51 of 255 is 0.2; black and white are the ends.
         let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-6);
         assert!(picture.samples().iter().all(|rgb| near(*rgb, [0.3, 0.7, 1.0]) || near(*rgb, [0.0, 0.3, 0.7])));
     }

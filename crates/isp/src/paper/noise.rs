@@ -63,7 +63,7 @@ fn standard_normal(stream: &mut NoiseStream) -> f64 {
 pub struct PulseNoise {
     /// p₁, DN of an 8-bit image, 0 to 255.
     pub amplitude_dn: f64,
-    /// p₂, the fraction of pixels that get brighter, and of those that get darker, 0 to 0.5.
+    /// p₂, the fraction of pixels made brighter, and of those made darker, 0 to 0.5.
     pub probability: f64,
 }
 
@@ -148,7 +148,7 @@ mod tests {
             up += usize::from((change - 0.2).abs() < 1e-6);
             down += usize::from((change + 0.2).abs() < 1e-6);
         }
-        // 40 000 pixels of probability 0.2: σ = 80, so 4.5 σ.
+        // 40 000 pixels of probability 0.2: σ = 80; tolerance 4.5 σ.
         assert!(up.abs_diff(8000) < 360 && down.abs_diff(8000) < 360, "{up} {down}");
     }
 

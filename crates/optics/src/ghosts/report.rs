@@ -1,4 +1,4 @@
-//! The strongest ghosts of a far point, without an image.
+//! The strongest ghosts of a point at infinity, without an image.
 
 use core::f64::consts::PI;
 
