@@ -1,21 +1,20 @@
 //! From a camera's white-balanced colours to linear sRGB.
 //!
-//! A matrix of three rows and as many columns as the image has channels. Rows that sum to 1 keep neutral what white
-//! balance made neutral; [`fit_colour_matrix`] finds such a matrix from the camera's own spectra.
+//! A matrix of three rows and as many columns as the image has channels. Rows that sum to 1 preserve the neutral colours of white balance;
+//! [`fit_colour_matrix`] finds such a matrix from the camera's own spectra.
 //!
 //! A colour matrix from the camera's own spectra.
 //!
-//! Of all matrices with rows that sum to 1 the one that minimises, over the reflectances of a chart,
+//! The fit minimises, among all matrices with rows that sum to 1, over the reflectances of a chart,
 //!
 //! ```text
 //! Σ |M c − t|² + n σ² |M|²
 //! ```
 //!
-//! c the camera's response under the scene's illuminant over its response to a perfect white, t the linear sRGB colour
-//! of the reflectance under D65, n the number of reflectances. The second term is what noise of σ (a fraction of white, alike
-//! in all channels) adds to the expected error of n patches: it keeps channels that see nearly the same (a clear filter
-//! beside red, green and blue) from being played off against each other with factors that would drown the image in
-//! noise. Each row m solves (A + n σ² 1) m = b + μ e, e all ones and μ such that the row sums to 1, by Cholesky's method.
+//! c the camera's response under the scene's illuminant over its response to a perfect white, t the linear sRGB colour of the reflectance under D65,
+//! n the number of reflectances. The second term is the contribution of noise of σ (a fraction of white, equal in all channels) to the expected error
+//! of n patches. It keeps nearly equal channels (a clear filter in addition to red, green and blue) from receiving large opposite factors that would
+//! amplify noise. Each row m solves (A + n σ² 1) m = b + μ e, e all ones and μ such that the row sums to 1, by Cholesky's method.
 //!
 //! Left out: weights by perceived difference, matrices between two illuminants.
 

@@ -1,26 +1,26 @@
 //! Corrections of raw images: of shading and of defective pixels.
 //!
-//! Shading correction: gains that make an evenly lit image even.
+//! Shading correction: gains that make a uniformly lit image uniform.
 //!
 //! | model | gain at a pixel |
 //! | --- | --- |
 //! | [`Shading::Radial`] | a table over the distance from a centre, equal steps from 0 to 1, linear between; 1 is the farthest corner of the image |
 //! | [`Shading::Grid`] | a table of columns by rows laid over the image, its outer nodes on the corners, bilinear between |
 //!
-//! Gains are at least 1, so that a saturated pixel stays white (clipped at 1 after the gain). One gain serves all
-//! colours; shading that differs by colour is left out. Noise grows with the gain.
+//! Gains are at least 1, so that a saturated pixel stays white (clipped at 1 after the gain). One gain serves all colours; shading that differs by
+//! colour is left out. Noise grows with the gain.
 //!
-//! Defect correction: a pixel that does not measure light gets what its neighbours of the same colour suggest.
+//! Defect correction: a pixel that does not measure light is replaced from its neighbours of the same colour.
 //!
-//! Neighbours are the pixels under the same kind of filter within one period of the tile (mono: three by three; Bayer:
-//! five by five, eight of red or blue, twelve of green); the new value is the median of the good ones. Defective are
+//! Neighbours are the pixels under the same kind of filter within one period of the tile (mono: three by three; Bayer: five by five, eight of red or
+//! blue, twelve of green); the new value is the median of the non-defective ones. Defective are
 //!
 //! - the pixels of a map (known from calibration), and
 //! - outliers: v outside the range of its neighbours **and** |v − median| > t, t a fraction of the range from black to white.
 //!   An edge or a line two pixels wide has neighbours on both sides and stays; a lamp smaller than a pixel can be taken
 //!   for a hot pixel, so the rule is off unless requested.
 //!
-//! All corrections look at the uncorrected image, so that their order does not matter.
+//! All corrections use the uncorrected image, so their order does not matter.
 
 use rayon::prelude::*;
 

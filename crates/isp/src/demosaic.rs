@@ -1,6 +1,6 @@
-//! Demosaic: the colours that a pixel did not measure, from its neighbours.
+//! Demosaic: interpolation of the colours that a pixel did not measure from its neighbours.
 //!
-//! | method | mosaics | looks as far as |
+//! | method | mosaics | reach |
 //! | --- | --- | --- |
 //! | [`Demosaic::Bilinear`] | all | the tile's reach |
 //! | [`Demosaic::MalvarHeCutler`] | Bayer | 2 px |
@@ -8,17 +8,16 @@
 //!
 //! Weighted means of neighbours.
 //!
-//! A pixel keeps the colour it measured. Each other colour is the mean of the neighbours within the tile's reach r (one
-//! for tiles of two by two) that measured it, weighted (r + 1 − |Δx|)(r + 1 − |Δy|): 2 beside and above, 1 across the corner
-//! for r = 1. On a Bayer tile this is bilinear interpolation, and a linear ramp comes out exact inside. At the image's
-//! edge the mean is over the neighbours that exist.
+//! A pixel keeps the colour it measured. Each other colour is the weighted mean of the neighbours within the tile's reach r (one for tiles of two by
+//! two) that measured it, with weights (r + 1 − |Δx|)(r + 1 − |Δy|): 2 for adjacent and 1 for diagonal neighbours for r = 1. On a Bayer tile this is
+//! bilinear interpolation, and a linear ramp is reproduced exactly in the interior. At the image's edge the mean is over the existing neighbours.
 //!
 //! Gradient-corrected linear interpolation (Malvar, He & Cutler 2004, "High-quality linear interpolation for demosaicing of
 //! Bayer-patterned color images", ICASSP).
 //!
-//! The bilinear value of the missing colour plus α, β or γ times the second difference of the colour that the pixel did
-//! measure: where its own colour peaks, so will the others. With the paper's α = 1/2, β = 5/8, γ = 3/4 (the optimum over
-//! its images, rounded to eighths) these are four filters of five by five, in eighths:
+//! The bilinear value of the missing colour plus α, β or γ times the second difference of the measured colour: it assumes that peaks of one colour
+//! are peaks of the others. With the paper's α = 1/2, β = 5/8, γ = 3/4 (the optimum over its images, rounded to eighths) these are four filters of
+//! five by five, in eighths:
 //!
 //! | wanted | at | its own | same row ±1 | same column ±1 | diagonals | same row ±2 | same column ±2 |
 //! | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -27,7 +26,7 @@
 //! | the column's other colour | green | 5 | 0 | 4 | −1 | ½ | −1 |
 //! | blue, red | red, blue | 6 | 0 | 0 | 2 | −3/2 | −3/2 |
 //!
-//! The image is mirrored about its outermost pixels. Beside edges values can leave the range of the neighbours.
+//! The image is mirrored about its outermost pixels. Near edges values can leave the range of the neighbours.
 //!
 //! Adaptive interpolation along the smaller gradient (Hamilton & Adams 1997, "Adaptive color plan interpolation in single
 //! sensor color electronic camera", US patent 5 629 734, expired).
@@ -37,7 +36,7 @@
 //! 2. Red and blue at green pixels: the mean of the two neighbours plus half the second difference of green along them.
 //! 3. Blue at red and red at blue: the same along the diagonal of the smaller |C₋₁ − C₊₁| + |2 G₀ − G₋₁ − G₊₁|.
 //!
-//! The image is mirrored about its outermost pixels. Beside edges values can leave the range of the neighbours.
+//! The image is mirrored about its outermost pixels. Near edges values can leave the range of the neighbours.
 
 #[cfg(test)]
 mod tests;

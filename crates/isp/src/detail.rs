@@ -1,16 +1,16 @@
 //! Detail: noise reduction before colour, sharpening after tone; both off by default.
 //!
-//! Bilateral filter (Tomasi & Manduchi 1998): a mean over near pixels of like colour.
+//! Bilateral filter (Tomasi & Manduchi 1998): a mean over near pixels of similar colour.
 //!
 //! ```text
 //! p′ = Σ w p_i / Σ w,   w = exp(−r²/2σ_s² − d²/2σ_r²)
 //! ```
 //!
-//! r the distance (px, to 2 σ_s), d² the mean over the channels of the squared difference of the two colours. σ_r is a
-//! fraction of white and should be two or three times the noise to be removed; edges much higher than it stay. The noise of
-//! one σ_r is the same at all brightnesses: shot noise, which grows with the light, is smoothed less in the lights.
+//! r the distance (px, to 2 σ_s), d² the mean over the channels of the squared difference of the two colours. σ_r is a fraction of white and should
+//! be two or three times the noise to be removed; edges much higher than it are preserved. One σ_r applies at all brightnesses: shot noise, which
+//! grows with the light, is smoothed less in highlights.
 //!
-//! Unsharp mask: what a blur takes away is added once more.
+//! Unsharp mask: adds the detail that a blur removes.
 //!
 //! On luma Y = 0.2126 R + 0.7152 G + 0.0722 B of the encoded image (weights of ITU-R BT.709), so that colours do not
 //! change: d = Y − blur_σ(Y); where |d| is above the threshold, each channel becomes its value + amount · d, clipped to
@@ -18,9 +18,8 @@
 //!
 //! Gaussian blur: rows, then columns.
 //!
-//! The kernel exp(−x²/2σ²) is cut at 5 σ, where it is 4e-6 of its middle (at 3 σ, 1 %, the halo of a lamp would end in a
-//! square against the night), and normalised to 1; beside the image's edge it is normalised over the pixels
-//! that exist, so a flat image stays flat.
+//! The kernel exp(−x²/2σ²) is cut at 5 σ, where it is 4e-6 of its centre (at 3 σ, 1 %, the halo of a lamp would end in a visible square at night),
+//! and normalised to 1; near the image's edge it is normalised over the existing pixels, so a flat image stays flat.
 
 use etendue_core::{Plane, maths::f32::exp, maths::f64::exp as exp_f64, quantity::Display};
 use etendue_spectra::colour::luma;

@@ -1,4 +1,4 @@
-//! Raw digital numbers to an image.
+//! From raw digital numbers to an image.
 //!
 //! | order | step | module |
 //! | --- | --- | --- |
@@ -14,10 +14,9 @@
 //! | 10 | sharpening | [`detail`] |
 //! | 11 | the paper's filters of encoded images | [`paper`] |
 //!
-//! Black level, white balance, demosaic, colour and tone are always there; the others only where they are requested. This
-//! is a plain, stated way to look at a raw image, not the look of any camera. Left out: highlight recovery, local tone
-//! mapping, chromatic aberration, temporal noise reduction. This crate does not know electrons: a raw image is digital
-//! numbers between a black and a white level.
+//! Black level, white balance, demosaic, colour and tone are always applied; the others only if requested. This is a plain, documented rendition of a
+//! raw image, not the look of any camera. Left out: highlight recovery, local tone mapping, chromatic aberration, temporal noise reduction. This
+//! crate has no notion of electrons: a raw image is digital numbers between a black and a white level.
 
 pub mod colour_matrix;
 pub mod correction;

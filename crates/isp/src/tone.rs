@@ -16,15 +16,15 @@
 //! y = 1 / (1 + (m (1 − e) / ((1 − m) e))^c)
 //! ```
 //!
-//! The logistic curve in the logarithm of the odds e/(1 − e): 0 stays 0, 1 stays 1, m becomes 1/2, contrast c is the slope
-//! of the log-odds everywhere. c = 1 and m = 1/2 change nothing; c above 1 darkens shadows and brightens lights, c below 1
-//! does the reverse. The inverse has c → 1/c.
+//! The logistic curve in the logarithm of the odds e/(1 − e): 0 stays 0, 1 stays 1, m becomes 1/2, and contrast c is the constant slope of the
+//! log-odds. c = 1 and m = 1/2 change nothing; c above 1 darkens shadows and brightens highlights, c below 1 does the reverse. The inverse has c →
+//! 1/c.
 //!
 //! A measured opto-electronic conversion function (ISO 14524): output level over exposure.
 //!
-//! Exposures (any unit) rise, the largest is the image's white (linear 1). Between points the output is linear in the
-//! logarithm of the exposure, the axis along which such functions are measured; below the first point it is proportional
-//! to the exposure. The output is over the largest output level that the camera can give (255 of 8 bits).
+//! Exposures (any unit) rise; the largest is the image's white (linear 1). Between points the output is linear in the logarithm of the exposure, the
+//! axis of such measurements; below the first point it is proportional to the exposure. The output is relative to the camera's largest output level
+//! (255 for 8 bits).
 
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::quantity::{Display, LinearRgb};

@@ -1,18 +1,17 @@
 //! White balance: gains that make a grey surface grey.
 //!
-//! Gains are normalised so that the smallest is 1. A saturated pixel is then at least 1 in every channel and, clipped at
-//! 1 **before** demosaic and colour matrix, white: without the clip, highlights turn magenta.
+//! Gains are normalised so that the smallest is 1. A saturated pixel is then at least 1 in every channel and becomes white when clipped at 1
+//! **before** demosaic and colour matrix: without the clip, highlights turn magenta.
 //!
 //! | rule | gains |
 //! | --- | --- |
 //! | [`WhiteBalance::Gains`] | as given, or [from an illuminant](white_balance_from_illuminant) |
 //! | [`WhiteBalance::GreyWorld`] | those that make the image's mean grey |
 //!
-//! Grey world (Buchsbaum 1980): the mean of a scene is taken to be grey.
+//! Grey world (Buchsbaum 1980): the mean of a scene is assumed to be grey.
 //!
-//! Means are taken over the pixels that are not saturated, since a saturated one does not know its colour. An image in
-//! which a channel has no mean above black (a dark frame) tells nothing: its gains are 1. Of an infrared channel the rule
-//! is a convention only.
+//! Means are taken over unsaturated pixels, because a saturated one has lost its colour. An image in which a channel has no mean above black (a dark
+//! frame) has gains of 1. For an infrared channel the rule is a convention only.
 
 use etendue_spectra::Spectrum;
 use rayon::prelude::*;

@@ -31,7 +31,7 @@ use glam::DVec2;
 
 use crate::root::increasing;
 
-/// Which way the polynomial runs.
+/// Direction of the polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sense {
     /// From the undistorted radius to the distorted one (OpenCV's direction).
@@ -45,16 +45,15 @@ pub enum Sense {
 pub enum RadiusUnit {
     /// Millimetres on the sensor.
     Millimetres,
-    /// Principal distances: tangents of the field angle (OpenCV). The principal distance is the focal length of a lens
-    /// focused at infinity.
+    /// Principal distances: tangents of the field angle (OpenCV). The principal distance is the focal length of a lens focused at infinity.
     FocalLengths,
-    /// Halves of the image's diagonal.
+    /// Half of the image's diagonal.
     HalfDiagonals,
     /// Pixels (square ones).
     Pixels,
 }
 
-/// The lengths that the radius units stand for.
+/// Lengths of the radius units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadiusScales {
     /// The principal distance, mm.
@@ -78,10 +77,10 @@ impl RadiusUnit {
     }
 }
 
-/// Why a distortion cannot be used.
+/// Error of a distortion.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum DistortionError {
-    /// A coefficient that is not a number, or so large that its radii are none.
+    /// A coefficient that is not a number, or is so large that its radii overflow.
     #[error("the distortion coefficients k1 = {k1}, k2 = {k2} must be finite and at most 1e30 in size")]
     Coefficient {
         /// First coefficient.
@@ -89,13 +88,13 @@ pub enum DistortionError {
         /// Second coefficient.
         k2: f64,
     },
-    /// A radius unit of no length.
+    /// A radius unit without a positive length.
     #[error("the distortion's radius unit is {length_mm} mm long; it must be positive and finite")]
     Unit {
         /// Length of the unit, mm.
         length_mm: f64,
     },
-    /// The image reaches beyond the fold.
+    /// A fold inside the image.
     #[error(
         "the distortion with k1 = {k1}, k2 = {k2} folds the picture over at an observed radius of {fold_mm:.6} mm, but \
          the picture reaches out to {needed_mm:.6} mm: use coefficients fitted over the whole picture, or crop it"
@@ -107,7 +106,7 @@ pub enum DistortionError {
         k2: f64,
         /// Observed radius of the fold, mm.
         fold_mm: f64,
-        /// Largest observed radius requested, mm.
+        /// Largest observed radius required, mm.
         needed_mm: f64,
     },
 }
@@ -124,11 +123,11 @@ pub struct RadialDistortion {
 }
 
 impl RadialDistortion {
-    /// The distortion whose polynomial runs by `sense` over radii in units of `unit_mm` millimetres
-    /// ([`RadiusUnit::length_mm`]).
+    /// Creates the distortion whose polynomial has the direction `sense`, over radii in units of `unit_mm` millimetres ([`RadiusUnit::length_mm`]).
     ///
     /// # Errors
-    /// If a coefficient is not finite or beyond 1e30 (squares of it would overflow), or the unit not a positive length.
+    ///
+    /// If a coefficient is not finite or beyond 1e30 (its square would overflow), or the unit is not a positive length.
     pub fn new(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> Result<Self, DistortionError> {
         if ![k1, k2].iter().all(|k| k.abs() <= LARGEST) {
             return Err(DistortionError::Coefficient { k1, k2 });
@@ -142,8 +141,9 @@ impl RadialDistortion {
     /// Refuses a distortion that folds inside an image.
     ///
     /// # Errors
-    /// If the fold's observed radius is not beyond `max_observed_mm`, the largest distance of a point of the image
-    /// from the principal point ([`Raster::max_radius_mm`](crate::Raster::max_radius_mm)).
+    ///
+    /// If the fold's observed radius is not beyond `max_observed_mm`, the largest distance of a point of the image from the principal point
+    /// ([`Raster::max_radius_mm`](crate::Raster::max_radius_mm)).
     pub fn check(&self, max_observed_mm: f64) -> Result<(), DistortionError> {
         let fold_mm = self.fold_observed_mm();
         if fold_mm > max_observed_mm {
@@ -153,7 +153,7 @@ impl RadialDistortion {
         Err(DistortionError::Fold { k1, k2, fold_mm, needed_mm: max_observed_mm })
     }
 
-    /// Which way the polynomial runs.
+    /// Direction of the polynomial.
     #[must_use]
     pub fn sense(&self) -> Sense {
         self.sense
@@ -171,7 +171,7 @@ impl RadialDistortion {
         self.unit_mm
     }
 
-    /// The observed radius of the fold, mm; infinite where there is none.
+    /// The observed radius of the fold, mm; infinite if there is none.
     #[must_use]
     pub fn fold_observed_mm(&self) -> f64 {
         self.unit_mm
@@ -181,7 +181,7 @@ impl RadialDistortion {
             }
     }
 
-    /// The ideal radius of the fold, mm; infinite where there is none.
+    /// The ideal radius of the fold, mm; infinite if there is none.
     #[must_use]
     pub fn fold_ideal_mm(&self) -> f64 {
         self.unit_mm
@@ -215,8 +215,7 @@ impl RadialDistortion {
         self.radius(ideal_mm, Sense::IdealToObserved)
     }
 
-    /// How much ideal area one unit of observed area stands for, at an observed radius: (R/r) · dR/dr with R(r) the
-    /// ideal radius. 1 on the axis; `None` beyond the fold.
+    /// Ideal area per unit of observed area at an observed radius: (R/r) · dR/dr with R(r) the ideal radius. 1 on the axis; `None` beyond the fold.
     #[must_use]
     pub fn ideal_area_per_observed(&self, observed_mm: f64) -> Option<f64> {
         let ideal_mm = self.ideal_radius_mm(observed_mm)?;
@@ -254,10 +253,11 @@ pub struct Fit {
 }
 
 impl RadialDistortion {
-    /// The polynomial of direction `sense` and the same radius unit that comes nearest to this distortion, by least
-    /// squares of the radius over the radii of an image.
+    /// Fits the polynomial of direction `sense` and the same radius unit to this distortion, by least squares of the radius over the radii of an
+    /// image.
     ///
     /// # Errors
+    ///
     /// If this distortion folds inside the image, or the fitted one does.
     pub fn fitted(&self, sense: Sense, max_observed_mm: f64) -> Result<Fit, DistortionError> {
         self.check(max_observed_mm)?;
@@ -286,7 +286,7 @@ impl RadialDistortion {
     }
 }
 
-/// Radii at which a fit compares: many more than a fifth-degree difference has turning points.
+/// Radii at which a fit is evaluated: many more than the turning points of a fifth-degree difference.
 const FIT_SAMPLES: usize = 256;
 
 /// k₁, k₂ that minimise Σ (r (1 + k₁ r² + k₂ r⁴) − r′)², by normal equations in the radius scaled to 1 at its end.
@@ -329,7 +329,7 @@ impl RadialPolynomial {
         [self.k1, self.k2]
     }
 
-    /// The first radius with a vanishing derivative; infinite where there is none.
+    /// The first radius with a vanishing derivative; infinite if there is none.
     #[must_use]
     pub fn fold(&self) -> f64 {
         self.fold
@@ -379,7 +379,7 @@ impl RadialPolynomial {
     }
 }
 
-/// The smallest positive root in r of 1 + 3 k₁ r² + 5 k₂ r⁴; infinite where there is none.
+/// The smallest positive root in r of 1 + 3 k₁ r² + 5 k₂ r⁴; infinite if there is none.
 fn fold(k1: f64, k2: f64) -> f64 {
     let (a, b) = (5.0 * k2, 3.0 * k1);
     let discriminant = b * b - 4.0 * a;

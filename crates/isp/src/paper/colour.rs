@@ -1,9 +1,8 @@
 //! Colour management: "a homogeneous transformation matrix on the colours of the rendered image", 4 × 4 and affine, on
 //! the vector (R, G, B, 1).
 //!
-//! A change is a list of operations, which become **one** matrix (the first operation is applied first) and one clip to
-//! 0 … 1 at the end (encoded images only), so that going to another space, changing something there, and coming back
-//! loses nothing on the way.
+//! A change is a list of operations, combined into **one** matrix (the first operation is applied first) with one clip to 0 … 1 at the end (encoded
+//! images only), so a conversion to another space, a change there and the conversion back lose nothing in between.
 //!
 //! | operation | matrix |
 //! | --- | --- |

@@ -1,4 +1,4 @@
-//! Colour spaces that the paper's filter changes to.
+//! Colour spaces of the paper's colour filter.
 //!
 //! | space | components | of | source |
 //! | --- | --- | --- | --- |
@@ -9,9 +9,8 @@
 //! | YCbCr | Y; Cb = (B − Y)/1.772 + 1/2; Cr = (R − Y)/1.402 + 1/2 | encoded | ITU-R BT.601, full range |
 //! | CMY | 1 − R, 1 − G, 1 − B | either | |
 //!
-//! Y = 0.299 R + 0.587 G + 0.114 B. A half is added to differences of colour so that an image can hold them (U and V of
-//! saturated colours still leave 0 … 1 and are clipped at the end). Between white points colours are adapted by
-//! Bradford's transform (Lam 1985), so that white stays white.
+//! Y = 0.299 R + 0.587 G + 0.114 B. A half is added to colour differences so that an image can hold them (U and V of saturated colours still leave 0
+//! … 1 and are clipped at the end). Between white points colours are adapted by Bradford's transform (Lam 1985), so that white stays white.
 //!
 //! Affine maps of colours: 4 × 4 matrices whose last row is 0 0 0 1.
 

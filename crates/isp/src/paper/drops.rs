@@ -1,17 +1,17 @@
-//! Drops of rain on the image. The paper (its second rain filter) computes "a new texture from the initial camera rendering. For each drop,
-//! the original image is inverted in order to simulate the real effect of a rain drop", with a count of drops, a least and a largest size and
-//! "fades parameters (speed at which the drops flow and disappear)". How, it does not say; this is **our reading**, on linear light:
+//! Drops of rain on the image. The paper (its second rain filter) computes "a new texture from the initial camera rendering. For each drop, the
+//! original image is inverted in order to simulate the real effect of a rain drop", with a count of drops, a smallest and a largest size and "fades
+//! parameters (speed at which the drops flow and disappear)". It gives no formulas; this is **our interpretation**, on linear light:
 //!
 //! ```text
 //! y = (1 − w) x + w b(c − s (p − c))      b: the image, blurred by a Gaussian of σ = s · blur
 //! w = (1 − age/fade) min(1, (r − |p − c|)/blur)
 //! ```
 //!
-//! for a pixel p in a drop of radius r about c: the disc shows what lies around it upside down and s times smaller, held at the image's edge. Drops
-//! are independent and even over the image, radii even between their ends; later drops lie over earlier ones. With a fade each drop lives that
-//! many frames, flows downwards meanwhile, and is born again elsewhere; drops begin at different ages.
+//! for a pixel p in a drop of radius r about c: the disc shows its surroundings upside down and s times smaller, clamped at the image's edge. Drops
+//! are independent and uniform over the image, radii uniform between their ends; later drops cover earlier ones. With a fade each drop lives for that
+//! number of frames, flows downwards meanwhile, and reappears elsewhere; drops begin at different ages.
 //!
-//! What is not in the image a drop cannot show, and sizes, blur and brightness are nobody's optics: the traced drops of a windscreen
+//! A drop cannot show points outside the image, and sizes, blur and brightness are not derived from optics: use the traced drops of a windscreen to
 //! predict a camera.
 
 use etendue_core::random::{FrameAddress, philox4x32};

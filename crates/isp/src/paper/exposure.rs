@@ -1,7 +1,7 @@
 //! Filters of linear light: glow with its gain control, and tone mapping.
 //!
-//! Glow: gain control by the histogram, and blooming. The paper (its mgGlowFilter) says only that it "manages simulation of
-//! gain control and sensor blooming, based on image histogram balance"; this is **our reading** of it, on linear light:
+//! Glow: gain control by the histogram, and blooming. The paper (its mgGlowFilter) states only that it "manages simulation of gain control and sensor
+//! blooming, based on image histogram balance"; this is **our interpretation** of it, on linear light:
 //!
 //! ```text
 //! g = target / L_p                    L_p: the percentile p of the luminances of the image (nearest rank)
@@ -9,21 +9,19 @@
 //! y = g x + strength · (k ∗ e)        k: a Gaussian of σ = radius, cut at 5 σ, normalised
 //! ```
 //!
-//! Luminance is 0.2126 R + 0.7152 G + 0.0722 B. Of an image whose L_p is 0 or less the gain is 1. Light is added, not
-//! moved: unlike the sensor's own blooming, this does not conserve charge. The result is not clipped. A raw ends at its white level, so
-//! in a developed image no x exceeds the exposure gain by much, and lamps exceed a threshold near white only where g lifts
-//! them there; images of a sensor of high dynamic range hold more.
+//! Luminance is 0.2126 R + 0.7152 G + 0.0722 B. For an image whose L_p is 0 or less the gain is 1. Light is added, not moved: unlike the sensor's own
+//! blooming, this does not conserve charge. The result is not clipped. A raw ends at its white level, so in a developed image no x exceeds the
+//! exposure gain by much, and lamps exceed a threshold near white only if g lifts them there; images of a sensor of high dynamic range hold more.
 //!
-//! Tone mapping: from the scene's range to the sensor's. The paper says that "a tone mapping filter simulates the
-//! sensitivity curve of the sensor" and shows an "original factor" of 0.4 and 1.0; this is **our reading** of it, on
-//! linear light, channel by channel:
+//! Tone mapping: from the scene's range to the sensor's. The paper states that "a tone mapping filter simulates the sensitivity curve of the sensor"
+//! and shows an "original factor" of 0.4 and 1.0; this is **our interpretation** of it, on linear light, channel by channel:
 //!
 //! ```text
 //! y = f · curve(g x) + (1 − f) · x,   f = 1 − original_factor,   clipped to 0 … 1
 //! ```
 //!
-//! So an original factor of 1 leaves the image as it was, clipped to the sensor's range, and 0 maps it wholly. The curve
-//! is the sensor's: one of film and of a saturating pixel, 1 − exp(−g x), or any [`ToneCurve`] (a measured OECF).
+//! An original factor of 1 leaves the image unchanged, clipped to the sensor's range, and 0 maps it fully. The curve is the sensor's: that of film
+//! and of a saturating pixel, 1 − exp(−g x), or any [`ToneCurve`] (a measured OECF).
 
 use etendue_core::{Plane, maths::f32::exp_m1, quantity::LinearRgb};
 use etendue_spectra::colour::luma;

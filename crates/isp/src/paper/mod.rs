@@ -1,8 +1,8 @@
-//! The filters of the paper (Gruyer, Grapinet & De Souza 2012), beside the physical camera, for reproduction.
+//! The filters of the paper (Gruyer, Grapinet & De Souza 2012), separate from the physical camera, for reproduction.
 //!
-//! They change a finished image, as the paper's plug-ins change a rendered one, and know nothing of light and electrons:
-//! noise by them is not the noise of a sensor. The paper gives formulas for the noises and for the affine colour matrix,
-//! and only words for glow, tone mapping and drops: what stands here for these is **an interpretation**, said at the head of each file.
+//! They change a finished image, as the paper's plug-ins change a rendered one, without physical quantities: their noise is not the noise of a
+//! sensor. The paper gives formulas for the noises and for the affine colour matrix, and only descriptions of glow, tone mapping and drops: those
+//! implemented here are **an interpretation**, stated at the head of each file.
 //!
 //! | filter | works on | paper |
 //! | --- | --- | --- |
@@ -12,10 +12,9 @@
 //! | [`ColourChange`]: a 4 × 4 affine matrix | either | formula |
 //! | [`PulseNoise`], [`GaussianNoise`], [`UniformNoise`] | the encoded image | formula |
 //!
-//! Filters are applied in the order given, those of linear light before the tone curve, the others after sharpening.
-//! "Brightness" of a pixel is read as: all three channels alike, so each noise draws one number a pixel. Amplitudes of
-//! noise are digital numbers of an 8-bit image (white is 255), whatever bits are written; every result of an encoded
-//! image is clipped to 0 … 255.
+//! Filters are applied in the order given, those of linear light before the tone curve, the others after sharpening. "Brightness" of a pixel is
+//! interpreted as all three channels equally, so each noise uses one random number per pixel. Amplitudes of noise are digital numbers of an 8-bit
+//! image (white is 255), for any output bit depth; every result of an encoded image is clipped to 0 … 255.
 
 mod colour;
 mod colour_space;

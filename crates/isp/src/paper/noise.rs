@@ -6,7 +6,7 @@
 //! x + p₁ n
 //! ```
 //!
-//! One n a pixel, all channels alike; p₁ in DN of an 8-bit image, clipped to 0 … 255. n by Box & Muller 1958.
+//! One n per pixel for all channels; p₁ in DN of an 8-bit image, clipped to 0 … 255. n by Box & Muller 1958.
 //!
 //! Pulse noise, by the paper's formula on the brightness x of each pixel, u uniform on 0 … 1:
 //!
@@ -14,8 +14,8 @@
 //! u ≤ p₂: x + p₁    p₂ < u < 1 − p₂: x    u ≥ 1 − p₂: x − p₁
 //! ```
 //!
-//! One u a pixel, all channels alike; p₁ in DN of an 8-bit image, clipped to 0 … 255; p₂ at most 1/2, beyond which the
-//! two cases overlap (at 1/2 itself the first holds).
+//! One u per pixel for all channels; p₁ in DN of an 8-bit image, clipped to 0 … 255; p₂ at most 1/2, beyond which the two cases overlap (at 1/2
+//! itself the first holds).
 //!
 //! Multiplicative uniform noise, by the paper's formula on the brightness x of each pixel, u uniform on 0 … 1:
 //!
@@ -23,7 +23,7 @@
 //! (1 + p₁ (u − 1/2)) x
 //! ```
 //!
-//! One u a pixel, all channels alike; p₁ has no unit (the factor is the same at any scale of DN); clipped to 0 … 255.
+//! One u per pixel for all channels; p₁ has no unit (the factor is the same at any scale of DN); clipped to 0 … 255.
 
 use core::f64::consts::TAU;
 

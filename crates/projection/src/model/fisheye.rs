@@ -31,17 +31,19 @@ pub struct KannalaBrandt {
 }
 
 impl KannalaBrandt {
-    /// The fisheye with these coefficients, k₁ first.
+    /// Creates the fisheye from these coefficients, k₁ first.
     ///
     /// # Errors
+    ///
     /// If one is not finite.
     pub fn new(k: [f64; 4]) -> Result<Self, ModelError> {
         Self::long([k[0], k[1], k[2], k[3], 0.0, 0.0])
     }
 
-    /// The fisheye with six coefficients.
+    /// Creates the fisheye from six coefficients.
     ///
     /// # Errors
+    ///
     /// If one is not finite.
     pub fn long(coefficients: [f64; LONGEST]) -> Result<Self, ModelError> {
         finite_list("k", 1, &coefficients)?;
@@ -96,9 +98,10 @@ impl Profile for KannalaBrandt {
 pub struct ThinPrismFisheye(Distorted<KannalaBrandt>);
 
 impl ThinPrismFisheye {
-    /// The fisheye of a polynomial and the terms of the distortion of its plane.
+    /// Creates the fisheye from a polynomial and the distortion terms of its plane.
     ///
     /// # Errors
+    ///
     /// If a number is not finite.
     pub fn new(fisheye: KannalaBrandt, terms: DistortionTerms) -> Result<Self, ModelError> {
         terms.check()?;

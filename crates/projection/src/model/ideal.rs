@@ -162,7 +162,7 @@ mod tests {
                 let angle = 0.1 * f64::from(i);
                 let point = DVec2::new(0.6, -0.8) * ideal.radius(angle);
                 let found = ideal.solid_angle_per_area(point).expect("seen");
-                // A dozen roundings; near 90° the orthographic angle loses as its cosine (0.17 at 1.4 rad) grows small.
+                // A dozen roundings; near 90° the orthographic angle loses accuracy as its cosine (0.17 at 1.4 rad) becomes small.
                 assert!((found / expected(angle) - 1.0).abs() < 1e-13, "{ideal:?} at {angle}");
             }
             assert_eq!(ideal.solid_angle_per_area(DVec2::ZERO), Some(1.0));

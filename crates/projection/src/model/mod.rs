@@ -96,25 +96,25 @@ impl Model {
         self.projection().project(direction)
     }
 
-    /// The unit direction seen at an image point; `None` if nothing is.
+    /// The unit direction seen at an image point; `None` if there is none.
     #[must_use]
     pub fn unproject(&self, point: DVec2) -> Option<DVec3> {
         self.projection().unproject(point)
     }
 
-    /// dΩ/dA, the solid angle (sr) that unit area of the image plane sees at an image point; `None` if nothing is seen.
+    /// dΩ/dA, the solid angle (sr) seen per unit area of the image plane at an image point; `None` if there is no direction.
     #[must_use]
     pub fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
         self.projection().solid_angle_per_area(point)
     }
 
-    /// The direction and the solid angle of an image point, for little more than one of them; `None` if nothing is seen.
+    /// The direction and the solid angle of an image point, at little more than the cost of one of them; `None` if there is no direction.
     #[must_use]
     pub fn sight(&self, point: DVec2) -> Option<Sight> {
         self.projection().sight(point)
     }
 
-    /// Where the field ends.
+    /// The edge of the field.
     #[must_use]
     pub fn edge(&self) -> Edge {
         self.projection().edge()
@@ -140,7 +140,7 @@ impl Model {
     }
 }
 
-/// The closed list of models by name: each with what it is, and its family.
+/// The closed list of models by name, each with a description and its family.
 macro_rules! camera_models {
     ($($Model:ident $name:literal, $about:literal: $family:expr;)*) => {
         /// A model that can be fitted, by name.
@@ -150,16 +150,16 @@ macro_rules! camera_models {
         }
 
         impl CameraModel {
-            /// All of them, the simplest first.
+            /// All models, the simplest first.
             pub const ALL: &[Self] = &[$(Self::$Model),*];
 
-            /// Its name, as a user types it.
+            /// Name as typed by a user.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Self::$Model => $name,)* }
             }
 
-            /// What it is, in a few words.
+            /// Short description.
             #[must_use]
             pub fn about(self) -> &'static str {
                 match self { $(Self::$Model => $about,)* }
@@ -209,7 +209,7 @@ pub enum Radial {
 /// A family of models.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Family {
-    /// Perspective with OpenCV's radial terms, and p₁, p₂ where wanted.
+    /// Perspective with OpenCV's radial terms, and optionally p₁, p₂.
     Perspective {
         /// Radial terms.
         radial: Radial,
@@ -259,7 +259,7 @@ impl Family {
         }
     }
 
-    /// Coefficients to begin with.
+    /// Initial coefficients.
     #[must_use]
     pub fn first(self) -> Vec<f64> {
         match self {
@@ -271,9 +271,10 @@ impl Family {
         }
     }
 
-    /// The model of coefficients.
+    /// Creates the model from its coefficients.
     ///
     /// # Errors
+    ///
     /// If they are not legal.
     pub fn model(self, c: &[f64]) -> Result<Model, ModelError> {
         let at = |i: usize| c.get(i).copied().unwrap_or(0.0);

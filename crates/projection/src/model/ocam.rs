@@ -21,9 +21,10 @@ use crate::root::{derivative, first_sign_change, increasing, polynomial};
 pub struct Ocam(Stretched<Polynomial>);
 
 impl Ocam {
-    /// The camera of a₀, a₁, … (px, …) and of the affine map.
+    /// Creates the camera from a₀, a₁, … (px, …) and the affine map.
     ///
     /// # Errors
+    ///
     /// If a₀ is not negative, a number is not finite or the map mirrors.
     pub fn new(coefficients: Vec<f64>, affine: Affine) -> Result<Self, ModelError> {
         finite_list("a", 0, &coefficients)?;

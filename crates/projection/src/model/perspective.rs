@@ -41,9 +41,10 @@ pub struct Perspective {
 }
 
 impl Perspective {
-    /// The camera of distortion terms and of a sensor tilt τx, τy (rad; zeros for none).
+    /// Creates the camera from distortion terms and a sensor tilt τx, τy (rad; zeros for none).
     ///
     /// # Errors
+    ///
     /// If a number is not finite or a tilt reaches a right angle.
     pub fn new(terms: DistortionTerms, tilt_rad: [f64; 2]) -> Result<Self, ModelError> {
         terms.check()?;
@@ -55,15 +56,16 @@ impl Perspective {
         Ok(Self { distortion: Distortion::new(terms, FARTHEST), tilt })
     }
 
-    /// No distortion: a pinhole.
+    /// A pinhole without distortion.
     #[must_use]
     pub fn pinhole() -> Self {
         Self { distortion: Distortion::new(DistortionTerms::default(), FARTHEST), tilt: None }
     }
 
-    /// The camera of OpenCV's distCoeffs: 0, 4, 5, 8, 12 or 14 numbers in its order.
+    /// Creates the camera from OpenCV's distCoeffs: 0, 4, 5, 8, 12 or 14 numbers in its order.
     ///
     /// # Errors
+    ///
     /// As [`Perspective::new`], and for any other count.
     pub fn from_opencv(coefficients: &[f64]) -> Result<Self, ModelError> {
         let count = coefficients.len();
@@ -80,13 +82,13 @@ impl Perspective {
         Self::new(terms, [tau_x, tau_y])
     }
 
-    /// Its distortion.
+    /// Distortion.
     #[must_use]
     pub fn distortion(&self) -> &Distortion {
         &self.distortion
     }
 
-    /// The tilt of its sensor, where there is one.
+    /// Tilt of the sensor, if any.
     #[must_use]
     pub fn tilt(&self) -> Option<&Tilt> {
         self.tilt.as_deref()
@@ -101,7 +103,7 @@ impl Perspective {
         self.distortion.ideal(upright)
     }
 
-    /// dΩ/dA of an image point whose gnomonic point is known.
+    /// dΩ/dA of an image point with a known gnomonic point.
     fn per_area(&self, point: DVec2, ideal: DVec2) -> Option<f64> {
         let square = 1.0 + ideal.length_squared();
         let tilt = match &self.tilt {
@@ -152,9 +154,10 @@ pub struct Division {
 }
 
 impl Division {
-    /// The camera of k.
+    /// Creates the camera of k.
     ///
     /// # Errors
+    ///
     /// If k is not finite.
     pub fn new(k: f64) -> Result<Self, ModelError> {
         finite([("k", k)])?;
@@ -221,7 +224,7 @@ impl Projection for RadialDistortion {
     }
 }
 
-/// dΩ/dA of an image point whose gnomonic point is known.
+/// dΩ/dA of an image point with a known gnomonic point.
 fn per_area(distortion: &RadialDistortion, point: DVec2, ideal: DVec2) -> Option<f64> {
     let square = 1.0 + ideal.length_squared();
     Some(distortion.ideal_area_per_observed(point.length())? / (square * square.sqrt()))
@@ -236,9 +239,10 @@ pub struct FieldOfView {
 }
 
 impl FieldOfView {
-    /// The camera of ω, rad.
+    /// Creates the camera of ω, rad.
     ///
     /// # Errors
+    ///
     /// If ω is not between 0 and π.
     pub fn new(omega_rad: f64) -> Result<Self, ModelError> {
         let inside = omega_rad > 0.0 && omega_rad < core::f64::consts::PI;

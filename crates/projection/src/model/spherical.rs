@@ -36,9 +36,10 @@ use crate::rectilinear::legal;
 pub struct Unified(Distorted<Sphere>);
 
 impl Unified {
-    /// The camera of ξ ≥ 0 and distortion terms; Mei's are `numerator` k₁, k₂ and `tangential` p₁, p₂.
+    /// Creates the camera from ξ ≥ 0 and distortion terms; Mei's are `numerator` k₁, k₂ and `tangential` p₁, p₂.
     ///
     /// # Errors
+    ///
     /// If ξ is negative or a number is not finite.
     pub fn new(xi: f64, terms: DistortionTerms) -> Result<Self, ModelError> {
         legal("xi", xi, xi >= 0.0, "0 or a positive number")?;
@@ -53,7 +54,7 @@ impl Unified {
         self.0.profile.xi
     }
 
-    /// Its distortion.
+    /// Distortion.
     #[must_use]
     pub fn distortion(&self) -> &Distortion {
         &self.0.distortion
@@ -70,7 +71,7 @@ struct Sphere {
 }
 
 impl Sphere {
-    /// The radius that is not reached.
+    /// The upper bound of the radius.
     fn reach(self) -> f64 {
         if self.xi > 1.0 { 1.0 / (self.xi * self.xi - 1.0).sqrt() } else { 1e8 }
     }
@@ -107,9 +108,10 @@ pub struct ExtendedUnified {
 }
 
 impl ExtendedUnified {
-    /// The camera of α and β.
+    /// Creates the camera from α and β.
     ///
     /// # Errors
+    ///
     /// If α is not in [0, 1] or β not positive.
     pub fn new(alpha: f64, beta: f64) -> Result<Self, ModelError> {
         legal("alpha", alpha, (0.0..=1.0).contains(&alpha), "a number from 0 to 1")?;
@@ -169,9 +171,10 @@ pub struct DoubleSphere {
 }
 
 impl DoubleSphere {
-    /// The camera of ξ and α.
+    /// Creates the camera from ξ and α.
     ///
     /// # Errors
+    ///
     /// If ξ is not between −1 and 1 or α not in [0, 1].
     pub fn new(xi: f64, alpha: f64) -> Result<Self, ModelError> {
         legal("xi", xi, xi.abs() < 1.0, "a number between -1 and 1")?;

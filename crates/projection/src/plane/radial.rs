@@ -5,7 +5,7 @@
 
 use crate::root::{derivative, first_sign_change, increasing, product};
 
-/// Beyond it a radius is not told from infinity (6e-7° from 90° for a tangent).
+/// Radius beyond which values count as infinite (6e-7° from 90° for a tangent).
 const FARTHEST: f64 = 1e8;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
