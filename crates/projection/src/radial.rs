@@ -5,24 +5,22 @@
 //! | | the polynomial takes | and gives | barrel has |
 //! | --- | --- | --- | --- |
 //! | [`Sense::IdealToObserved`] | the undistorted radius | the distorted radius | k₁ < 0 (OpenCV, with the radius in focal lengths) |
-//! | [`Sense::ObservedToIdeal`] | the distorted radius | the undistorted radius | k₁ > 0 (image filters that fetch) |
+//! | [`Sense::ObservedToIdeal`] | the distorted radius | the undistorted radius | k₁ > 0 (image filters that map output to input) |
 //!
-//! The other direction is the numerical inverse, so both directions of one model are exact inverses of each other. A
-//! polynomial of the other direction that comes near is a [`fit`](RadialDistortion::fitted), with its residual; to first
-//! order its k₁ has the opposite sign.
+//! The other direction is the numerical inverse, so both directions of one model are exact inverses of each other. A polynomial of the other
+//! direction is available as a [`fit`](RadialDistortion::fitted), with its residual; to first order its k₁ has the opposite sign.
 //!
 //! Left out: tangential and thin-prism terms, k₃ and up, the rational form.
 //!
 //! One direction of a radial distortion fitted to the other.
 //!
-//! Programs and papers write distortion in either direction; a polynomial of one direction has no polynomial of the other
-//! as its inverse, but one comes near over an image. The fit is least squares of the radius and says how far it is off.
+//! Programs and papers write distortion in either direction. The inverse of a polynomial is not a polynomial, but can be approximated by one over an
+//! image. The fit is least squares of the radius; its maximum error is reported.
 //!
-//! The even radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴), its inverse, and where it folds.
+//! The even radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴), its inverse, and its fold.
 //!
-//! The first radius at which dr′/dr = 1 + 3 k₁ r² + 5 k₂ r⁴ vanishes is the fold: beyond it two radii would share one
-//! image. Only the branch from 0 to the fold exists here; beyond it every function answers `None`.
-//! r is dimensionless: its unit is the caller's ([`RadialDistortion`] states it).
+//! The first radius at which dr′/dr = 1 + 3 k₁ r² + 5 k₂ r⁴ vanishes is the fold: beyond it two radii would share one image. Only the branch from 0
+//! to the fold is defined; beyond it every function returns `None`. r is dimensionless: the caller chooses its unit ([`RadialDistortion`] states it).
 
 #[cfg(test)]
 mod tests;

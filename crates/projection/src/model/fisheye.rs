@@ -2,10 +2,10 @@
 //!
 //! Polynomial fisheye: r = θ (1 + k₁ θ² + k₂ θ⁴ + k₃ θ⁶ + …).
 //!
-//! Kannala & Brandt 2006 (eq. 6, symmetrical part); with four coefficients `cv::fisheye` and Kalibr's pinhole-equi, with one
-//! and two COLMAP's SIMPLE_RADIAL_FISHEYE and RADIAL_FISHEYE, with none the equidistant fisheye. θ counts from the optical
-//! axis and goes to 180°, where `cv::fisheye` itself stops at 90°; beyond the first angle at which dr/dθ vanishes there is
-//! nothing. The asymmetrical terms of the paper are left out, as in all those programs.
+//! Kannala & Brandt 2006 (eq. 6, symmetrical part); with four coefficients `cv::fisheye` and Kalibr's pinhole-equi, with one and two COLMAP's
+//! SIMPLE_RADIAL_FISHEYE and RADIAL_FISHEYE, with none the equidistant fisheye. θ counts from the optical axis and extends to 180°, where
+//! `cv::fisheye` itself stops at 90°; the field ends at the first angle at which dr/dθ vanishes. The asymmetrical terms of the paper are left out, as
+//! in all those programs.
 //!
 //! Fisheyes with tangential and thin-prism terms: r = θ (1 + k₁ θ² + …) along the azimuth, then a distortion of that plane.
 //!

@@ -1,9 +1,9 @@
 //! Camera models: unit direction ↔ point of the normalised image plane.
 //!
-//! Directions are of the camera frame (x right, y down, z forward); a point is what the camera matrix takes to pixels
-//! ([`Calibration`](crate::Calibration)). Angles are in radians from the optical axis θ.
+//! Directions are in the camera frame (x right, y down, z forward); the camera matrix maps points to pixels ([`Calibration`](crate::Calibration)).
+//! Angles θ are in radians from the optical axis.
 //!
-//! | model | r(θ) or map | field, where nothing folds before |
+//! | model | r(θ) or map | field, unless it folds before |
 //! | --- | --- | --- |
 //! | [`Perspective`] | tan θ, then OpenCV's distortion and tilt | below 90° |
 //! | [`RadialDistortion`] | tan θ, then r (1 + k₁ r² + k₂ r⁴) in either direction | below 90° |
@@ -20,14 +20,13 @@
 //! | [`Ideal`] | equidistant, equisolid, stereographic, orthographic, rectilinear | 180° or 90° |
 //! | [`Panorama`] | cylindrical, equirectangular | the sphere |
 //!
-//! Every model is exact in both directions: inverses are in closed form or solved to the last few units in the last
-//! place. Outside its field, at a fold and beyond, a model answers `None`.
+//! Every model is exact in both directions: inverses are in closed form or solved to the last few units in the last place. Outside its field, at a
+//! fold and beyond, a model returns `None`.
 //!
-//! The models that a fit can find, by name and with their coefficients as a list of numbers, stand below: [`CameraModel`], [`Family`].
+//! The models available for fitting, by name and with their coefficients as a list of numbers, are below: [`CameraModel`], [`Family`].
 //!
-//! Left out: models whose rays do not share a centre. An orthographic telecentric camera maps every point to the same
-//! direction and differs by the ray's origin alone; together with pushbroom and non-central catadioptric cameras it
-//! belongs to optics, where a ray has an origin.
+//! Left out: models whose rays do not share a centre. An orthographic telecentric camera maps every point to the same direction; only the ray's
+//! origin differs. Together with pushbroom and non-central catadioptric cameras it belongs to the optics crate, where a ray has an origin.
 
 mod f_theta;
 mod fisheye;

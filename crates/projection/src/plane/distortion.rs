@@ -6,8 +6,8 @@
 //! g(s) = (1 + n₁ s + n₂ s² + n₃ s³ + n₄ s⁴)/(1 + d₁ s + d₂ s² + d₃ s³)
 //! ```
 //!
-//! (Brown 1971, Weng, Cohen & Herniou 1992; the order and signs of OpenCV's `projectPoints`.) It exists on the largest
-//! disc about the axis in which its Jacobian determinant stays positive; at the disc's rim and beyond everything is `None`.
+//! (Brown 1971, Weng, Cohen & Herniou 1992; the order and signs of OpenCV's `projectPoints`.) It is defined on the largest disc about the axis in
+//! which its Jacobian determinant stays positive; at the disc's edge and beyond the result is `None`.
 
 use core::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! The rational radial factor g(s) = N(s)/D(s) of s = r², r′ = r g(r²), its inverse, and where it folds.
+//! The rational radial factor g(s) = N(s)/D(s) of s = r², r′ = r g(r²), its inverse, and its fold.
 //!
 //! N = 1 + n₁ s + … + n₄ s⁴ and D = 1 + d₁ s + … + d₃ s³ cover OpenCV's k₁ … k₆ and the four coefficients of thin-prism
 //! fisheyes. dr′/dr = (N D + 2 s (N′ D − N D′))/D²; the first radius at which it or D vanishes is the fold.
