@@ -101,7 +101,7 @@ impl CoreTable {
         (DVec2::new(x as f64 + in_x, y as f64 + in_y) - 1.0) / CELLS_PER_PX - CORE_PX
     }
 
-    /// The mass of the cell of an offset: the density, in units that all tables share.
+    /// The mass of the cell of an offset: the density, in units common to all tables.
     pub(super) fn density(&self, offset_px: DVec2) -> f64 {
         let place = ((offset_px + CORE_PX) * CELLS_PER_PX + 1.0).floor();
         let inside = place.min_element() >= 0.0 && place.max_element() < SIDE as f64;

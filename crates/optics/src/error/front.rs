@@ -39,7 +39,7 @@ pub enum FrontError {
         /// The outer radius, mm.
         rim_mm: f64,
     },
-    /// The camera is on the wrong side of the mirror.
+    /// A camera on the wrong side of the mirror.
     #[error(
         "the mirror is seen from inside: the camera stands behind its reflecting side, which faces away from its axis and towards the camera; move it farther (distance_mm) or turn it (rotation_deg)"
     )]
@@ -78,7 +78,7 @@ pub enum FrontError {
         "no pixel of the picture looks through the drops' rectangle: move it (offset_mm) or make it larger (size_mm)"
     )]
     DropsNotSeen,
-    /// A mask whose texels are not those of its size.
+    /// A mask whose number of texels does not match its size.
     #[error("the mask has {texels} texels, but its size is {width} × {height}")]
     MaskSize {
         /// Columns.
@@ -88,7 +88,7 @@ pub enum FrontError {
         /// Texels found.
         texels: usize,
     },
-    /// A mesh that is no surface.
+    /// An invalid mesh.
     #[error("the mirror's mesh has {what}")]
     Mesh {
         /// Description of the problem.
@@ -96,7 +96,7 @@ pub enum FrontError {
     },
 }
 
-/// `value` where it is finite and above 0.
+/// Returns `value` if it is finite and above 0.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, FrontError> {
     let right = value.is_finite() && value > 0.0;
     if right { Ok(value) } else { Err(FrontError::Number { name, value, range: "finite and above 0" }) }

@@ -36,9 +36,9 @@ pub struct Paraxial {
 /// Treatment of a clear aperture other than the stop's that clips the bundle on the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OtherRims {
-    /// The surfaces are no lens: that rim would be the stop.
+    /// Refused: that clear aperture would be the stop.
     Refused,
-    /// It clips, as rims and baffles of makers' files do: pupils and f-number are those of the bundle that is left, their places those of the
+    /// It clips, as edges and baffles in manufacturers' files do: pupils and f-number are those of the remaining bundle, their positions those of the
     /// stop's images.
     Clip,
 }

@@ -150,9 +150,9 @@ impl<'a> Aim<'a> {
 
 /// Radii of the quadrature.
 const RADIAL_KNOTS: usize = 257;
-/// Of which every so many serve for the ratio of other wavelengths.
+/// Step between the radii used for the ratio at other wavelengths.
 const STRIDE: usize = 8;
-/// Directions of the quadrature where only the ratio counts: its own error is nearly the same at both wavelengths.
+/// Directions of the quadrature if only the ratio matters: its own error is nearly the same at both wavelengths.
 const FEWER: usize = 24;
 
 /// Étendue (sr) at radii 0, step, 2 step, … mm.
@@ -163,25 +163,25 @@ pub(super) struct RadialEtendue {
 }
 
 impl RadialEtendue {
-    /// At 587.56 nm, as far as `reach_mm` from the axis.
+    /// Étendue at 587.56 nm, up to `reach_mm` from the axis.
     pub(super) fn new(lens: &Prescribed, reach_mm: f64) -> Self {
         let step_mm = reach_mm / (RADIAL_KNOTS - 1) as f64;
         let at = |i: usize| lens.projected_solid_angle_at_sr(step_mm * i as f64, PRINCIPAL_NM, DIRECTIONS);
         Self { step_mm, values: (0..KNOTS).into_par_iter().map(at).collect() }
     }
 
-    /// The same at another wavelength: each radius that is lit at 587.56 nm.
+    /// The same at another wavelength, for each radius that is lit at 587.56 nm.
     pub(super) fn at_wavelength(&self, lens: &Prescribed, nm: f64) -> Self {
         let at = |i: usize, nm: f64| lens.projected_solid_angle_at_sr(self.step_mm * i as f64, nm, FEWER);
         let lit = |i: usize| Some(at(i, PRINCIPAL_NM)).filter(|sr| *sr > 0.0);
         let knots = (0..KNOTS).into_par_iter().step_by(STRIDE);
         let found: Vec<Option<f64>> = knots.map(|i| Some(at(i, nm) / lit(i)?)).collect();
         if found.iter().all(Option::is_none) {
-            // A filter that is shut at 587.56 nm says nothing of other wavelengths.
+            // A filter that is opaque at 587.56 nm gives no information on other wavelengths.
             let values = (0..KNOTS).into_par_iter().map(|i| at(i, nm)).collect();
             return Self { step_mm: self.step_mm, values };
         }
-        // Where it is dark at 587.56 nm nothing depends on the ratio but its neighbour's interpolation.
+        // At radii that are dark at 587.56 nm the ratio only serves the interpolation of their neighbours.
         let ratios: Vec<f64> = found
             .into_iter()
             .scan(0.0, |last, ratio| {
@@ -193,7 +193,7 @@ impl RadialEtendue {
         Self { step_mm: self.step_mm, values: self.values.iter().enumerate().map(|(i, v)| v * ratio(i)).collect() }
     }
 
-    /// Étendue at radii, mm; at the last one beyond it.
+    /// Étendue at radii, mm; clamped to the last one.
     pub(super) fn at_radii(&self, radii_mm: &[f64]) -> Vec<f64> {
         radii_mm.iter().map(|r| linear(&self.values, r / self.step_mm)).collect()
     }
@@ -246,13 +246,13 @@ mod tests {
             let radii: Vec<f64> = (0..12).map(|i| 19.2 * (f64::from(i) + 0.61) / 12.0).collect();
             for (r, sr) in radii.iter().zip(band.at_radii(&radii)) {
                 let exact = lens.projected_solid_angle_at_sr(*r, nm, DIRECTIONS);
-                // The edge of 20 nm crosses the field within a few of the 33 knots.
+                // The filter edge of 20 nm crosses the field within a few of the 33 knots.
                 assert!((sr - exact).abs() < 4e-3 * table.values[0], "{nm} nm at {r} mm: {sr} for {exact}");
             }
         }
     }
 
-    /// A band-pass filter of the near infrared: dark at 587.56 nm, and yet light comes.
+    /// A near-infrared band-pass filter: dark at 587.56 nm, but other light passes.
     #[test]
     fn a_filter_that_is_shut_at_the_reference_shuts_no_other_wavelength() {
         let points = [(800.0, 0.0), (820.0, 1.0), (880.0, 1.0), (900.0, 0.0)];

@@ -42,7 +42,7 @@ pub(super) struct ReadyTable {
     canvas: Canvas,
     part: FilmPart,
     places: Patches,
-    /// Of each patch, where they are the same at all wavelengths.
+    /// Kernels of the patches, if they are the same at all wavelengths.
     shared: Option<Vec<Kernel>>,
 }
 

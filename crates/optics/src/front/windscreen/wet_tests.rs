@@ -186,7 +186,7 @@ fn etendue_is_conserved_through_drops() {
                 })
                 .collect();
             let Some(c) = columns else { continue };
-            // Where the map stretches a thousandfold, differences of 10⁻⁷ of it are meaningless.
+            // If the map stretches a thousandfold, differences of 10⁻⁷ of it are meaningless.
             if c.iter().any(|c| c.abs().max_element() > 300.0) {
                 continue;
             }
