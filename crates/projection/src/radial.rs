@@ -333,7 +333,7 @@ impl RadialPolynomial {
         self.fold
     }
 
-    /// The value at the fold: the least upper bound of what [`forward`](Self::forward) returns.
+    /// The value at the fold: the supremum of [`forward`](Self::forward).
     #[must_use]
     pub fn fold_value(&self) -> f64 {
         if self.fold.is_finite() { self.value(self.fold) } else { f64::INFINITY }

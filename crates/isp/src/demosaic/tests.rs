@@ -132,7 +132,7 @@ fn an_impulse_shows_the_filters_of_the_paper() {
         samples[at[1] * 9 + at[0]] = 8.0;
         interpolate_malvar(&samples, 9, &tile)
     };
-    // A red pixel at (4, 4): green and blue there, what it adds to others.
+    // A red pixel at (4, 4): its own green and blue, and its contributions to others.
     let red = impulse([4, 4]);
     let at = |plane: &[[f32; 3]], x: usize, y: usize| plane[y * 9 + x];
     assert_eq!(at(&red, 4, 4), [8.0, 4.0, 6.0]);

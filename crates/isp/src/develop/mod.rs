@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn what_is_shown_as_white_has_no_coloured_rims() {
-        // A lamp of white next to a wall of an eighth of it, in an image of gain 64: both are white, and so is their border.
+        // A white light next to a wall of an eighth of white, in an image of gain 64: both are white, and so is their border.
         let lamp = |x: usize, y: usize| if (x / 3 + y / 3).is_multiple_of(2) { 1100 } else { 225 };
         let plane = plane(18, 18, lamp);
         let bright = |filters| {

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! g = target / L_p                    L_p: the percentile p of the luminances of the image (nearest rank)
-//! e = max(g x − threshold, 0)         what exceeds the threshold after the gain, by channel
+//! e = max(g x − threshold, 0)         excess over the threshold after the gain, by channel
 //! y = g x + strength · (k ∗ e)        k: a Gaussian of σ = radius, cut at 5 σ, normalised
 //! ```
 //!
@@ -118,7 +118,7 @@ mod tests {
 
     const GLOW: Glow = Glow { percentile: 50.0, target: 0.2, threshold: 1.0, radius_px: 2.0, strength: 0.5 };
 
-    /// Mostly 0.1, with a lamp of 10 in the middle.
+    /// Mostly 0.1, with a light of 10 at the centre.
     fn night() -> Plane<LinearRgb> {
         let mut picture = Plane::filled(41, 41, [0.1; 3]);
         picture.set(20, 20, [10.0, 5.0, 0.0]);
@@ -129,7 +129,7 @@ mod tests {
     fn the_median_is_brought_to_the_target_and_the_lamp_glows() {
         let mut picture = night();
         GLOW.apply(&mut picture);
-        // Far from the lamp only the gain of 2 acts; half of the excess of 19, 9 and 0 is added.
+        // Far from the light only the gain of 2 acts; half of the excess of 19, 9 and 0 is added.
         assert!(picture.at(0, 0).iter().all(|v| (v - 0.2).abs() < 1e-6));
         let added = |c: usize| -> f32 {
             let lit: f32 = picture.samples().iter().map(|rgb| rgb[c]).sum();

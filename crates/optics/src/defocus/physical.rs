@@ -1,11 +1,11 @@
 //! Defocus by the circles of confusion of the real pupil.
 //!
 //! 1. `footprint.rs`: the outline of the pupil for a scene point, by field point and distance, traced through the lens. It is inverted between the
-//! front and the back of the plane in focus.
+//!    front and the back of the plane in focus.
 //! 2. `hidden.rs`: surfaces behind the edges of near objects are estimated from their visible neighbours.
 //! 3. `layers.rs`: pixels and estimates, sorted by distance.
 //! 4. `scan.rs`, `strip.rs`: each spreads its light over its outline; the layers are composited from the nearest on, with their coverage of each
-//! pixel's pupil. A blurred near object lets the background through; a sharp one receives no light from the blur behind it.
+//!    pixel's pupil. A blurred near object lets the background through; a sharp one receives no light from the blur behind it.
 //!
 //! Weights are computed once for all bands. The cost is a pixel's outline (48 vertices) and, for each row that it spreads over, a few steps per band.
 //!

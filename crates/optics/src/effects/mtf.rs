@@ -1,4 +1,4 @@
-//! A point-spread function from a table of modulation: a sum of Gaussians, none of them negative.
+//! A point-spread function from a table of modulation: a sum of non-negative Gaussians.
 //!
 //! ```text
 //! MTF(f) ≈ Σ wᵢ exp(−2π² σᵢ² f²)      wᵢ ≥ 0, Σ wᵢ = 1      σᵢ = 0 and 32 widths from 0.02/f_max to 1.5/f_min

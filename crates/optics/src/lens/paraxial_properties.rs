@@ -10,7 +10,7 @@
 //! magnification is |m| = 1/(F/f − 1/m_p). The principal distance, the factor from tangents in object space to lengths on the sensor, is c = f (1 +
 //! |m|/m_p). The exit pupil is at m_p c from the sensor. For pupils in the principal planes m_p = 1 and these are the lens equation.
 //!
-//! Lateral colour: an image whose size depends on the wavelength.
+//! Lateral colour: variation of the image size with the wavelength.
 //!
 //! At the wavelength λ the image is m(λ) times as large as at 587.56 nm, about the principal point: the light of λ at a sensor point s comes from the
 //! direction that 587.56 nm has at s/m(λ), before any distortion. m is interpolated linearly between the points of the table and clamped beyond; only

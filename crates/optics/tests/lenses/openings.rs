@@ -26,8 +26,7 @@ fn folded(stop_mm: f64) -> Lens {
     lens(surfaces, 9.7, 3.0)
 }
 
-/// ∫ τ cos⁴ θ dt over a fine grid of all slopes at which the last surface can be reached, and the number of separate parts of its middle row that
-/// pass.
+/// ∫ τ cos⁴ θ dt over a fine grid of all slopes at which the last surface can be reached, and the number of open parts of its middle row.
 fn counted(lens: &Lens, s_mm: f64, side: usize) -> (f64, usize) {
     let Lens::Prescription(prescribed) = lens else { panic!("a prescription") };
     let lens = prescribed.prescription();

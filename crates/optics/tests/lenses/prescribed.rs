@@ -205,7 +205,7 @@ fn the_report_obeys_third_order_theory() {
     let report = prescribed.report(6);
     let field = report.fields[1].image.as_ref().expect("an image");
     let height_mm = report.fields[1].height_mm;
-    // The distance of the Petzval surface from the sagittal focus is half its distance from the tangential one more.
+    // The Petzval surface lies beyond the sagittal focus by half the distance between the tangential and the sagittal focus.
     let petzval_mm = height_mm * height_mm / (2.0 * report.first_order.petzval_radius_mm);
     let found = 0.5 * (3.0 * field.sagittal_mm - field.tangential_mm);
     // At 1 mm of 49 mm the next order is some 1e-3.

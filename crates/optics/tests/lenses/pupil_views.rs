@@ -301,7 +301,7 @@ fn sides_of_the_cube_are_where_the_axes_point() {
     assert_eq!(Face::towards(DVec3::new(0.1, -0.9, 0.2)), Face::Top, "y points down");
 }
 
-/// Both routes have the same dispersion: a band shows at a pixel what the rays of its wavelength see.
+/// Both routes have the same dispersion: each pixel of a band equals the view of the rays of its wavelength.
 #[test]
 fn lateral_colour_moves_each_band_as_its_rays_are_moved() {
     let table = LateralColour::new(vec![(450.0, 1.02), (650.0, 0.98)]).expect("a table");

@@ -6,7 +6,7 @@
 //! distCoeffs in the order k₁ k₂ p₁ p₂ k₃ k₄ k₅ k₆ s₁ s₂ s₃ s₄ τx τy. All zero is the pinhole. COLMAP's SIMPLE_PINHOLE,
 //! PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV and FULL_OPENCV are special cases, as is Kalibr's pinhole-radtan.
 //!
-//! dΩ/dA = cos³ θ/det J. Where nothing folds before, the field ends at 90°.
+//! dΩ/dA = cos³ θ/det J. The field ends at 90° unless it folds before.
 //!
 //! The division model: a point at r sees (x, y, 1 + k r²).
 //!

@@ -6,9 +6,9 @@
 //! - released: r_k = Q_k (1 − exp(−T/τ_k)), added to the pixel;
 //! - captured: c_k = f_k min(q + Σ r, full well), taken from it; Q_k ← Q_k − r_k + c_k.
 //!
-//! Several captures of a pixel's single photodiode follow each other at equal parts of the frame period, and share its traps. Charge is conserved: q
-//! + Σ Q_k before is q + Σ Q_k after. (The linear limit of the trap model in Pyxel's `persistence` and of Smith et al. 2008.) Left out: shot noise of
-//! capture and release, traps that fill up, dependence on temperature.
+//! Several captures of a pixel's single photodiode follow each other at equal parts of the frame period, and share its traps. Charge is conserved:
+//! q + Σ Q_k before is q + Σ Q_k after. (The linear limit of the trap model in Pyxel's `persistence` and of Smith et al. 2008.) Left out: shot noise
+//! of capture and release, traps that fill up, dependence on temperature.
 
 use etendue_core::{EffectStatus, Plane, maths::f64::exp, quantity::Charge};
 use rayon::prelude::*;

@@ -202,7 +202,7 @@ mod tests {
         let raw = run(&smeared(true, 0.04), &means, ADDRESS);
         let dark = (1..1000).flat_map(|y| (0..64).map(move |x| (x, y)));
         let moments = Moments::of(dark.map(|(x, y)| f64::from(raw.plane.at(x, y))));
-        // 50 e⁻ a pixel; 63 936 pixels know the mean to 0.028 and the variance to 0.56 %; four of each (and 1/12 of rounding).
+        // 50 e⁻ per pixel; 63 936 pixels give the mean to 0.028 and the variance to 0.56 %; tolerance: four of each (and 1/12 of rounding).
         assert!((moments.mean() - 50.0).abs() < 0.12, "{}", moments.mean());
         assert!((moments.variance().expect("many") / 50.0 - 1.0).abs() < 0.023);
     }

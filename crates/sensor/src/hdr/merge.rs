@@ -122,7 +122,7 @@ pub(crate) mod tests {
             m.mean() / m.variance().expect("many").sqrt()
         };
         let (before, after) = (snr(3200.0), snr(4200.0));
-        // μ/√(μ + σ² + 1/12) of the capture that is used; 65 536 pixels know it to 0.28 %, four of those.
+        // μ/√(μ + σ² + 1/12) of the capture used; 65 536 pixels give it to 0.28 %; tolerance: four of those.
         let of = |e: f64| e / (e + 4.0 + 1.0 / 12.0).sqrt();
         assert!((before / of(3200.0) - 1.0).abs() < 0.0112 && (after / of(4200.0 / 16.0) - 1.0).abs() < 0.0112);
     }
