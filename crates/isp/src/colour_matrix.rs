@@ -44,7 +44,6 @@ impl ColourMatrix {
     /// Creates a matrix from rows.
     ///
     /// # Errors
-    ///
     /// If the rows differ in length or an entry is not finite.
     pub fn new(rows: [Vec<f64>; 3]) -> Result<Self, MatrixError> {
         if rows.iter().any(|row| row.len() != rows[0].len()) {
@@ -105,7 +104,6 @@ pub enum FitError {
 /// noise of `noise_fraction` of white in each channel (0: none).
 ///
 /// # Errors
-///
 /// If a channel does not respond to the illuminant or the reflectances do not separate the channels.
 pub fn fit_colour_matrix<'a>(
     responsivities: &[&Spectrum],

@@ -65,7 +65,6 @@ impl Shading {
     /// Checks the table.
     ///
     /// # Errors
-    ///
     /// If it is too small, not a rectangle, or holds a gain below 1.
     pub fn check(&self) -> Result<(), ShadingError> {
         let (gains, shape) = match self {

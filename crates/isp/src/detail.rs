@@ -41,7 +41,6 @@ impl NoiseReduction {
     /// Checks the ranges of the parameters.
     ///
     /// # Errors
-    ///
     /// If one is out of range.
     pub fn check(&self) -> Result<(), DetailError> {
         match self {
@@ -161,7 +160,6 @@ impl Unsharp {
     /// Checks the ranges of the parameters.
     ///
     /// # Errors
-    ///
     /// If one is out of range.
     pub fn check(&self) -> Result<(), DetailError> {
         within("amount", self.amount, 0.0, 10.0, "above 0 and at most 10")?;

@@ -150,7 +150,6 @@ impl Mosaic {
     /// Creates a repeating tile of filters, row by row.
     ///
     /// # Errors
-    ///
     /// If the entries do not fill the tile, are of one kind or more than four, or leave a colour too far away.
     pub fn tile(width: usize, height: usize, filters: Vec<Filter>) -> Result<Self, MosaicError> {
         if filters.is_empty() || width * height != filters.len() {

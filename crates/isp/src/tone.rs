@@ -52,7 +52,6 @@ impl ToneCurve {
     /// Creates a power curve.
     ///
     /// # Errors
-    ///
     /// If γ is not above 0.
     pub fn gamma(gamma: f64) -> Result<Self, ToneError> {
         if gamma.is_finite() && gamma > 0.0 { Ok(Self::Gamma(gamma)) } else { Err(ToneError::Gamma(gamma)) }
@@ -135,7 +134,6 @@ impl SCurve {
     /// Creates the curve from a contrast above 0 about an encoded value between 0 and 1.
     ///
     /// # Errors
-    ///
     /// If a parameter is out of range.
     pub fn new(contrast: f64, midpoint: f64) -> Result<Self, ToneError> {
         let legal = contrast.is_finite() && contrast > 0.0 && midpoint > 0.0 && midpoint < 1.0;
@@ -186,7 +184,6 @@ impl Table {
     /// Creates a table from inputs (linear) and outputs (encoded); inputs rise from 0 to 1, outputs never fall and lie within 0 … 1.
     ///
     /// # Errors
-    ///
     /// If they violate this.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, ToneError> {
         check_order(&points)?;
@@ -261,7 +258,6 @@ impl Oecf {
     /// Creates the function from pairs of exposure (above 0, rising) and output (0 or more, never falling), and the largest output level.
     ///
     /// # Errors
-    ///
     /// If the pairs violate this or an output exceeds the largest level.
     pub fn new(points: Vec<(f64, f64)>, largest_output: f64) -> Result<Self, ToneError> {
         check_order(&points)?;

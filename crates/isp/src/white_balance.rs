@@ -79,7 +79,6 @@ pub struct NoResponse(pub usize);
 /// Gains of the channels for which a spectrally flat reflector under `illuminant` (any scale) is neutral; the smallest is 1.
 ///
 /// # Errors
-///
 /// If a channel does not respond to the illuminant.
 pub fn white_balance_from_illuminant(
     responsivities: &[&Spectrum],

@@ -73,7 +73,6 @@ impl Calibration {
     /// Creates the camera from a model, a camera matrix (raster coordinates) and a size (width, height).
     ///
     /// # Errors
-    ///
     /// If the matrix or the image size is invalid. A fold inside the image is reported by [`check`](Self::check).
     pub fn new(model: Model, matrix: CameraMatrix, size_px: [usize; 2]) -> Result<Self, CalibrationError> {
         let CameraMatrix { fx, fy, skew, cx, cy } = matrix;
@@ -91,7 +90,6 @@ impl Calibration {
     /// The same camera limited to directions below this field angle.
     ///
     /// # Errors
-    ///
     /// If the angle is not in (0, π].
     pub fn limited_to(self, angle_rad: f64) -> Result<Self, CalibrationError> {
         if !(angle_rad > 0.0 && angle_rad <= core::f64::consts::PI) {
@@ -173,7 +171,6 @@ impl Calibration {
     /// of the model's formula without a fold, are legal: they have no direction.
     ///
     /// # Errors
-    ///
     /// [`CalibrationError::Fold`].
     pub fn check(&self) -> Result<(), CalibrationError> {
         let edge = self.model.edge();

@@ -124,7 +124,6 @@ impl RadialDistortion {
     /// Creates the distortion whose polynomial has the direction `sense`, over radii in units of `unit_mm` millimetres ([`RadiusUnit::length_mm`]).
     ///
     /// # Errors
-    ///
     /// If a coefficient is not finite or beyond 1e30 (its square would overflow), or the unit is not a positive length.
     pub fn new(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> Result<Self, DistortionError> {
         if ![k1, k2].iter().all(|k| k.abs() <= LARGEST) {
@@ -139,7 +138,6 @@ impl RadialDistortion {
     /// Refuses a distortion that folds inside an image.
     ///
     /// # Errors
-    ///
     /// If the fold's observed radius is not beyond `max_observed_mm`, the largest distance of a point of the image from the principal point
     /// ([`Raster::max_radius_mm`](crate::Raster::max_radius_mm)).
     pub fn check(&self, max_observed_mm: f64) -> Result<(), DistortionError> {
@@ -255,7 +253,6 @@ impl RadialDistortion {
     /// image.
     ///
     /// # Errors
-    ///
     /// If this distortion folds inside the image, or the fitted one does.
     pub fn fitted(&self, sense: Sense, max_observed_mm: f64) -> Result<Fit, DistortionError> {
         self.check(max_observed_mm)?;

@@ -48,7 +48,6 @@ impl Raster {
     /// Creates a grid of `width` × `height` pixels of `pitch_mm`, with the optical axis at `principal_px` (raster coordinates).
     ///
     /// # Errors
-    ///
     /// If there are no pixels, a number is not finite, or a pitch is not positive.
     pub fn new(width: usize, height: usize, pitch_mm: DVec2, principal_px: DVec2) -> Result<Self, RasterError> {
         if width == 0 || height == 0 {
@@ -66,7 +65,6 @@ impl Raster {
     /// Creates a grid of square pixels with the optical axis at its centre.
     ///
     /// # Errors
-    ///
     /// As [`Raster::new`].
     pub fn centred(width: usize, height: usize, pitch_mm: f64) -> Result<Self, RasterError> {
         let centre = DVec2::new(width as f64, height as f64) / 2.0;

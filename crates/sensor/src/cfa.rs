@@ -57,7 +57,6 @@ impl Cfa {
     /// Creates any tile, from channel numbers row by row.
     ///
     /// # Errors
-    ///
     /// If the entries do not fill the tile or there are none.
     pub fn tile(width: usize, height: usize, channels: Vec<usize>) -> Result<Self, CfaError> {
         if channels.is_empty() || width * height != channels.len() {

@@ -30,7 +30,6 @@ impl Sensor {
     /// The same for a stored cube, of which some rows at a time are read.
     ///
     /// # Errors
-    ///
     /// If they cannot be read.
     pub fn electrons_of(&self, irradiance: &KeptCube<Irradiance>) -> Result<Plane<MeanElectrons>, String> {
         let (width, height) = (irradiance.width(), irradiance.height());

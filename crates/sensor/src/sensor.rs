@@ -22,7 +22,6 @@ impl Sensor {
     /// Checks the parameters and computes the responsivities.
     ///
     /// # Errors
-    ///
     /// All contradictions found, in the order of the parameters.
     pub fn new(parameters: SensorParameters) -> Result<Self, Vec<SensorError>> {
         let errors = validity::errors(&parameters);

@@ -107,7 +107,6 @@ impl Dispersion {
     /// The curve of a glass given by n_d and V_d: see the module.
     ///
     /// # Errors
-    ///
     /// If no glass has these numbers.
     pub fn of_abbe(index: f64, abbe: f64) -> Result<Self, GlassError> {
         if !(index > 1.0 && index <= 5.0 && abbe > 5.0 && abbe.is_finite()) {
@@ -129,7 +128,6 @@ impl Dispersion {
     /// Returns this curve if it is that of a clear material at every legal wavelength.
     ///
     /// # Errors
-    ///
     /// If the index leaves 1 to 5 between 300 and 1 100 nm.
     pub fn checked(self) -> Result<Self, GlassError> {
         let grid = (SHORTEST_NM as u32..=MAX_NM as u32).map(f64::from);
@@ -202,7 +200,6 @@ pub fn catalogue() -> &'static [CatalogueGlass] {
 /// A glass by its catalogue name; case is ignored, as lens files differ in it.
 ///
 /// # Errors
-///
 /// If no catalogue of the crate has the name: the error lists the nearest ones.
 pub fn named(name: &str) -> Result<&'static CatalogueGlass, GlassError> {
     let found = CATALOGUE.iter().find(|glass| glass.name.eq_ignore_ascii_case(name.trim()));

@@ -36,7 +36,6 @@ impl Spectrum {
     /// Creates a spectrum from points (wavelength in nm, value), wavelengths rising; linear between points.
     ///
     /// # Errors
-    ///
     /// If there are no points, a single one in a table that is zero outside, a number is not finite, wavelengths do not rise, or the table does not
     /// reach into 300 to 1 100 nm.
     pub fn from_points(points: &[(f64, f64)], outside: Outside) -> Result<Self, SpectrumError> {
@@ -49,7 +48,6 @@ impl Spectrum {
     /// allowed.
     ///
     /// # Errors
-    ///
     /// As [`Spectrum::from_points`], and if a line is not two numbers; the error names the line.
     pub fn from_csv(text: &str, outside: Outside) -> Result<Self, SpectrumError> {
         let points = table::points(text)?;

@@ -60,7 +60,6 @@ impl Processing {
 /// depend on it.
 ///
 /// # Errors
-///
 /// If image and processing contradict each other or a number is out of range.
 pub fn develop(
     raw: &RawPicture<'_>,

@@ -61,7 +61,6 @@ impl Processing {
     /// Checks that the settings are legal and fit images of this mosaic and size.
     ///
     /// # Errors
-    ///
     /// If a number is out of range or settings and mosaic contradict each other.
     pub fn check(&self, mosaic: &Mosaic, width: usize, height: usize) -> Result<(), DevelopError> {
         if !(self.exposure_gain.is_finite() && self.exposure_gain > 0.0) {

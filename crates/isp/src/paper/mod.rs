@@ -67,7 +67,6 @@ impl Filter {
     /// Checks the ranges of the parameters.
     ///
     /// # Errors
-    ///
     /// If one is out of range.
     pub fn check(&self) -> Result<(), FilterError> {
         match self {
@@ -105,7 +104,6 @@ impl Filter {
 /// Checks that a list of filters can be applied.
 ///
 /// # Errors
-///
 /// If a number is out of range or the order mixes the stages.
 pub fn check(filters: &[Filter]) -> Result<(), FilterError> {
     filters.iter().try_for_each(Filter::check)?;

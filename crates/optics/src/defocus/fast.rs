@@ -42,7 +42,6 @@ impl FastBlend {
     /// Creates a blend.
     ///
     /// # Errors
-    ///
     /// If the distances are not in the order blurred, sharp, sharp, blurred, or the blur is not positive.
     pub fn new(parameters: FastParameters) -> Result<Self, OpticsError> {
         let FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px } = parameters;

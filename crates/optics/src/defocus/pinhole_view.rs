@@ -20,7 +20,6 @@ impl<'a> PinholeView<'a> {
     /// Creates a view of an image: `radiance` and `distance` have `margin_px` more pixels than `raster` on each side.
     ///
     /// # Errors
-    ///
     /// If the images are not of that size, or the radiance of a pixel with a distance is not finite.
     pub fn new(
         lens: &'a Lens,

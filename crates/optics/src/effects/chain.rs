@@ -43,7 +43,6 @@ impl Effects {
     /// Prepares the effects of an image.
     ///
     /// # Errors
-    ///
     /// If the margin is out of range or has no purpose, or sample displacement is requested and the function is wide.
     pub fn new(parameters: EffectsParameters, picture: &Raster) -> Result<Self, EffectsError> {
         let EffectsParameters { psf, spread_by: asked, glare, ghosts, margin } = parameters;

@@ -55,7 +55,6 @@ impl Glare {
     /// Creates veiling glare.
     ///
     /// # Errors
-    ///
     /// If a number is outside its range, or the kernel's integral is infinite.
     pub fn new(parameters: GlareParameters) -> Result<Self, EffectsError> {
         let GlareParameters { scatter, core_um, exponent, reach_mm } = parameters;

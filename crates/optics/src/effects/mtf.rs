@@ -38,7 +38,6 @@ const WORST: f64 = 0.06;
 /// pixels of `pixel_um`.
 ///
 /// # Errors
-///
 /// If no sum of Gaussians is within 0.06 of the table, up to one cycle per pixel.
 pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<SpreadImageParameters, EffectsError> {
     const UM_PER_MM: f64 = 1e3;

@@ -72,7 +72,6 @@ impl SpreadImage {
     /// The function on the pixels of an image.
     ///
     /// # Errors
-    ///
     /// If the samples are not valid light, or are too far apart, or the function is too wide.
     pub fn new(parameters: SpreadImageParameters, picture: &Raster) -> Result<Self, EffectsError> {
         positive("image_pitch_um", parameters.pitch_um)?;

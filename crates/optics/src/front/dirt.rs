@@ -38,7 +38,6 @@ impl Mask {
     /// Creates a mask.
     ///
     /// # Errors
-    ///
     /// If the number of texels does not match the size, there are none, or one is outside 0 to 1.
     pub fn new(width: usize, height: usize, transmittance: Vec<f32>) -> Result<Self, FrontError> {
         if width == 0 || height == 0 || transmittance.len() != width * height {
@@ -84,7 +83,6 @@ impl Dirt {
     /// Creates dirt.
     ///
     /// # Errors
-    ///
     /// If the size is invalid.
     pub fn new(parameters: DirtParameters) -> Result<Self, FrontError> {
         positive("size_mm", parameters.size_mm.min_element())?;

@@ -134,7 +134,6 @@ impl Front {
     /// Refuses a front that does not fit the camera's view.
     ///
     /// # Errors
-    ///
     /// If the image sees nothing of a mirror, or sees its back; if a windscreen is not in front of the lens.
     pub fn check(&self, lens: &Lens, raster: &Raster) -> Result<(), FrontError> {
         let sights = sights(raster).filter_map(|s_mm| lens.truth_ray(s_mm));

@@ -24,7 +24,6 @@ const BATCH: usize = 8;
 /// image.
 ///
 /// # Errors
-///
 /// If the irradiance does not have the raster's size.
 pub fn layer(
     irradiance: &SpectralCube<Irradiance>,

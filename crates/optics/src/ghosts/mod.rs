@@ -46,7 +46,6 @@ impl GhostSettings {
     /// Settings for the ghosts of a lens with a sensor of this reflectance, the same at all wavelengths; 0 for none.
     ///
     /// # Errors
-    ///
     /// If the reflectance is not in [0, 1).
     pub fn new(sensor_reflectance: f64) -> Result<Self, OpticsError> {
         if (0.0..1.0).contains(&sensor_reflectance) {

@@ -85,7 +85,6 @@ impl Calibrated {
     /// Creates a calibrated camera.
     ///
     /// # Errors
-    ///
     /// If a number is outside its range, or the calibration has no direction at its principal point.
     pub fn new(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
         let pitch_mm = positive("pixel_pitch_mm", parameters.pixel_pitch_mm)?;

@@ -81,7 +81,6 @@ impl Lens {
     /// Creates a pinhole.
     ///
     /// # Errors
-    ///
     /// As [`Pinhole::new`].
     pub fn pinhole(parameters: PinholeParameters) -> Result<Self, OpticsError> {
         Pinhole::new(parameters).map(Self::Pinhole)
@@ -90,7 +89,6 @@ impl Lens {
     /// Creates a thin lens.
     ///
     /// # Errors
-    ///
     /// As [`Thin::new`].
     pub fn thin(parameters: ThinParameters) -> Result<Self, OpticsError> {
         Thin::new(parameters).map(Self::Thin)
@@ -99,7 +97,6 @@ impl Lens {
     /// Creates a thick lens.
     ///
     /// # Errors
-    ///
     /// As [`Thick::new`].
     pub fn thick(parameters: ThickParameters) -> Result<Self, OpticsError> {
         Thick::new(parameters).map(Self::Thick)
@@ -120,7 +117,6 @@ impl Lens {
     /// Creates a calibrated camera.
     ///
     /// # Errors
-    ///
     /// As [`Calibrated::new`].
     pub fn calibrated(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
         Calibrated::new(parameters).map(|lens| Self::Calibrated(Arc::new(lens)))
@@ -129,7 +125,6 @@ impl Lens {
     /// Creates a telecentric camera.
     ///
     /// # Errors
-    ///
     /// As [`Telecentric::new`].
     pub fn telecentric(parameters: TelecentricParameters) -> Result<Self, OpticsError> {
         Telecentric::new(parameters).map(Self::Telecentric)
@@ -139,7 +134,6 @@ impl Lens {
     /// the lens without it.
     ///
     /// # Errors
-    ///
     /// For a prescription, a calibrated and a telecentric camera, which have their own.
     pub fn with_distortion(mut self, distortion: RadialDistortion) -> Result<Self, OpticsError> {
         each!(&mut self,
@@ -161,7 +155,6 @@ impl Lens {
     /// The same lens with lateral colour.
     ///
     /// # Errors
-    ///
     /// For a prescription, which has its own, and a telecentric camera, which has no principal point as a centre.
     pub fn with_lateral_colour(mut self, colour: LateralColour) -> Result<Self, OpticsError> {
         each!(&mut self,
@@ -203,7 +196,6 @@ impl Lens {
     /// Refuses an image that the lens cannot form.
     ///
     /// # Errors
-    ///
     /// If the distortion folds inside the image or is not that of a lens, the image reaches beyond the lens's field, or its size is not that of the
     /// calibration.
     pub fn check(&self, raster: &Raster) -> Result<(), OpticsError> {

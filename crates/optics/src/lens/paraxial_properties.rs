@@ -214,7 +214,6 @@ impl Falloff {
     /// Creates the table of distances (mm, rising from 0) and ratios (0 or more, from 1).
     ///
     /// # Errors
-    ///
     /// If the points violate this.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         Self::over(FalloffBy::Radius, points)
@@ -223,7 +222,6 @@ impl Falloff {
     /// Creates the table of distances (mm) or angles (degrees), rising from 0, and ratios (0 or more, from 1).
     ///
     /// # Errors
-    ///
     /// If the points violate this.
     pub fn over(by: FalloffBy, points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         let rising = points.windows(2).all(|pair| pair[1].0 > pair[0].0);
@@ -269,7 +267,6 @@ impl LateralColour {
     /// Creates the table of wavelengths (nm, rising) and magnifications (above 0).
     ///
     /// # Errors
-    ///
     /// If the points violate this or are fewer than two.
     pub fn new(mut points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         let rising = points.windows(2).all(|pair| pair[1].0 > pair[0].0);

@@ -57,7 +57,6 @@ impl Pinhole {
     /// Creates a pinhole.
     ///
     /// # Errors
-    ///
     /// If a parameter is outside its range.
     pub fn new(parameters: PinholeParameters) -> Result<Self, OpticsError> {
         let distance_mm = positive("focal_length_mm", parameters.focal_length_mm)?;
@@ -117,7 +116,6 @@ impl Thin {
     /// Creates a thin lens.
     ///
     /// # Errors
-    ///
     /// If a parameter is outside its range or the focus distance not beyond the focal length.
     pub fn new(parameters: ThinParameters) -> Result<Self, OpticsError> {
         let size = PupilSize::new(parameters.focal_length_mm, parameters.f_number)?;
@@ -185,7 +183,6 @@ impl Telecentric {
     /// Creates a telecentric camera.
     ///
     /// # Errors
-    ///
     /// If a parameter is outside its range.
     pub fn new(parameters: TelecentricParameters) -> Result<Self, OpticsError> {
         positive("field_width_m", parameters.metres_per_mm)?;

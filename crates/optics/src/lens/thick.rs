@@ -125,7 +125,6 @@ impl Thick {
     /// Creates a thick lens.
     ///
     /// # Errors
-    ///
     /// If a parameter is outside its range, statements contradict each other, or an aperture clips on the axis.
     pub fn new(parameters: ThickParameters) -> Result<Self, OpticsError> {
         let p = &parameters;

@@ -161,7 +161,6 @@ impl Prescription {
     /// Creates a checked and focused lens.
     ///
     /// # Errors
-    ///
     /// If the surfaces do not form a lens, or it cannot be focused as requested.
     pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
         let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm, reference_nm, other_rims } = parameters;

@@ -63,7 +63,6 @@ impl Journey for Heights {
 /// ignored: it may be nearly closed. For a bundle that does not pass, returns its index in the list.
 ///
 /// # Errors
-///
 /// If a chief or marginal ray misses a surface or is totally reflected, or no ray reaches the field point.
 pub fn clear_apertures_mm(
     lens: &Prescription,

@@ -119,7 +119,6 @@ impl InterferenceFilter {
     /// Creates a filter from a transmittance at normal incidence and an effective index above 1.
     ///
     /// # Errors
-    ///
     /// If the index is not above 1 or the transmittance leaves 0 to 1.
     pub fn new(normal: Spectrum, effective_index: f64) -> Result<Self, OpticsError> {
         if finite("effective_index", effective_index)? <= 1.0 {

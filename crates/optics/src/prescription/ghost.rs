@@ -97,7 +97,6 @@ impl Prescription {
     /// reflects everything: the caller multiplies by its reflectance.
     ///
     /// # Errors
-    ///
     /// If it misses a surface or is totally reflected where it should pass.
     pub fn ghost(&self, pair: GhostPair, ray: LensRay, nm: f64) -> Result<GhostRay, Lost> {
         self.ghost_in(pair, ray, nm, &self.media(nm))

@@ -169,7 +169,6 @@ impl Prescription {
     /// Traces a ray from the scene (its direction towards the sensor) to behind the last surface; returns it with the transmittance of the surfaces.
     ///
     /// # Errors
-    ///
     /// If the ray is lost.
     pub fn to_sensor(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
         self.through(ray, Way::ToSensor, nm)
@@ -178,7 +177,6 @@ impl Prescription {
     /// Traces a ray from the sensor (its direction towards the scene) to before the first surface; returns it with the transmittance of the surfaces.
     ///
     /// # Errors
-    ///
     /// If the ray is lost.
     pub fn to_scene(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
         self.through(ray, Way::ToScene, nm)
@@ -235,7 +233,6 @@ impl Prescription {
     /// Intersection of a ray from the sensor with the stop's surface, from its vertex, regardless of clear apertures.
     ///
     /// # Errors
-    ///
     /// If it misses a surface or is totally reflected before.
     pub fn at_stop(&self, ray: LensRay, nm: f64) -> Result<DVec3, Lost> {
         self.stop_point(ray, &self.media(nm))

@@ -25,7 +25,6 @@ impl PupilProjection {
     /// range (nm).
     ///
     /// # Errors
-    ///
     /// If the lens has no single viewpoint or cannot form the sensor image.
     pub fn covering(
         lens: &Lens,

@@ -44,7 +44,6 @@ impl Cube {
     /// Creates faces of `face_px` × `face_px` pixels with the given stored windows, in the order of [`Face::ALL`].
     ///
     /// # Errors
-    ///
     /// If there is no window, or one is empty.
     pub fn new(face_px: usize, windows: [Option<Window>; 6]) -> Result<Self, OpticsError> {
         let empty = |w: &Window| w.width == 0 || w.height == 0;

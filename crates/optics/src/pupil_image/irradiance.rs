@@ -19,7 +19,6 @@ use crate::{error::OpticsError, lens::Lens};
 /// Irradiance on the sensor of a radiance image that is already in the sensor's raster.
 ///
 /// # Errors
-///
 /// If the image's size is not the raster's.
 pub fn irradiance(
     radiance: &SpectralCube<Radiance>,
@@ -74,7 +73,6 @@ impl<'a> BandEtendue<'a> {
     /// Irradiance of the band about `centre_nm` of a radiance in the raster; equal to [`irradiance`].
     ///
     /// # Errors
-    ///
     /// If the plane's size is not the raster's.
     pub fn irradiance(&self, radiance: &Plane<Radiance>, centre_nm: f64) -> Result<Plane<Irradiance>, OpticsError> {
         let (width, height) = (self.raster.width(), self.raster.height());

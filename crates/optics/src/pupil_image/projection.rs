@@ -37,7 +37,6 @@ impl PupilProjection {
     /// Creates one view of `width` × `height` pixels, each `pitch_tan` wide in tangent, with the optical axis at `principal_px`.
     ///
     /// # Errors
-    ///
     /// If a number is not finite, or size or pitch not positive.
     pub fn rectilinear(width: usize, height: usize, pitch_tan: f64, principal_px: DVec2) -> Result<Self, OpticsError> {
         positive("width", width as f64)?;
@@ -129,7 +128,6 @@ impl PupilProjection {
     /// Refuses a direction outside the image, except for rounding.
     ///
     /// # Errors
-    ///
     /// Names the edge beyond which the direction lies and by how much, or the missing view.
     pub(super) fn check_holds(&self, direction: DVec3) -> Result<(), OpticsError> {
         match self {

@@ -57,7 +57,6 @@ impl<'a> Resampling<'a> {
     /// Creates a resampling of images of geometry `stored` into the raster of the sensor image with `margin_px` more columns and rows on all sides.
     ///
     /// # Errors
-    ///
     /// If the sensor image needs directions that the stored image does not hold, or the lens cannot image it.
     pub fn new(
         stored: PupilProjection,
@@ -89,7 +88,6 @@ impl<'a> Resampling<'a> {
     /// The radiance image in the raster of the sensor image.
     ///
     /// # Errors
-    ///
     /// If the image's size is not that of its geometry, or directions are missing.
     pub fn apply(&self, radiance: &SpectralCube<Radiance>) -> Result<SpectralCube<Radiance>, OpticsError> {
         check_size(radiance, self.stored.width(), self.stored.height())?;
@@ -101,7 +99,6 @@ impl<'a> Resampling<'a> {
     /// Some bands of a radiance image in the raster of the sensor image, each of the wavelength at its centre, nm; equal to [`apply`](Self::apply).
     ///
     /// # Errors
-    ///
     /// If a band's size is not that of the geometry, or directions are missing.
     pub fn apply_to_bands(
         &self,
@@ -128,7 +125,6 @@ impl<'a> Resampling<'a> {
     /// `nothing` where there is no ray.
     ///
     /// # Errors
-    ///
     /// If the plane's size is not that of the geometry.
     pub fn nearest<Q: Quantity>(&self, plane: &Plane<Q>, nothing: Q::Sample) -> Result<Plane<Q>, OpticsError> {
         check_plane(plane, self.stored.width(), self.stored.height())?;

@@ -52,7 +52,6 @@ impl RayTransfer {
     /// Creates the functions from transfers by rising wavelength.
     ///
     /// # Errors
-    ///
     /// If there are none, or their wavelengths do not rise.
     pub fn new(thickness_mm: f64, input_offset_mm: f64, transfers: Vec<Transfer>) -> Result<Self, RayTransferError> {
         let rising = transfers.windows(2).all(|pair| pair[1].wavelength_nm > pair[0].wavelength_nm);
@@ -212,7 +211,6 @@ impl RayPass {
     /// Creates the region of the plane at `plane_mm` from the input plane.
     ///
     /// # Errors
-    ///
     /// If the heights do not rise from 0, the region is empty or a value is not a number.
     pub fn new(plane_mm: f64, region: PassRegion) -> Result<Self, RayTransferError> {
         let legal = match &region {
@@ -295,7 +293,6 @@ impl Polynomial {
     /// Creates the sum of terms.
     ///
     /// # Errors
-    ///
     /// If a coefficient is not finite or a power is above [`MAX_POWER`].
     pub fn new(terms: Vec<Term>) -> Result<Self, RayTransferError> {
         let legal = |t: &Term| t.coefficient.is_finite() && t.powers.iter().all(|p| usize::from(*p) <= MAX_POWER);

@@ -29,7 +29,6 @@ impl FTheta {
     /// Creates the camera from c₀ = 0, c₁, c₂, …, up to a field angle.
     ///
     /// # Errors
-    ///
     /// If c₀ is not 0, c₁ not positive, a number not finite, the angle not in (0, π] or the affine map mirrors.
     pub fn new(
         sense: FThetaSense,

@@ -34,7 +34,6 @@ impl KannalaBrandt {
     /// Creates the fisheye from these coefficients, k₁ first.
     ///
     /// # Errors
-    ///
     /// If one is not finite.
     pub fn new(k: [f64; 4]) -> Result<Self, ModelError> {
         Self::long([k[0], k[1], k[2], k[3], 0.0, 0.0])
@@ -43,7 +42,6 @@ impl KannalaBrandt {
     /// Creates the fisheye from six coefficients.
     ///
     /// # Errors
-    ///
     /// If one is not finite.
     pub fn long(coefficients: [f64; LONGEST]) -> Result<Self, ModelError> {
         finite_list("k", 1, &coefficients)?;
@@ -101,7 +99,6 @@ impl ThinPrismFisheye {
     /// Creates the fisheye from a polynomial and the distortion terms of its plane.
     ///
     /// # Errors
-    ///
     /// If a number is not finite.
     pub fn new(fisheye: KannalaBrandt, terms: DistortionTerms) -> Result<Self, ModelError> {
         terms.check()?;

@@ -273,7 +273,6 @@ impl Family {
     /// Creates the model from its coefficients.
     ///
     /// # Errors
-    ///
     /// If they are not legal.
     pub fn model(self, c: &[f64]) -> Result<Model, ModelError> {
         let at = |i: usize| c.get(i).copied().unwrap_or(0.0);

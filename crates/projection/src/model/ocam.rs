@@ -24,7 +24,6 @@ impl Ocam {
     /// Creates the camera from a₀, a₁, … (px, …) and the affine map.
     ///
     /// # Errors
-    ///
     /// If a₀ is not negative, a number is not finite or the map mirrors.
     pub fn new(coefficients: Vec<f64>, affine: Affine) -> Result<Self, ModelError> {
         finite_list("a", 0, &coefficients)?;

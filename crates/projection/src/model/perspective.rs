@@ -44,7 +44,6 @@ impl Perspective {
     /// Creates the camera from distortion terms and a sensor tilt τx, τy (rad; zeros for none).
     ///
     /// # Errors
-    ///
     /// If a number is not finite or a tilt reaches a right angle.
     pub fn new(terms: DistortionTerms, tilt_rad: [f64; 2]) -> Result<Self, ModelError> {
         terms.check()?;
@@ -65,7 +64,6 @@ impl Perspective {
     /// Creates the camera from OpenCV's distCoeffs: 0, 4, 5, 8, 12 or 14 numbers in its order.
     ///
     /// # Errors
-    ///
     /// As [`Perspective::new`], and for any other count.
     pub fn from_opencv(coefficients: &[f64]) -> Result<Self, ModelError> {
         let count = coefficients.len();
@@ -157,7 +155,6 @@ impl Division {
     /// Creates the camera of k.
     ///
     /// # Errors
-    ///
     /// If k is not finite.
     pub fn new(k: f64) -> Result<Self, ModelError> {
         finite([("k", k)])?;
@@ -242,7 +239,6 @@ impl FieldOfView {
     /// Creates the camera of ω, rad.
     ///
     /// # Errors
-    ///
     /// If ω is not between 0 and π.
     pub fn new(omega_rad: f64) -> Result<Self, ModelError> {
         let inside = omega_rad > 0.0 && omega_rad < core::f64::consts::PI;

@@ -39,7 +39,6 @@ impl Unified {
     /// Creates the camera from ξ ≥ 0 and distortion terms; Mei's are `numerator` k₁, k₂ and `tangential` p₁, p₂.
     ///
     /// # Errors
-    ///
     /// If ξ is negative or a number is not finite.
     pub fn new(xi: f64, terms: DistortionTerms) -> Result<Self, ModelError> {
         legal("xi", xi, xi >= 0.0, "0 or a positive number")?;
@@ -111,7 +110,6 @@ impl ExtendedUnified {
     /// Creates the camera from α and β.
     ///
     /// # Errors
-    ///
     /// If α is not in [0, 1] or β not positive.
     pub fn new(alpha: f64, beta: f64) -> Result<Self, ModelError> {
         legal("alpha", alpha, (0.0..=1.0).contains(&alpha), "a number from 0 to 1")?;
@@ -174,7 +172,6 @@ impl DoubleSphere {
     /// Creates the camera from ξ and α.
     ///
     /// # Errors
-    ///
     /// If ξ is not between −1 and 1 or α not in [0, 1].
     pub fn new(xi: f64, alpha: f64) -> Result<Self, ModelError> {
         legal("xi", xi, xi.abs() < 1.0, "a number between -1 and 1")?;

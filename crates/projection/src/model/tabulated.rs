@@ -35,7 +35,6 @@ impl Tabulated {
     /// included.
     ///
     /// # Errors
-    ///
     /// If there are fewer, angles do not rise within (0, π], radii do not rise from above 0, or the curve falls between two points.
     pub fn new(points: &[(f64, f64)]) -> Result<Self, ModelError> {
         legal("the number of points", points.len() as f64, points.len() >= 2, "two or more beyond the axis")?;

@@ -70,7 +70,6 @@ impl SkyModel {
     /// the horizon see [`sky`](super).
     ///
     /// # Errors
-    ///
     /// If a number is out of range.
     pub fn new(turbidity: f64, ground_albedo: f64, sun_elevation_rad: f64) -> Result<Self, SkyError> {
         check_turbidity(turbidity)?;

@@ -27,7 +27,6 @@ const PIECES: usize = 45;
 /// the horizon.
 ///
 /// # Errors
-///
 /// If a number is out of range.
 pub fn radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     Ok(sun_spectrum(&band_radiances(turbidity, elevation_rad)?))
@@ -85,7 +84,6 @@ pub fn limb(nm: f64) -> [f64; 6] {
 /// Mean spectral radiance over the disc, W·m⁻²·sr⁻¹·nm⁻¹.
 ///
 /// # Errors
-///
 /// If a number is out of range.
 pub fn mean_radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     Ok(radiance(turbidity, elevation_rad)?.product(&Spectrum::from_fn(limb_mean)))
@@ -94,7 +92,6 @@ pub fn mean_radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, Sky
 /// Spectral irradiance of a plane facing the Sun, W·m⁻²·nm⁻¹: π sin²R times the mean radiance.
 ///
 /// # Errors
-///
 /// If a number is out of range.
 pub fn normal_irradiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     let sin = maths::f64::sin(0.5 * ANGULAR_DIAMETER_DEG.to_radians());

@@ -114,7 +114,6 @@ impl Psf {
     /// The function of `lens` for an image.
     ///
     /// # Errors
-    ///
     /// If a table is malformed, or the wavefront is steeper than the lattice of the pupil can resolve.
     pub fn new(parameters: PsfParameters, lens: &Lens, picture: &Raster) -> Result<Self, EffectsError> {
         parameters.wavefront.iter().try_for_each(ZernikeTerm::check)?;

@@ -40,7 +40,6 @@ impl FieldSpread {
     /// Checks that the samples suit the pixels of an image.
     ///
     /// # Errors
-    ///
     /// If they are not valid light, are farther apart than pixels, or reach beyond 512 px.
     pub fn check(&self, picture: &Raster) -> Result<(), EffectsError> {
         let step_mm = positive("spacing", self.pitch_um)? * MM_PER_UM;

@@ -53,7 +53,6 @@ impl SpreadTable {
     /// Prepares the functions for an image.
     ///
     /// # Errors
-    ///
     /// If distances or wavelengths do not rise or differ in number, or a function cannot be sampled on the pixels.
     pub fn new(parameters: SpreadTableParameters, picture: &Raster) -> Result<Self, EffectsError> {
         let SpreadTableParameters { wavelengths, patches } = parameters;

@@ -60,7 +60,6 @@ impl Drops {
     /// Places drops on a face.
     ///
     /// # Errors
-    ///
     /// If a number is outside its range, or the glass does not reach as far as the drops.
     pub(super) fn new(parameters: DropsParameters, face: Face<'_>) -> Result<Self, FrontError> {
         population::check(&parameters)?;

@@ -143,7 +143,6 @@ impl MeshMirror {
     /// corner has the area-weighted mean normal of its triangles.
     ///
     /// # Errors
-    ///
     /// If it has no triangles, a triangle refers to a missing corner or has no area, or numbers are not finite.
     pub fn new(positions_mm: Vec<DVec3>, normals: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, FrontError> {
         let refuse = |what| Err(FrontError::Mesh { what });

@@ -58,7 +58,6 @@ impl Mirror {
     /// Creates a mirror.
     ///
     /// # Errors
-    ///
     /// If its reflectance is invalid.
     pub fn new(parameters: MirrorParameters) -> Result<Self, FrontError> {
         parameters.reflectance.check()?;

@@ -44,7 +44,6 @@ impl Quadric {
     /// Creates a mirror from `hole_mm` (0 for none) to `rim_mm` from its axis.
     ///
     /// # Errors
-    ///
     /// If a number is outside its range, the surface does not reach its outer edge, or the hole reaches it.
     pub fn new(kind: QuadricKind, rim_mm: f64, hole_mm: f64) -> Result<Self, FrontError> {
         let (radius_mm, shape) = match kind {

@@ -53,7 +53,6 @@ impl Windscreen {
     /// Creates a windscreen.
     ///
     /// # Errors
-    ///
     /// If a number is outside its range, or the glass is behind or inside the camera.
     pub fn new(parameters: WindscreenParameters) -> Result<Self, FrontError> {
         check(&parameters)?;
@@ -70,7 +69,6 @@ impl Windscreen {
     /// The same glass with drops of water on its outer face.
     ///
     /// # Errors
-    ///
     /// If a number is outside its range, or the glass ends before the drops.
     pub fn with_drops(self, parameters: DropsParameters) -> Result<Self, FrontError> {
         let outer = self.faces[self.faces.len() - 1];

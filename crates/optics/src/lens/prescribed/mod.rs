@@ -50,7 +50,6 @@ impl Prescribed {
     /// sensor.
     ///
     /// # Errors
-    ///
     /// If no light reaches the centre of the sensor or the radius is not positive.
     pub fn new(
         prescription: Prescription,

@@ -62,7 +62,6 @@ impl Transferred {
     /// Creates a lens for images that reach `picture_radius_mm` from the axis; farther out it is dark.
     ///
     /// # Errors
-    ///
     /// If no light reaches the centre of the sensor, no sensor position is in focus, or a number is outside its range.
     pub fn new(
         transfer: RayTransfer,
