@@ -244,7 +244,8 @@ mod tests {
         assert!((sphere.extinction_efficiency() - 2.0).abs() < 0.3, "{}", sphere.extinction_efficiency());
     }
 
-    /// The optical theorem: Q_ext = 4/x² Re S(0); for a sphere without absorption it equals the integral of the scattered light.
+    /// The integral of the scattered light over all directions is the scattering efficiency; without absorption it equals the extinction
+    /// efficiency, by the optical theorem Q_ext = 4/x² Re S(0).
     #[test]
     fn light_scattered_in_all_directions_is_all_that_is_scattered() {
         let sphere = Sphere::new(25.0, 1.333, 0.0);

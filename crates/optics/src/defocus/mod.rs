@@ -9,10 +9,10 @@
 //! - A uniform radiance stays uniform to rounding. Blurs smaller than a pixel leave the image as it is.
 //! - The result has the same bits at any number of threads: rows are computed independently of each other.
 //!
-//! | method | what it does | left out |
+//! | method | operation | left out |
 //! | --- | --- | --- |
 //! | [`DepthOfField::None`] | crops the margin | defocus |
-//! | [`DepthOfField::Physical`] | `physical.rs`: the pupil's outline of each field point, spread in the order of depth | what no pixel sees is guessed from its neighbours; radiance that changes with the direction |
+//! | [`DepthOfField::Physical`] | `physical.rs`: the pupil's outline of each field point, spread in the order of depth | hidden points (estimated from their neighbours); radiance that changes with the direction |
 //! | [`DepthOfField::Fast`] | `fast.rs`: blend with one blurred copy by distance | physical accuracy |
 //!
 //! A pixel has one distance, that of the point at its centre: details finer than a pixel move with it.

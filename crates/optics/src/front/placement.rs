@@ -70,7 +70,7 @@ pub(super) fn outgoing(line: Line, weight_sr: f64) -> PupilRay {
 pub struct FrontRay {
     /// The ray from the last surface it met, camera frame.
     pub ray: PupilRay,
-    /// Difference between a distance along `ray` and the distance of ground truth, m: see [`FrontRay::truth_origin_m`].
+    /// Offset from a distance along `ray` to the ground-truth distance, m: see [`FrontRay::truth_origin_m`].
     pub path_m: f64,
     /// The point where it met a mirror, camera frame, m.
     pub mirror_m: Option<DVec3>,

@@ -14,7 +14,7 @@
 //! | `entrance_pupil_mm` | position p of the entrance pupil | one of these three |
 //! | `exit_pupil_mm` | position of the exit pupil, p′ behind H′: separation + p′ | at most; without |
 //! | `pupil_magnification` | m_p = exit / entrance diameter, > 0 | any, m_p = 1 |
-//! | `constant_pupil` | `"entrance"` or `"exit"`: which pupil keeps its area over the field | required |
+//! | `constant_pupil` | `"entrance"` or `"exit"`: the pupil that keeps its area over the field | required |
 //! | `front_aperture`, `rear_aperture` | `{ position_mm, radius_mm }`: round clipping apertures before and behind the lens | none |
 //!
 //! # Consistency

@@ -1,4 +1,4 @@
-//! A surface of a lens: its shape, and where a ray meets it.
+//! A surface of a lens: its shape, and its intersection with a ray.
 //!
 //! z runs from the scene to the sensor, r² = x² + y² from the vertex. With curvature c = 1/R and conic constant k the
 //! sag is z = c r²/(1 + √(1 − (1 + k) c² r²)) + Σ αᵢ r²ⁱ, i = 1 … 10; k = 0 is a sphere, −1 a paraboloid, below −1 a

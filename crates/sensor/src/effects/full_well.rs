@@ -3,10 +3,10 @@
 //! Without blooming e ← min(e, capacity), and the rest is lost. With it, a fraction b of the excess goes on to the neighbours and 1 − b is taken by
 //! the overflow drain, repeatedly until no pixel exceeds its well:
 //!
-//! - along the column, half up and half down (`bloom_column`): a CCD, whose channel stops block sideways;
+//! - along the column, half up and half down (`bloom_column`): a CCD (channel stops block sideways flow);
 //! - in all directions (`bloom_around`): a CMOS sensor.
 //!
-//! generated = collected + drained + spilt off the edge + clipped ([`ChargeAccount`]).
+//! generated = collected + drained + spilt at the edge + clipped ([`ChargeAccount`]).
 //! Left out: the bend of the response before the well is full (see [`response`](super::response)).
 
 use etendue_core::{EffectStatus, KeyChange, Plane, quantity::Charge};

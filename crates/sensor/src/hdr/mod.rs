@@ -2,7 +2,7 @@
 //!
 //! A capture may differ from the first in its time, in the sensitivity of its photodiode, and in its conversion gain:
 //!
-//! | way | what differs |
+//! | method | difference |
 //! | --- | --- |
 //! | multiple exposures | time |
 //! | split pixel | sensitivity, full well |

@@ -172,7 +172,7 @@ impl Psf {
         Outline::new(p.blades, p.curvature, p.rotation_rad, p.obstruction)
     }
 
-    /// Steps of the pattern per λN: at least two, and two per pixel at the longest wavelength; one per pixel where λN exceeds sixteen pixels.
+    /// Steps of the pattern per λN: at least two; two per pixel at the longest wavelength for λN up to 16 px, at least one per pixel beyond.
     fn fineness(&self, longest_nm: f64, pitch_mm: f64) -> f64 {
         let pixels = longest_nm * MM_PER_NM * self.f_number / pitch_mm;
         (2.0 * pixels.ceil().clamp(1.0, 16.0)).max(pixels) * self.outline().radius()

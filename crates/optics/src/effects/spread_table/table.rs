@@ -73,7 +73,7 @@ impl SpreadTable {
         self.patches
     }
 
-    /// True if centroids and second moments are reproduced between the patches: to 1/100 of the width and half of that.
+    /// True if centroids and second moments are reproduced between the patches: centroids to 1/100 of the width, second moments to 1/200.
     #[must_use]
     pub fn keeps_shapes(&self) -> bool {
         self.keeps_shapes
