@@ -7,14 +7,14 @@
 //! Linear RGB of other primaries and white.
 //!
 //! With the columns (x, y, 1 − x − y)/y of red, green and blue as P and the white's as w, XYZ = P diag(P⁻¹ w) rgb: rgb = (1, 1, 1) is the white with
-//! Y = 1. A colour stays the colour that it is: the white is not adapted to D65.
+//! Y = 1. Colours are absolute: the white is not adapted to D65.
 //!
 //! sRGB: primaries and transfer curve of IEC 61966-2-1:1999.
 //!
 //! Luminance of linear colours and luma of encoded ones, by the weights of ITU-R BT.709 (those of IEC 61966-2-1 too).
 //!
-//! The standards state four digits. Y of linear sRGB with this crate's own white is the middle row of
-//! [`XYZ_FROM_SRGB`], which differs by less than 1e-4.
+//! The standards state four digits. Y of linear sRGB with this crate's own white is the middle row of [`XYZ_FROM_SRGB`]; the difference is below
+//! 1e-4.
 //!
 //! CIE 1976 L*a*b* (CIE 15:2018).
 //!

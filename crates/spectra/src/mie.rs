@@ -1,14 +1,14 @@
 //! Scattering by a homogeneous sphere (Mie 1908), by the series of Bohren and Huffman ("Absorption and Scattering of Light by Small
 //! Particles", 1983, ch. 4 and app. A), and by droplets of log-normal sizes.
 //!
-//! A sphere of diameter d and index m = n − i k beside the air's has the size parameter x = π d/λ. Its amplitudes are
+//! A sphere of diameter d and index m = n − i k relative to air has the size parameter x = π d/λ. Its amplitudes are
 //!
 //! S₁ = Σ (2j + 1)/(j(j + 1)) (a_j π_j + b_j τ_j), S₂ the same with π and τ exchanged,
 //!
-//! a and b by the logarithmic derivative D_j(m x), recurred downwards, and the Riccati–Bessel functions ψ and ξ, recurred upwards. Light
-//! without polarisation is scattered in proportion to |S₁|² + |S₂|². Sizes up to x of some thousands hold in f64.
+//! a and b by the logarithmic derivative D_j(m x), by downward recurrence, and the Riccati–Bessel functions ψ and ξ, by upward recurrence.
+//! Unpolarised light is scattered in proportion to |S₁|² + |S₂|². The series holds in f64 for size parameters x up to some thousands.
 //!
-//! Left out: polarisation, drops that are not round, and interference between drops.
+//! Left out: polarisation, non-spherical drops, and interference between drops.
 
 use core::f64::consts::PI;
 use core::ops::{Add, Mul, Sub};

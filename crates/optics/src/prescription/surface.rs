@@ -1,12 +1,11 @@
 //! A surface of a lens: its shape, and its intersection with a ray.
 //!
-//! z runs from the scene to the sensor, r² = x² + y² from the vertex. With curvature c = 1/R and conic constant k the
-//! sag is z = c r²/(1 + √(1 − (1 + k) c² r²)) + Σ αᵢ r²ⁱ, i = 1 … 10; k = 0 is a sphere, −1 a paraboloid, below −1 a
-//! hyperboloid, above 0 an oblate ellipsoid.
+//! z runs from the scene to the sensor, r² = x² + y² from the vertex. With curvature c = 1/R and conic constant k the sag is z = c r²/(1 + √(1 − (1 +
+//! k) c² r²)) + Σ αᵢ r²ⁱ, i = 1 … 10; k = 0 is a sphere, −1 a paraboloid, below −1 a hyperboloid, above 0 an oblate ellipsoid.
 //!
-//! **Which of two intersections.** A sequential ray crosses from the scene's side of a surface to the sensor's side, or
-//! back, so the sign of direction · normal is known beforehand and picks the root, also for rays so oblique that they run
-//! backwards along the axis. Only the sheet at the vertex counts, as far as its equator.
+//! **Choice between two intersections.** A sequential ray crosses from the scene's side of a surface to the sensor's side, or back. The sign of
+//! direction · normal is therefore known in advance and selects the root, also for rays so oblique that they run backwards along the axis. Only the
+//! sheet at the vertex counts, up to its equator.
 
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;

@@ -5,8 +5,8 @@
 //! a camera that looks ahead; here they are y, x and −z. ρ is in pixels after the affine map c, d, e is undone, and so are the
 //! points of this model: its camera matrix has fx = fy = 1.
 //!
-//! The inverse is solved, to the last units; the toolbox's inverse polynomial is a fit to it and is not used. The field
-//! ends at the first ρ at which θ = atan2(ρ, −f) stops growing.
+//! The inverse is solved numerically, to the last units; the toolbox's inverse polynomial is a fit to it and is not used. The field ends at the first
+//! ρ at which θ = atan2(ρ, −f) stops growing.
 
 use etendue_core::maths::f64::atan2;
 

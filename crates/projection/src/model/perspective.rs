@@ -15,8 +15,7 @@
 //!
 //! The radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴) of [`RadialDistortion`], in either direction, after a perspective.
 //!
-//! Lengths are principal distances here, where [`RadialDistortion`] says mm: a unit of 1 makes r the tangent of the
-//! field angle.
+//! Lengths are principal distances here, where [`RadialDistortion`] states mm: a unit of 1 makes r the tangent of the field angle.
 //!
 //! The FOV model: r = atan(2 tan θ tan(ω/2))/ω, 0 < ω < π, below 90°.
 //!

@@ -1,6 +1,6 @@
 //! Models by projections of a unit sphere: unified, extended unified, double sphere.
 //!
-//! The unified omnidirectional model: a unit sphere seen from ξ behind its centre, then a distortion.
+//! The unified omnidirectional model: a unit sphere seen from a point ξ behind its centre, then a distortion.
 //!
 //! r = sin θ/(cos θ + ξ), then k₁, k₂, p₁, p₂ (Geyer & Daniilidis 2000; Mei & Rives 2007, `cv::omnidir`, Kalibr's omni-none
 //! and omni-radtan). ξ = 0 is the pinhole, 1 the stereographic projection.
@@ -20,9 +20,9 @@
 //! r = sin θ/(α d + (1 − α)(ξ + cos θ)), d = √(sin² θ + (ξ + cos θ)²), −1 < ξ < 1, 0 ≤ α ≤ 1
 //! (Usenko, Demmel & Cremers 2018, eqs. 40–45; Kalibr's ds-none).
 //!
-//! The field ends without a fold where r is largest (α > ½) or infinite: at ξ + cos θ = −w d with w = α/(1 − α) or its
-//! inverse, whichever is smaller, that is at cos θ = −ξ (1 − w²) − w √(1 − ξ² (1 − w²)). The paper's bound −w₂ (eq. 43)
-//! comes before it for ξ > 0 and, where two directions share a point already, after it for ξ < 0.
+//! The field ends without a fold where r is largest (α > ½) or infinite: at ξ + cos θ = −w d with w = α/(1 − α) or its inverse, whichever is smaller,
+//! that is at cos θ = −ξ (1 − w²) − w √(1 − ξ² (1 − w²)). The paper's bound −w₂ (eq. 43) comes before it for ξ > 0, and after it for ξ < 0, where two
+//! directions already share a point.
 
 use etendue_core::maths::f64::{acos, atan2, sin_cos};
 

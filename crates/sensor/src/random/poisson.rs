@@ -1,12 +1,10 @@
 //! Poisson numbers, exact at every mean.
 //!
-//! - Mean below 10: inversion by sequential search, one uniform number of 53 bits. Probabilities are those of the
-//!   distribution to 2⁻⁵³.
-//! - Mean of 10 and above: transformed rejection with squeeze, PTRS (Hörmann 1993, "The transformed rejection method for
-//!   generating Poisson random variables"), 1.1 to 1.2 trials a number. The acceptance test compares with ln of the
-//!   probability in Loader's saddle-point form (2000, "Fast and accurate computation of binomial probabilities"):
-//!   ln p(k) = −½ ln(2πk) − δ(k) − D, D = k ln(k/μ) + μ − k without cancellation, so it holds its digits at means of
-//!   1e12 and above, where −μ + k ln μ − ln k! would not.
+//! - Mean below 10: inversion by sequential search, with one uniform number of 53 bits. Probabilities are those of the distribution to 2⁻⁵³.
+//! - Mean of 10 and above: transformed rejection with squeeze, PTRS (Hörmann 1993, "The transformed rejection method for generating Poisson random
+//!   variables"), 1.1 to 1.2 trials per number. The acceptance test compares with ln of the probability in Loader's saddle-point form (2000, "Fast
+//!   and accurate computation of binomial probabilities"): ln p(k) = −½ ln(2πk) − δ(k) − D, D = k ln(k/μ) + μ − k without cancellation. It keeps its
+//!   digits at means of 1e12 and above, where −μ + k ln μ − ln k! would not.
 //!
 //! No normal approximation at any mean: a rounded normal number fails a χ² test far above a mean of 50.
 
