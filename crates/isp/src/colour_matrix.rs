@@ -1,21 +1,20 @@
 //! From a camera's white-balanced colours to linear sRGB.
 //!
-//! A matrix of three rows and as many columns as the picture has channels. Rows that sum to 1 keep neutral what white
-//! balance made neutral; [`fit_colour_matrix`] finds such a matrix from the camera's own spectra.
+//! A matrix of three rows and as many columns as the image has channels. Rows that sum to 1 preserve the neutral colours of white balance;
+//! [`fit_colour_matrix`] finds such a matrix from the camera's own spectra.
 //!
 //! A colour matrix from the camera's own spectra.
 //!
-//! Of all matrices with rows that sum to 1 the one that minimises, over the reflectances of a chart,
+//! The fit minimises, among all matrices with rows that sum to 1, over the reflectances of a chart,
 //!
 //! ```text
 //! Σ |M c − t|² + n σ² |M|²
 //! ```
 //!
-//! c the camera's response under the scene's illuminant over its response to a perfect white, t the linear sRGB colour
-//! of the reflectance under D65, n the number of reflectances. The second term is what noise of σ (a share of white, alike
-//! in all channels) adds to the expected error of n patches: it keeps channels that see nearly the same (a clear filter
-//! beside red, green and blue) from being played off against each other with factors that would drown the picture in
-//! noise. Each row m solves (A + n σ² 1) m = b + μ e, e all ones and μ such that the row sums to 1, by Cholesky's method.
+//! c the camera's response under the scene's illuminant over its response to a perfect white, t the linear sRGB colour of the reflectance under D65,
+//! n the number of reflectances. The second term is the contribution of noise of σ (a fraction of white, equal in all channels) to the expected error
+//! of n patches. It keeps nearly equal channels (a clear filter in addition to red, green and blue) from receiving large opposite factors that would
+//! amplify noise. Each row m solves (A + n σ² 1) m = b + μ e, e all ones and μ such that the row sums to 1, by Cholesky's method.
 //!
 //! Left out: weights by perceived difference, matrices between two illuminants.
 
@@ -30,7 +29,7 @@ pub struct ColourMatrix {
     rows: [Vec<f64>; 3],
 }
 
-/// Why rows are no matrix.
+/// Error of a matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MatrixError {
     /// Rows of different lengths.
@@ -42,10 +41,10 @@ pub enum MatrixError {
 }
 
 impl ColourMatrix {
-    /// A matrix by rows.
+    /// Creates a matrix from rows.
     ///
     /// # Errors
-    /// Where the rows differ in length or an entry is not finite.
+    /// If the rows differ in length or an entry is not finite.
     pub fn new(rows: [Vec<f64>; 3]) -> Result<Self, MatrixError> {
         if rows.iter().any(|row| row.len() != rows[0].len()) {
             return Err(MatrixError::Ragged);
@@ -56,7 +55,7 @@ impl ColourMatrix {
         Ok(Self { rows })
     }
 
-    /// Three channels as they are.
+    /// Three channels unchanged.
     #[must_use]
     pub fn identity() -> Self {
         Self { rows: [0, 1, 2].map(|i| (0..3).map(|j| f64::from(u8::from(i == j))).collect()) }
@@ -81,31 +80,31 @@ impl ColourMatrix {
     }
 }
 
-/// σ for pictures of other channels than red, green and blue. Those tell their colours apart by themselves, and σ = 0 is best for
-/// them; green of red, blue and clear has factors of 6 without and of 4 with it, at two more of ΔE.
+/// σ for images with channels other than red, green and blue. Red, green and blue are well separated, and σ = 0 is best for them. The green of red,
+/// blue and clear has factors of 6 without it and of 4 with it, at a ΔE higher by two.
 pub const NOISE_OF_OTHER_CHANNELS: f64 = 0.01;
 
-/// Why no matrix can be fitted.
+/// Error of fitting a matrix.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FitError {
-    /// A channel does not see the light.
+    /// A channel that does not respond to the light.
     #[error(transparent)]
     NoResponse(#[from] NoResponse),
-    /// The reflectances do not tell the channels apart.
+    /// Reflectances that do not separate the channels.
     #[error(
         "the reflectances look the same to two of the camera's channels, so no colour matrix can be fitted: give more colours, or check that the channels differ"
     )]
     Ambiguous,
-    /// No camera of so many channels.
+    /// An unsupported number of channels.
     #[error("a colour matrix has one to {MAX_CHANNELS} channels, not {0}")]
     Channels(usize),
 }
 
-/// The matrix for a camera (responsivities of its channels, any common scale) under an illuminant (any scale), fitted to
-/// the reflectances of a chart, for noise of `noise_fraction` of white in each channel (0: none).
+/// Fits the matrix of a camera (responsivities of its channels, any common scale) under an illuminant (any scale) to the reflectances of a chart, for
+/// noise of `noise_fraction` of white in each channel (0: none).
 ///
 /// # Errors
-/// Where a channel does not respond to the illuminant or the reflectances do not tell the channels apart.
+/// If a channel does not respond to the illuminant or the reflectances do not separate the channels.
 pub fn fit_colour_matrix<'a>(
     responsivities: &[&Spectrum],
     light: &Spectrum,
@@ -120,7 +119,7 @@ pub fn fit_colour_matrix<'a>(
         .map(|patch| Ok((balanced_response(responsivities, light, patch)?, reference(patch))))
         .collect::<Result<Vec<_>, NoResponse>>()?;
     let channels = responsivities.len();
-    // Four channels may be one too many for three dimensions of colour; the noise decides between them.
+    // Four channels may be redundant for three dimensions of colour; the noise term decides between them.
     if channels < MAX_CHANNELS && Normal::new(&pairs, channels, 0.0).cholesky().is_none() {
         return Err(FitError::Ambiguous);
     }
@@ -174,7 +173,7 @@ impl Normal {
         normal
     }
 
-    /// The lower triangle L of L Lᵀ; `None` where there is no single solution.
+    /// The lower triangle L of L Lᵀ; `None` if there is no unique solution.
     fn cholesky(&self) -> Option<Square> {
         let mut lower = Square::default();
         for i in 0..self.channels {
@@ -183,7 +182,7 @@ impl Normal {
                 if i != j {
                     lower[i][j] = rest / lower[j][j];
                 } else if rest > 1e-9 * self.products[i][i] {
-                    // Charts of colours leave 1e-3 of a channel's own square. What spectra of f32 leave of greys is 1e-14.
+                    // Colour charts leave 1e-3 of a channel's own square. For greys, f32 spectra leave 1e-14.
                     lower[i][i] = rest.sqrt();
                 } else {
                     return None;
@@ -254,7 +253,7 @@ mod tests {
         };
         let differences: Vec<f64> = chart_spectra().map(difference).collect();
         let mean = differences.iter().sum::<f64>() / 24.0;
-        // The best matrix reaches 0.71; a fault in balance, tables or fit makes it several.
+        // The best matrix reaches 0.71; an error in balance, tables or fit makes it several.
         assert!(differences.len() == 24 && mean < 1.0, "mean ΔE₀₀ {mean}, {differences:?}");
     }
 
@@ -311,7 +310,7 @@ mod tests {
         (mean, matrix.rows().iter().flatten().fold(0.0, |m: f64, e| m.max(e.abs())))
     }
 
-    /// A clear channel: what the three see together, and more between.
+    /// A clear channel: the sum of the three, and the gaps between them.
     fn clear() -> Spectrum {
         let [r, g, b] = canon();
         Spectrum::from_fn(|nm| {
@@ -327,7 +326,7 @@ mod tests {
         let (rccb, wild) = figures(&[r, b, &clear], 0.0);
         let (rccb_tamed, mild) = figures(&[r, b, &clear], NOISE_OF_OTHER_CHANNELS);
         let (rccc, _) = figures(&[r, &clear], NOISE_OF_OTHER_CHANNELS);
-        // Three broad channels still see all colours, less well; two miss a dimension of colour altogether.
+        // Three broad channels still distinguish all colours, less well; two lack a dimension of colour.
         assert!(rgbw < 1.5 && largest < 4.0, "RGBW: mean ΔE₀₀ {rgbw}, largest entry {largest}");
         assert!(rccb < 5.0, "RCCB: mean ΔE₀₀ {rccb}");
         assert!(rccb_tamed < rccb + 2.5 && mild < 0.75 * wild, "RCCB: {rccb_tamed}, {mild} of {wild}");

@@ -1,32 +1,32 @@
-//! Corrections of raw pictures: of shading and of defective pixels.
+//! Corrections of raw images: of shading and of defective pixels.
 //!
-//! Shading correction: gains that make an evenly lit picture even.
+//! Shading correction: gains that make a uniformly lit image uniform.
 //!
 //! | model | gain at a pixel |
 //! | --- | --- |
-//! | [`Shading::Radial`] | a table over the distance from a centre, equal steps from 0 to 1, linear between; 1 is the farthest corner of the picture |
-//! | [`Shading::Grid`] | a table of columns by rows laid over the picture, its outer nodes on the corners, bilinear between |
+//! | [`Shading::Radial`] | a table over the distance from a centre, equal steps from 0 to 1, linear between; 1 is the farthest corner of the image |
+//! | [`Shading::Grid`] | a table of columns by rows laid over the image, its outer nodes on the corners, bilinear between |
 //!
-//! Gains are at least 1, so that a saturated pixel stays white (clipped at 1 after the gain). One gain serves all
-//! colours; shading that differs by colour is left out. Noise grows with the gain.
+//! Gains are at least 1, so that a saturated pixel stays white (clipped at 1 after the gain). One gain serves all colours; shading that differs by
+//! colour is left out. Noise grows with the gain.
 //!
-//! Defect correction: a pixel that does not measure light gets what its neighbours of the same colour suggest.
+//! Defect correction: a pixel that does not measure light is replaced from its neighbours of the same colour.
 //!
-//! Neighbours are the pixels under the same kind of filter within one period of the tile (mono: three by three; Bayer:
-//! five by five, eight of red or blue, twelve of green); the new value is the median of the good ones. Defective are
+//! Neighbours are the pixels under the same kind of filter within one period of the tile (mono: three by three; Bayer: five by five, eight of red or
+//! blue, twelve of green); the new value is the median of the non-defective ones. Defective are
 //!
 //! - the pixels of a map (known from calibration), and
-//! - outliers: v outside the range of its neighbours **and** |v − median| > t, t a share of the range from black to white.
+//! - outliers: v outside the range of its neighbours **and** |v − median| > t, t a fraction of the range from black to white.
 //!   An edge or a line two pixels wide has neighbours on both sides and stays; a lamp smaller than a pixel can be taken
-//!   for a hot pixel, so the rule is off unless asked for.
+//!   for a hot pixel, so the rule is off unless requested.
 //!
-//! All corrections look at the uncorrected picture, so that their order does not matter.
+//! All corrections use the uncorrected image, so their order does not matter.
 
 use rayon::prelude::*;
 
 use crate::raw::Mosaic;
 
-/// Gains over the picture.
+/// Gains over the image.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shading {
     /// By the distance from a centre.
@@ -36,7 +36,7 @@ pub enum Shading {
         /// Gains at equal steps of the distance, from the centre to the farthest corner; two or more.
         gains: Vec<f64>,
     },
-    /// By a grid over the picture.
+    /// By a grid over the image.
     Grid {
         /// Columns of the grid, two or more.
         columns: usize,
@@ -45,7 +45,7 @@ pub enum Shading {
     },
 }
 
-/// Why a table cannot be used.
+/// Error of a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShadingError {
     /// Too few entries or no rectangle.
@@ -53,19 +53,19 @@ pub enum ShadingError {
     Shape {
         /// Gains given.
         entries: usize,
-        /// What is wrong with them.
+        /// Description of the problem.
         shape: &'static str,
     },
-    /// A gain that is none.
+    /// An invalid gain.
     #[error("a shading gain is {0}, but finite gains of at least 1 are needed: divide them by the smallest")]
     Gain(f64),
 }
 
 impl Shading {
-    /// Whether the table can be used.
+    /// Checks the table.
     ///
     /// # Errors
-    /// Where it is too small, not a rectangle, or holds a gain below 1.
+    /// If it is too small, not a rectangle, or holds a gain below 1.
     pub fn check(&self) -> Result<(), ShadingError> {
         let (gains, shape) = match self {
             Self::Radial { gains, .. } => (gains, (gains.len() < 2).then_some("is too short")),
@@ -80,7 +80,7 @@ impl Shading {
         gains.iter().find(|g| !(g.is_finite() && **g >= 1.0)).map_or(Ok(()), |g| Err(ShadingError::Gain(*g)))
     }
 
-    /// The gains of row `y` of a picture of `width` × `height` pixels. The table is a checked one.
+    /// The gains of row `y` of an image of `width` × `height` pixels. The table must have been checked.
     pub(crate) fn row(&self, y: usize, width: usize, height: usize) -> Vec<f32> {
         let gain = |x: usize| match self {
             Self::Radial { centre_px, gains } => radial(gains, *centre_px, [x, y], [width, height]),
@@ -109,31 +109,31 @@ fn grid(gains: &[f64], columns: usize, pixel: [usize; 2], size: [usize; 2]) -> f
     top + v * (bottom - top)
 }
 
-/// The node below a share of the whole, and how far beyond it, of `count` nodes.
+/// The node below a fraction of the whole, and the fraction towards the next, for `count` nodes.
 fn place(share: f64, count: usize) -> (usize, f64) {
     let at = share.clamp(0.0, 1.0) * (count - 1) as f64;
     let low = (at as usize).min(count - 2);
     (low, at - low as f64)
 }
 
-/// Which pixels are defective.
+/// Defective pixels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Defects {
     /// Columns and rows of pixels known to be defective.
     pub map: Vec<[u32; 2]>,
-    /// Share of the range from black to white by which an outlier differs from the median of its neighbours, above 0.
+    /// Fraction of the range from black to white by which an outlier differs from the median of its neighbours, above 0.
     pub outlier_threshold: Option<f64>,
 }
 
 impl Defects {
-    /// Whether there is nothing to look for.
+    /// True if no correction is enabled.
     #[must_use]
     pub fn is_off(&self) -> bool {
         self.map.is_empty() && self.outlier_threshold.is_none()
     }
 }
 
-/// The corrected samples and how many pixels were corrected.
+/// The corrected samples and the number of corrected pixels.
 pub(crate) fn corrected(samples: Vec<f32>, width: usize, mosaic: &Mosaic, defects: &Defects) -> (Vec<f32>, usize) {
     if defects.is_off() {
         return (samples, 0);
@@ -162,7 +162,7 @@ struct Picture<'a> {
 }
 
 impl Picture<'_> {
-    /// Places and new values of a row's defective pixels.
+    /// Positions and new values of a row's defective pixels.
     fn corrections(&self, y: usize, threshold: Option<f32>) -> Vec<(usize, f32)> {
         let mut neighbours = Vec::new();
         let correction = |x: usize| {
@@ -197,7 +197,7 @@ impl Picture<'_> {
     }
 }
 
-/// Of sorted values; of two in the middle their mean.
+/// The median of sorted values; the mean of the two middle values for an even number.
 fn median(sorted: &[f32]) -> f32 {
     let half = sorted.len() / 2;
     if sorted.len() % 2 == 1 { sorted[half] } else { 0.5 * (sorted[half - 1] + sorted[half]) }
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_radial_table_undoes_the_vignetting_it_was_made_of() {
-        // 1/gain of a fall-off 1 − 0.5 r², tabulated in 64 steps: linear interpolation errs by at most h² max|g″|/8.
+        // 1/gain of a fall-off 1 − 0.5 r², tabulated in 64 steps: the error of linear interpolation is at most h² max|g″|/8.
         let gains: Vec<f64> = (0..=64).map(|i| 1.0 / (1.0 - 0.5 * square(f64::from(i) / 64.0))).collect();
         let table = Shading::Radial { centre_px: [32.0, 24.0], gains };
         table.check().expect("a legal table");

@@ -1,6 +1,6 @@
-//! Demosaic: the colours that a pixel did not measure, from its neighbours.
+//! Demosaic: interpolation of the colours that a pixel did not measure from its neighbours.
 //!
-//! | method | mosaics | looks as far as |
+//! | method | mosaics | reach |
 //! | --- | --- | --- |
 //! | [`Demosaic::Bilinear`] | all | the tile's reach |
 //! | [`Demosaic::MalvarHeCutler`] | Bayer | 2 px |
@@ -8,17 +8,16 @@
 //!
 //! Weighted means of neighbours.
 //!
-//! A pixel keeps the colour it measured. Each other colour is the mean of the neighbours within the tile's reach r (one
-//! for tiles of two by two) that measured it, weighted (r + 1 − |Δx|)(r + 1 − |Δy|): 2 beside and above, 1 across the corner
-//! for r = 1. On a Bayer tile this is bilinear interpolation, and a linear ramp comes out exact inside. At the picture's
-//! edge the mean is over the neighbours that exist.
+//! A pixel keeps the colour it measured. Each other colour is the weighted mean of the neighbours within the tile's reach r (one for tiles of two by
+//! two) that measured it, with weights (r + 1 − |Δx|)(r + 1 − |Δy|): 2 for adjacent and 1 for diagonal neighbours for r = 1. On a Bayer tile this is
+//! bilinear interpolation, and a linear ramp is reproduced exactly in the interior. At the image's edge the mean is over the existing neighbours.
 //!
 //! Gradient-corrected linear interpolation (Malvar, He & Cutler 2004, "High-quality linear interpolation for demosaicing of
 //! Bayer-patterned color images", ICASSP).
 //!
-//! The bilinear value of the missing colour plus α, β or γ times the second difference of the colour that the pixel did
-//! measure: where its own colour peaks, so will the others. With the paper's α = 1/2, β = 5/8, γ = 3/4 (the optimum over
-//! its pictures, rounded to eighths) these are four filters of five by five, in eighths:
+//! The bilinear value of the missing colour plus α, β or γ times the second difference of the measured colour: it assumes that peaks of one colour
+//! are peaks of the others. With the paper's α = 1/2, β = 5/8, γ = 3/4 (the optimum over its images, rounded to eighths) these are four filters of
+//! five by five, in eighths:
 //!
 //! | wanted | at | its own | same row ±1 | same column ±1 | diagonals | same row ±2 | same column ±2 |
 //! | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -27,7 +26,7 @@
 //! | the column's other colour | green | 5 | 0 | 4 | −1 | ½ | −1 |
 //! | blue, red | red, blue | 6 | 0 | 0 | 2 | −3/2 | −3/2 |
 //!
-//! The picture is mirrored about its outermost pixels. Beside edges values can leave the range of the neighbours.
+//! The image is mirrored about its outermost pixels. Near edges values can leave the range of the neighbours.
 //!
 //! Adaptive interpolation along the smaller gradient (Hamilton & Adams 1997, "Adaptive color plan interpolation in single
 //! sensor color electronic camera", US patent 5 629 734, expired).
@@ -37,7 +36,7 @@
 //! 2. Red and blue at green pixels: the mean of the two neighbours plus half the second difference of green along them.
 //! 3. Blue at red and red at blue: the same along the diagonal of the smaller |C₋₁ − C₊₁| + |2 G₀ − G₋₁ − G₊₁|.
 //!
-//! The picture is mirrored about its outermost pixels. Beside edges values can leave the range of the neighbours.
+//! The image is mirrored about its outermost pixels. Near edges values can leave the range of the neighbours.
 
 #[cfg(test)]
 mod tests;
@@ -46,7 +45,7 @@ use rayon::prelude::*;
 
 use crate::raw::{Mosaic, Tile};
 
-/// How colours are interpolated.
+/// Method of colour interpolation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Demosaic {
     /// The weighted mean of the neighbours of each colour.
@@ -59,7 +58,7 @@ pub enum Demosaic {
 }
 
 impl Demosaic {
-    /// The smallest picture, px a side, that the method can work on.
+    /// The smallest image side, px, for the method.
     #[must_use]
     pub fn least_px(self, mosaic: &Mosaic) -> usize {
         match (self, mosaic) {
@@ -70,8 +69,8 @@ impl Demosaic {
         }
     }
 
-    /// All `N` channels at every pixel. The caller has checked that the method fits the tile. Runs in the rayon pool of
-    /// the caller; the result does not depend on it.
+    /// All `N` channels at every pixel. The caller has checked that the method fits the tile. Runs in the rayon pool of the caller; the result does
+    /// not depend on it.
     pub(crate) fn apply<const N: usize>(self, samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; N]> {
         let three = |rgb: Vec<[f32; 3]>| rgb.into_iter().map(|v| core::array::from_fn(|c| v[c])).collect();
         match self {
@@ -90,7 +89,7 @@ struct Padded {
 }
 
 impl Padded {
-    /// At least `margin + 1` columns and rows are needed.
+    /// Needs at least `margin + 1` columns and rows.
     fn new(samples: &[f32], width: usize, margin: usize) -> Self {
         let (height, stride) = (samples.len() / width, width + 2 * margin);
         let mut padded = Vec::with_capacity(stride * (height + 2 * margin));
@@ -103,14 +102,14 @@ impl Padded {
         Self { samples: padded, stride, margin }
     }
 
-    /// The row `dy` away from row `y`, margins included: column x stands at x + margin.
+    /// The row `dy` away from row `y`, margins included: column x is at x + margin.
     fn row(&self, y: usize, dy: isize) -> &[f32] {
         let row = (y + self.margin).wrapping_add_signed(dy);
         &self.samples[row * self.stride..][..self.stride]
     }
 }
 
-/// The row of the picture that row `y` of the padded one shows.
+/// The row of the image shown by row `y` of the padded one.
 fn mirrored(y: usize, margin: usize, height: usize) -> usize {
     let folded = y.abs_diff(margin);
     if folded < height { folded } else { 2 * (height - 1) - folded }
@@ -178,7 +177,7 @@ fn interpolated<const N: usize>(rows: &[NeighbourRow<'_>], x: usize, reach: usiz
     core::array::from_fn(|c| sums[c] / weights[c])
 }
 
-/// How far the filters reach, px.
+/// Reach of the filters, px.
 const MALVAR_MARGIN: usize = 2;
 
 const GREEN: usize = 1;
@@ -204,7 +203,7 @@ fn interpolate_malvar(samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; 3
     plane
 }
 
-/// Sums of the neighbours that the filters weigh alike.
+/// Sums of the neighbours with equal weights.
 struct Sums {
     own: f32,
     row: f32,
@@ -244,7 +243,7 @@ impl Sums {
     }
 }
 
-/// How far the method reaches, px: green to 2, then the others 1 more.
+/// Reach of the method, px: green to 2, then the others 1 more.
 const HAMILTON_ADAMS_MARGIN: usize = 3;
 
 fn interpolate_hamilton_adams(samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; 3]> {
@@ -257,7 +256,7 @@ fn interpolate_hamilton_adams(samples: &[f32], width: usize, tile: &Tile) -> Vec
             *g = if tile.at(x, y) == GREEN { rows[2][at] } else { green_at(&rows, at) };
         }
     });
-    // Mirrored greens are the greens of the mirrored picture: the method is symmetric.
+    // Mirrored greens are the greens of the mirrored image: the method is symmetric.
     let padded = Padded::new(&green, width, HAMILTON_ADAMS_MARGIN);
     drop(green);
     let mut plane = vec![[0.0; 3]; samples.len()];
@@ -279,12 +278,12 @@ fn green_at(rows: &[&[f32]; 5], x: usize) -> f32 {
     better(along_row, along_column)
 }
 
-/// Twice the middle less both sides.
+/// Twice the centre less both sides.
 fn second(before: f32, middle: f32, after: f32) -> f32 {
     2.0 * middle - before - after
 }
 
-/// A value along one direction, and how much the picture changes along it.
+/// A value along one direction, and the gradient of the image along it.
 struct Estimate {
     value: f32,
     change: f32,
@@ -313,7 +312,7 @@ struct Around<'a> {
 }
 
 impl Around<'_> {
-    /// Steps 2 and 3, at a pixel of colour `own` with `beside` in its row.
+    /// Steps 2 and 3, at a pixel of colour `own` whose row neighbours have the colour `beside`.
     fn colours(&self, x: usize, own: usize, beside: usize) -> [f32; 3] {
         let mut rgb = [0.0; 3];
         rgb[own] = self.mosaic[1][x];

@@ -1,35 +1,34 @@
 //! Detail: noise reduction before colour, sharpening after tone; both off by default.
 //!
-//! Bilateral filter (Tomasi & Manduchi 1998): a mean over near pixels of like colour.
+//! Bilateral filter (Tomasi & Manduchi 1998): a mean over near pixels of similar colour.
 //!
 //! ```text
 //! p′ = Σ w p_i / Σ w,   w = exp(−r²/2σ_s² − d²/2σ_r²)
 //! ```
 //!
-//! r the distance (px, to 2 σ_s), d² the mean over the channels of the squared difference of the two colours. σ_r is a
-//! share of white and should be two or three times the noise to be removed; edges much higher than it stay. The noise of
-//! one σ_r is the same at all brightnesses: shot noise, which grows with the light, is smoothed less in the lights.
+//! r the distance (px, to 2 σ_s), d² the mean over the channels of the squared difference of the two colours. σ_r is a fraction of white and should
+//! be two or three times the noise to be removed; edges much higher than it are preserved. One σ_r applies at all brightnesses: shot noise, which
+//! grows with the light, is smoothed less in highlights.
 //!
-//! Unsharp mask: what a blur takes away is added once more.
+//! Unsharp mask: adds the detail that a blur removes.
 //!
-//! On luma Y = 0.2126 R + 0.7152 G + 0.0722 B of the encoded picture (weights of ITU-R BT.709), so that colours do not
+//! On luma Y = 0.2126 R + 0.7152 G + 0.0722 B of the encoded image (weights of ITU-R BT.709), so that colours do not
 //! change: d = Y − blur_σ(Y); where |d| is above the threshold, each channel becomes its value + amount · d, clipped to
 //! 0 … 1.
 //!
 //! Gaussian blur: rows, then columns.
 //!
-//! The kernel exp(−x²/2σ²) is cut at 5 σ, where it is 4e-6 of its middle (at 3 σ, 1 %, the halo of a lamp would end in a
-//! square against the night), and normalised to 1; beside the picture's edge it is normalised over the pixels
-//! that exist, so a flat picture stays flat.
+//! The kernel exp(−x²/2σ²) is cut at 5 σ, where it is 4e-6 of its centre (at 3 σ, 1 %, the halo of a lamp would end in a visible square at night),
+//! and normalised to 1; near the image's edge it is normalised over the existing pixels, so a flat image stays flat.
 
 use etendue_core::{Plane, maths::f32::exp, maths::f64::exp as exp_f64, quantity::Display};
 use etendue_spectra::colour::luma;
 use rayon::prelude::*;
 
-/// How noise is reduced, on linear colours of the camera after demosaic.
+/// Noise reduction on linear camera colours after demosaic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoiseReduction {
-    /// Means over near pixels of like colour.
+    /// Means over near pixels of similar colour.
     Bilateral(Bilateral),
     /// The median of each channel over squares of 2 r + 1 pixels, r from 1 to 3.
     Median {
@@ -39,10 +38,10 @@ pub enum NoiseReduction {
 }
 
 impl NoiseReduction {
-    /// Whether its numbers are in range.
+    /// Checks the ranges of the parameters.
     ///
     /// # Errors
-    /// Where one is not.
+    /// If one is out of range.
     pub fn check(&self) -> Result<(), DetailError> {
         match self {
             Self::Bilateral(bilateral) => bilateral.check(),
@@ -53,7 +52,7 @@ impl NoiseReduction {
         }
     }
 
-    /// The smoothed picture. Runs in the rayon pool of the caller; the result does not depend on it.
+    /// The smoothed image. Runs in the rayon pool of the caller; the result does not depend on it.
     pub(crate) fn apply<const N: usize>(&self, picture: &[[f32; N]], width: usize) -> Vec<[f32; N]> {
         match self {
             Self::Bilateral(bilateral) => bilateral.apply(picture, width),
@@ -62,22 +61,22 @@ impl NoiseReduction {
     }
 }
 
-/// Why detail cannot be treated so.
+/// Error of noise reduction or sharpening.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DetailError {
-    /// A length or share out of its range.
+    /// A length or fraction out of range.
     #[error("{name} is {value}, but a number {range} is needed")]
     Range {
-        /// Which number.
+        /// Name of the number.
         name: &'static str,
-        /// What it is.
+        /// Its value.
         value: f64,
-        /// What it should be.
+        /// The legal range.
         range: &'static str,
     },
 }
 
-/// Refuses a number that is not within `low` (excluded) and `high`.
+/// Refuses a number outside `low` (excluded) to `high`.
 fn within(name: &'static str, value: f64, low: f64, high: f64, range: &'static str) -> Result<(), DetailError> {
     if value > low && value <= high { Ok(()) } else { Err(DetailError::Range { name, value, range }) }
 }
@@ -87,7 +86,7 @@ fn within(name: &'static str, value: f64, low: f64, high: f64, range: &'static s
 pub struct Bilateral {
     /// σ_s, px, above 0 and at most 10.
     pub radius_px: f64,
-    /// σ_r, share of white, above 0 and at most 1.
+    /// σ_r, fraction of white, above 0 and at most 1.
     pub range: f64,
 }
 
@@ -140,28 +139,28 @@ fn apply<const N: usize>(picture: &[[f32; N]], width: usize, radius: usize) -> V
     (0..picture.len()).into_par_iter().map(at).collect()
 }
 
-/// The value in the middle; of an even number the lower of the two.
+/// The median; the lower of the two middle values for an even number.
 fn middle(values: &mut [f32]) -> f32 {
     let half = (values.len() - 1) / 2;
     *values.select_nth_unstable_by(half, f32::total_cmp).1
 }
 
-/// How much is added, and from what.
+/// Amount of sharpening, and its blur.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unsharp {
     /// Factor on the detail, above 0 and at most 10.
     pub amount: f64,
     /// σ of the blur, px, above 0 and at most 50.
     pub radius_px: f64,
-    /// Detail below this (encoded, 0 … 1) is left alone, as it may be noise.
+    /// Detail below this (encoded, 0 … 1) is left unchanged, as it may be noise.
     pub threshold: f64,
 }
 
 impl Unsharp {
-    /// Whether its numbers are in range.
+    /// Checks the ranges of the parameters.
     ///
     /// # Errors
-    /// Where one is not.
+    /// If one is out of range.
     pub fn check(&self) -> Result<(), DetailError> {
         within("amount", self.amount, 0.0, 10.0, "above 0 and at most 10")?;
         within("radius_px", self.radius_px, 0.0, 50.0, "above 0 and at most 50")?;
@@ -171,7 +170,7 @@ impl Unsharp {
         if legal { Ok(()) } else { Err(fault) }
     }
 
-    /// Sharpens a picture. Runs in the rayon pool of the caller; the result does not depend on it.
+    /// Sharpens an image. Runs in the rayon pool of the caller; the result does not depend on it.
     pub(crate) fn apply(&self, picture: &mut Plane<Display>) {
         let luma: Vec<[f32; 1]> = picture.samples().par_iter().map(|rgb| [luma(*rgb)]).collect();
         let blurred = gaussian(&luma, picture.width(), self.radius_px);
@@ -185,7 +184,7 @@ impl Unsharp {
     }
 }
 
-/// The picture blurred by σ px, channel by channel.
+/// The image blurred by σ px, channel by channel.
 pub(crate) fn gaussian<const N: usize>(picture: &[[f32; N]], width: usize, sigma_px: f64) -> Vec<[f32; N]> {
     let weights = weights(sigma_px);
     let mut across = vec![[0.0; N]; picture.len()];
@@ -205,7 +204,7 @@ pub(crate) fn gaussian<const N: usize>(picture: &[[f32; N]], width: usize, sigma
     blurred
 }
 
-/// One side of the kernel, from its middle.
+/// One side of the kernel, from its centre.
 fn weights(sigma_px: f64) -> Vec<f32> {
     let reach = (5.0 * sigma_px).ceil() as usize;
     (0..=reach).map(|i| exp_f64(-0.5 * (i as f64 / sigma_px) * (i as f64 / sigma_px)) as f32).collect()
@@ -245,7 +244,7 @@ mod tests {
     fn noise_falls_and_the_edge_stays() {
         let (before, after) = (noisy_edge(), FILTER.apply(&noisy_edge(), 32));
         assert!(spread(&after, 2..14) < 0.35 * spread(&before, 2..14));
-        // Twelve σ_r between the sides: what leaks across is less than e^-70.
+        // Twelve σ_r between the sides: leakage is below e^-70.
         assert!(after.iter().enumerate().all(|(i, v)| (v[0] < 0.25) == (i % 32 < 16)));
         assert!(FILTER.apply(&[[0.4; 3]; 20], 5).iter().flatten().all(|v| (v - 0.4).abs() < 1e-6));
     }
@@ -308,7 +307,7 @@ mod tests {
         let ratio = blurred[15 * n + 17][0] / blurred[15 * n + 15][0];
         // exp(−1/2) one σ away; the kernel is normalised, to f32.
         assert!((sum - 1.0).abs() < 1e-5 && (ratio - 0.606_53).abs() < 1e-4, "{sum} {ratio}");
-        // The kernel ends in 1/(2π σ²) exp(−12.5), 1.5e-7: no edge of a lamp of a thousand times white is seen.
+        // The kernel ends in 1/(2π σ²) exp(−12.5), 1.5e-7: the edge of a lamp of a thousand times white is invisible.
         assert!(blurred[15 * n + 5][0] > 0.0 && blurred[15 * n + 5][0] < 2e-7 && blurred[15 * n + 4][0] == 0.0);
         assert!(
             gaussian(&[[0.3, 0.7]; 35], 7, 5.0).iter().all(|v| (v[0] - 0.3).abs() < 1e-6 && (v[1] - 0.7).abs() < 1e-6)

@@ -1,4 +1,4 @@
-//! Raw digital numbers to a picture.
+//! From raw digital numbers to an image.
 //!
 //! | order | step | module |
 //! | --- | --- | --- |
@@ -12,12 +12,11 @@
 //! | 8 | the paper's filters of linear light | [`paper`] |
 //! | 9 | clip, tone curve | [`tone`] |
 //! | 10 | sharpening | [`detail`] |
-//! | 11 | the paper's filters of encoded pictures | [`paper`] |
+//! | 11 | the paper's filters of encoded images | [`paper`] |
 //!
-//! Black level, white balance, demosaic, colour and tone are always there; the others only where they are asked for. This
-//! is a plain, stated way to look at a raw picture, not the look of any camera. Left out: highlight recovery, local tone
-//! mapping, chromatic aberration, temporal noise reduction. This crate does not know electrons: a raw picture is digital
-//! numbers between a black and a white level.
+//! Black level, white balance, demosaic, colour and tone are always applied; the others only if requested. This is a plain, documented rendition of a
+//! raw image, not the look of any camera. Left out: highlight recovery, local tone mapping, chromatic aberration, temporal noise reduction. This
+//! crate has no notion of electrons: a raw image is digital numbers between a black and a white level.
 
 pub mod colour_matrix;
 pub mod correction;

@@ -1,23 +1,22 @@
-//! Raw pictures: how their numbers become fractions of the range from black to white, and which colour a pixel measures.
+//! Raw images: normalisation to fractions of the range from black to white, and the colour measured by each pixel.
 //!
-//! Black level: the digital number of no light, which every later step counts from.
+//! Black level: the digital number of no light, from which every later step counts.
 //!
-//! From shielded pixels it is their interquartile mean: the mean of what is left without the lowest and the highest
-//! quarter, so that hot and dead pixels do not move it, and yet finer than one digital number. Of Gaussian noise of σ its
-//! standard error is 1.09 σ/√n (Tukey 1962, trimmed means). One level serves the whole picture; what differs from row to
-//! row stays. It is at least 1 DN below the white level: a frame whose shielded pixels are saturated (by heat) is a picture all
-//! the same, of which nothing is seen.
+//! From optical-black pixels it is their interquartile mean: the mean without the lowest and the highest quarter. Hot and dead pixels do not move it,
+//! and its resolution is finer than one digital number. For Gaussian noise of σ its standard error is 1.09 σ/√n (Tukey 1962, trimmed means). One
+//! level applies to the whole image; differences from row to row remain. It is at least 1 DN below the white level: a frame whose optical-black
+//! pixels are saturated (by heat) is still a valid image, without visible content.
 //!
-//! Which colour a pixel of a raw picture measures, in the words of development.
+//! The colour measured by each pixel of a raw image, in the terms of development.
 //!
-//! A tile of filters repeats from the top left corner. The kinds of filter that it holds, in the order of [`Filter`], are
-//! the **channels** of the picture: a Bayer tile has red, green and blue, an RCCC tile red and clear.
+//! A tile of filters repeats from the top left corner. The kinds of filter in it, in the order of [`Filter`], are the **channels** of the image: a
+//! Bayer tile has red, green and blue, an RCCC tile red and clear.
 
 use etendue_core::Plane;
 use etendue_core::quantity::{DigitalNumber, Quantity};
 use rayon::prelude::*;
 
-/// A raw picture, with what development needs to know.
+/// A raw image, with the data needed for development.
 #[derive(Clone, Copy, Debug)]
 pub struct RawPicture<'a> {
     /// Digital numbers.
@@ -26,13 +25,13 @@ pub struct RawPicture<'a> {
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
-    /// Which pixel measures which colour.
+    /// The colour measured by each pixel.
     pub mosaic: &'a Mosaic,
-    /// Digital numbers of pixels under a shield, of any shape, where the sensor has some.
+    /// Digital numbers of optical-black pixels, of any shape, if the sensor has some.
     pub optical_black: Option<&'a Plane<DigitalNumber>>,
 }
 
-/// A digital number as a real one; exact to 24 bits.
+/// Converts a digital number to floating point; exact to 24 bits.
 fn real(dn: <DigitalNumber as Quantity>::Sample) -> f32 {
     f64::from(dn) as f32
 }
@@ -44,19 +43,19 @@ pub(crate) fn normalised(plane: &Plane<DigitalNumber>, black_dn: f64, white_dn: 
     plane.samples().par_iter().map(|dn| ((real(*dn) - black) * scale).min(1.0)).collect()
 }
 
-/// Where the black level comes from.
+/// Source of the black level.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum BlackLevel {
     /// As the sensor states it.
     #[default]
     Stated,
-    /// This one, DN.
+    /// A fixed value, DN.
     Fixed(f64),
-    /// From the shielded pixels.
+    /// From the optical-black pixels.
     OpticalBlack,
 }
 
-/// The black level, DN; `None` where shielded pixels are asked for and the picture has none.
+/// The black level, DN; `None` if optical-black pixels are requested and the image has none.
 pub(crate) fn black_level(rule: BlackLevel, raw: &RawPicture<'_>) -> Option<f64> {
     match rule {
         BlackLevel::Stated => Some(raw.black_level_dn),
@@ -77,13 +76,13 @@ fn interquartile_mean(mut values: Vec<f32>) -> f64 {
     middle.iter().map(|v| f64::from(*v)).sum::<f64>() / middle.len() as f64
 }
 
-/// Channels that a picture can have at most.
+/// Maximum number of channels of an image.
 pub const MAX_CHANNELS: usize = 4;
 
-/// The farthest that interpolation looks for a colour, px.
+/// Maximum distance of colours used in interpolation, px.
 const MAX_REACH: usize = 4;
 
-/// What a pixel's filter lets through. The order is the order of channels.
+/// Passband of a pixel's filter. The order is the order of channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Filter {
     /// Red.
@@ -104,12 +103,12 @@ pub enum Filter {
     Yellow,
 }
 
-/// How filters lie over the raster.
+/// Arrangement of filters over the raster.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mosaic {
     /// No filters: every pixel measures lightness.
     Mono,
-    /// A tile that repeats from the top left corner. Made by [`Mosaic::tile`].
+    /// A tile that repeats from the top left corner. Created by [`Mosaic::tile`].
     Tile(Tile),
 }
 
@@ -122,15 +121,15 @@ pub struct Tile {
     reach: usize,
 }
 
-/// Why a mosaic cannot be developed.
+/// Error of a mosaic.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MosaicError {
     /// No pixels, or not a rectangle.
     #[error("a filter tile {width} wide and {height} high needs {} entries and at least one, but {entries} are given", .width * .height)]
     Shape {
-        /// Columns asked for.
+        /// Columns requested.
         width: usize,
-        /// Rows asked for.
+        /// Rows requested.
         height: usize,
         /// Entries given.
         entries: usize,
@@ -140,7 +139,7 @@ pub enum MosaicError {
         "a filter tile of {0} kinds of filter cannot be developed: two to four are expected; a tile of one is mono"
     )]
     Kinds(usize),
-    /// Somewhere a colour is too far away.
+    /// A tile in which a colour is too far away.
     #[error(
         "a block of {MAX_REACH} × {MAX_REACH} pixels of the filter tile lacks one of its colours, and interpolation looks no farther: use a tile that mixes its colours more closely"
     )]
@@ -148,10 +147,10 @@ pub enum MosaicError {
 }
 
 impl Mosaic {
-    /// A repeating tile of filters, row by row.
+    /// Creates a repeating tile of filters, row by row.
     ///
     /// # Errors
-    /// Where the entries do not fill the tile, are of one kind or more than four, or leave a colour too far away.
+    /// If the entries do not fill the tile, are of one kind or more than four, or leave a colour too far away.
     pub fn tile(width: usize, height: usize, filters: Vec<Filter>) -> Result<Self, MosaicError> {
         if filters.is_empty() || width * height != filters.len() {
             return Err(MosaicError::Shape { width, height, entries: filters.len() });
@@ -169,7 +168,7 @@ impl Mosaic {
         Ok(Self::Tile(Tile { reach, ..tile }))
     }
 
-    /// Channels of the picture: 1 of a mono one.
+    /// Channels of the image; 1 for a mono image.
     #[must_use]
     pub fn channels(&self) -> usize {
         match self {
@@ -210,19 +209,19 @@ impl Tile {
         self.channels.len() / self.width
     }
 
-    /// The kinds of filter, one a channel.
+    /// The kinds of filter, one per channel.
     #[must_use]
     pub fn filters(&self) -> &[Filter] {
         &self.filters
     }
 
-    /// How far a pixel may have to look for each of the colours, px: 1 for tiles of two by two.
+    /// Maximum distance from a pixel to each of the colours, px: 1 for tiles of two by two.
     #[must_use]
     pub fn reach(&self) -> usize {
         self.reach
     }
 
-    /// Whether it is a Bayer tile in any of its four phases.
+    /// True if it is a Bayer tile in any of its four phases.
     #[must_use]
     pub fn is_bayer(&self) -> bool {
         let corners = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| self.at(x, y));
@@ -232,7 +231,7 @@ impl Tile {
             && matches!(corners, [1, _, _, 1] | [_, 1, 1, _])
     }
 
-    /// Whether every block of `size` × `size` pixels holds all channels.
+    /// True if every block of `size` × `size` pixels contains all channels.
     fn full(&self, size: usize) -> bool {
         let in_block = |x: usize, y: usize| {
             let mut seen = [false; MAX_CHANNELS];

@@ -1,4 +1,4 @@
-//! Tone curves: from linear light to what a display takes, both 0 to 1.
+//! Tone curves: from linear light to display values, both 0 to 1.
 //!
 //! | curve | y of linear x, clipped to 0 … 1 |
 //! | --- | --- |
@@ -16,15 +16,15 @@
 //! y = 1 / (1 + (m (1 − e) / ((1 − m) e))^c)
 //! ```
 //!
-//! The logistic curve in the logarithm of the odds e/(1 − e): 0 stays 0, 1 stays 1, m becomes 1/2, contrast c is the slope
-//! of the log-odds everywhere. c = 1 and m = 1/2 change nothing; c above 1 darkens shadows and brightens lights, c below 1
-//! does the reverse. The inverse has c → 1/c.
+//! The logistic curve in the logarithm of the odds e/(1 − e): 0 stays 0, 1 stays 1, m becomes 1/2, and contrast c is the constant slope of the
+//! log-odds. c = 1 and m = 1/2 change nothing; c above 1 darkens shadows and brightens highlights, c below 1 does the reverse. The inverse has c →
+//! 1/c.
 //!
 //! A measured opto-electronic conversion function (ISO 14524): output level over exposure.
 //!
-//! Exposures (any unit) rise, the largest is the picture's white (linear 1). Between points the output is linear in the
-//! logarithm of the exposure, the axis along which such functions are measured; below the first point it is proportional
-//! to the exposure. The output is over the largest output level that the camera can give (255 of 8 bits).
+//! Exposures (any unit) rise; the largest is the image's white (linear 1). Between points the output is linear in the logarithm of the exposure, the
+//! axis of such measurements; below the first point it is proportional to the exposure. The output is relative to the camera's largest output level
+//! (255 for 8 bits).
 
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::quantity::{Display, LinearRgb};
@@ -32,7 +32,7 @@ use etendue_core::{Plane, maths::f32::pow};
 use etendue_spectra::colour;
 use rayon::prelude::*;
 
-/// How linear light is encoded.
+/// Encoding of linear light.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum ToneCurve {
     /// The curve of IEC 61966-2-1.
@@ -40,7 +40,7 @@ pub enum ToneCurve {
     Srgb,
     /// A power; the number is γ, above 0: 2.2 brightens, 1 is linear.
     Gamma(f64),
-    /// More contrast about a middle, on top of the sRGB curve.
+    /// More contrast about a midpoint, on top of the sRGB curve.
     SCurve(SCurve),
     /// Points joined by straight lines.
     Table(Table),
@@ -49,15 +49,15 @@ pub enum ToneCurve {
 }
 
 impl ToneCurve {
-    /// A power curve.
+    /// Creates a power curve.
     ///
     /// # Errors
-    /// Where γ is not above 0.
+    /// If γ is not above 0.
     pub fn gamma(gamma: f64) -> Result<Self, ToneError> {
         if gamma.is_finite() && gamma > 0.0 { Ok(Self::Gamma(gamma)) } else { Err(ToneError::Gamma(gamma)) }
     }
 
-    /// Encodes linear light, clipped to 0 … 1 before. A NaN stays one.
+    /// Encodes linear light after clipping to 0 … 1. A NaN stays one.
     #[must_use]
     pub fn encode(&self, linear: f32) -> f32 {
         let x = linear.clamp(0.0, 1.0);
@@ -70,7 +70,7 @@ impl ToneCurve {
         }
     }
 
-    /// The linear light of an encoded value, clipped to 0 … 1 before. Where the curve is flat, the darkest.
+    /// The linear light of an encoded value after clipping to 0 … 1; the darkest where the curve is flat.
     #[must_use]
     pub fn decode(&self, encoded: f32) -> f32 {
         let y = encoded.clamp(0.0, 1.0);
@@ -83,7 +83,7 @@ impl ToneCurve {
         }
     }
 
-    /// A whole picture. Runs in the rayon pool of the caller; the result does not depend on it.
+    /// Encodes a whole image. Runs in the rayon pool of the caller; the result does not depend on it.
     #[must_use]
     pub fn encode_plane(&self, linear: &Plane<LinearRgb>) -> Plane<Display> {
         let samples = linear.samples().par_iter().map(|rgb| rgb.map(|v| self.encode(v))).collect();
@@ -92,13 +92,13 @@ impl ToneCurve {
 }
 
 #[cfg(test)]
-/// 8 bits a channel, row by row: 255 v rounded to the nearest, halves up; of a NaN, 0.
+/// 8 bits per channel, row by row: 255 v rounded to the nearest, halves up; 0 for a NaN.
 #[must_use]
 pub(crate) fn to_8_bit(display: &Plane<Display>) -> Vec<[u8; 3]> {
     display.samples().iter().map(|rgb| rgb.map(|v| (255.0 * v + 0.5) as u8)).collect()
 }
 
-/// Why a curve cannot be used.
+/// Error of a curve.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ToneError {
     /// γ out of range.
@@ -107,9 +107,9 @@ pub enum ToneError {
     /// Parameters of an S-curve out of range.
     #[error("an S-curve of contrast {contrast} about {midpoint}: contrast must be above 0, midpoint between 0 and 1")]
     SCurve {
-        /// Slope at the middle.
+        /// Slope at the midpoint.
         contrast: f64,
-        /// The middle.
+        /// The midpoint.
         midpoint: f64,
     },
     /// Too few points.
@@ -123,7 +123,7 @@ pub enum ToneError {
     Range(&'static str),
 }
 
-/// Contrast about a middle.
+/// Contrast about a midpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SCurve {
     contrast: f64,
@@ -131,10 +131,10 @@ pub struct SCurve {
 }
 
 impl SCurve {
-    /// Contrast above 0 about an encoded value between 0 and 1.
+    /// Creates the curve from a contrast above 0 about an encoded value between 0 and 1.
     ///
     /// # Errors
-    /// Where a parameter is out of range.
+    /// If a parameter is out of range.
     pub fn new(contrast: f64, midpoint: f64) -> Result<Self, ToneError> {
         let legal = contrast.is_finite() && contrast > 0.0 && midpoint > 0.0 && midpoint < 1.0;
         if legal { Ok(Self { contrast, midpoint }) } else { Err(ToneError::SCurve { contrast, midpoint }) }
@@ -146,13 +146,13 @@ impl SCurve {
         self.contrast
     }
 
-    /// The encoded value that becomes 1/2.
+    /// The encoded value that maps to 1/2.
     #[must_use]
     pub fn midpoint(&self) -> f64 {
         self.midpoint
     }
 
-    /// The odds of the middle.
+    /// The odds of the midpoint.
     fn odds(&self) -> f32 {
         (self.midpoint / (1.0 - self.midpoint)) as f32
     }
@@ -181,10 +181,10 @@ pub struct Table {
 }
 
 impl Table {
-    /// Inputs (linear) and outputs (encoded); inputs rise from 0 to 1, outputs never fall and lie within 0 … 1.
+    /// Creates a table from inputs (linear) and outputs (encoded); inputs rise from 0 to 1, outputs never fall and lie within 0 … 1.
     ///
     /// # Errors
-    /// Where they do not.
+    /// If they violate this.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, ToneError> {
         check_order(&points)?;
         let (first, last) = (points[0], points[points.len() - 1]);
@@ -203,12 +203,12 @@ impl Table {
         &self.points
     }
 
-    /// The output of an input 0 … 1; of a NaN a NaN.
+    /// The output of an input 0 … 1; NaN for a NaN.
     fn at(&self, x: f32) -> f32 {
         along(&self.points, f64::from(x)) as f32
     }
 
-    /// The smallest input of an output; beyond the table's outputs its end.
+    /// The smallest input of an output; clamped to the table's outputs.
     fn inverse(&self, y: f32) -> f32 {
         let y = f64::from(y);
         match by_output(&self.points, y) {
@@ -222,7 +222,7 @@ impl Table {
 /// An input and its output.
 type Point = (f64, f64);
 
-/// On the straight line between the two points about `x`, or on that of the first or the last two; of a NaN a NaN.
+/// Linear interpolation between the two points about `x`, or extrapolation from the first or the last two; NaN for a NaN.
 fn along(points: &[Point], x: f64) -> f64 {
     let after = points.partition_point(|p| p.0 < x).clamp(1, points.len() - 1);
     let ((x0, y0), (x1, y1)) = (points[after - 1], points[after]);
@@ -235,7 +235,7 @@ fn by_output(points: &[Point], y: f64) -> (Option<Point>, Option<Point>) {
     (after.checked_sub(1).map(|before| points[before]), points.get(after).copied())
 }
 
-/// At least two finite points, inputs rising, outputs not falling.
+/// Checks for at least two finite points, inputs rising, outputs not falling.
 fn check_order(points: &[(f64, f64)]) -> Result<(), ToneError> {
     if points.len() < 2 {
         return Err(ToneError::Short(points.len()));
@@ -250,15 +250,15 @@ fn check_order(points: &[(f64, f64)]) -> Result<(), ToneError> {
 /// Output over exposure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oecf {
-    /// ln of the exposure over white's, output over its largest.
+    /// ln of the exposure over that of white, output over its largest.
     points: Vec<(f64, f64)>,
 }
 
 impl Oecf {
-    /// Pairs of exposure (above 0, rising) and output (0 or more, never falling), and the largest output level.
+    /// Creates the function from pairs of exposure (above 0, rising) and output (0 or more, never falling), and the largest output level.
     ///
     /// # Errors
-    /// Where they are not such pairs or an output exceeds the largest level.
+    /// If the pairs violate this or an output exceeds the largest level.
     pub fn new(points: Vec<(f64, f64)>, largest_output: f64) -> Result<Self, ToneError> {
         check_order(&points)?;
         let (first, last) = (points[0], points[points.len() - 1]);
@@ -271,13 +271,13 @@ impl Oecf {
         Ok(Self { points: points.iter().map(|(h, y)| (ln(h / last.0), y / largest_output)).collect() })
     }
 
-    /// Exposures, of which the largest is 1, and outputs over the largest level.
+    /// Exposures, scaled to a largest value of 1, and outputs over the largest level.
     #[must_use]
     pub fn points(&self) -> Vec<(f64, f64)> {
         self.points.iter().map(|(log, y)| (exp(*log), *y)).collect()
     }
 
-    /// The output of linear light 0 … 1; of a NaN a NaN.
+    /// The output of linear light 0 … 1; NaN for a NaN.
     fn output(&self, x: f32) -> f32 {
         let x = f64::from(x);
         let (lowest, floor) = self.points[0];
@@ -372,7 +372,7 @@ mod tests {
     fn lines_join_the_points() {
         let table = Table::new(vec![(0.0, 0.1), (0.5, 0.5), (0.75, 0.5), (1.0, 0.9)]).expect("legal");
         assert_eq!([0.0, 0.25, 0.6, 1.0].map(|x| table.at(x)), [0.1, 0.3, 0.5, 0.9]);
-        // Of a flat piece the darkest; beyond the outputs the ends.
+        // The darkest in a flat piece; the ends beyond the outputs.
         assert_eq!([0.0, 0.3, 0.5, 1.0].map(|y| table.inverse(y)), [0.0, 0.25, 0.5, 1.0]);
     }
 

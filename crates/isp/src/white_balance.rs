@@ -1,44 +1,43 @@
 //! White balance: gains that make a grey surface grey.
 //!
-//! Gains are normalised so that the smallest is 1. A saturated pixel is then at least 1 in every channel and, clipped at
-//! 1 **before** demosaic and colour matrix, white: without the clip, highlights turn magenta.
+//! Gains are normalised so that the smallest is 1. A saturated pixel is then at least 1 in every channel and becomes white when clipped at 1
+//! **before** demosaic and colour matrix: without the clip, highlights turn magenta.
 //!
 //! | rule | gains |
 //! | --- | --- |
 //! | [`WhiteBalance::Gains`] | as given, or [from an illuminant](white_balance_from_illuminant) |
-//! | [`WhiteBalance::GreyWorld`] | those that make the picture's mean grey |
+//! | [`WhiteBalance::GreyWorld`] | those that make the image's mean grey |
 //!
-//! Grey world (Buchsbaum 1980): the mean of a scene is taken to be grey.
+//! Grey world (Buchsbaum 1980): the mean of a scene is assumed to be grey.
 //!
-//! Means are taken over the pixels that are not saturated, since a saturated one does not know its colour. A picture in
-//! which a channel has no mean above black (a dark frame) tells nothing: its gains are 1. Of an infrared channel the rule
-//! is a convention only.
+//! Means are taken over unsaturated pixels, because a saturated one has lost its colour. An image in which a channel has no mean above black (a dark
+//! frame) has gains of 1. For an infrared channel the rule is a convention only.
 
 use etendue_spectra::Spectrum;
 use rayon::prelude::*;
 
 use crate::raw::{MAX_CHANNELS, Mosaic};
 
-/// What makes grey grey.
+/// White-balance rule.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WhiteBalance {
     /// Gains of the channels, each at least 1.
     Gains(Vec<f64>),
-    /// The mean of each picture is grey.
+    /// The mean of each image becomes grey.
     GreyWorld,
 }
 
-/// The gains with which channels of these strengths are alike; the smallest is 1. `None` where a channel has none.
+/// The gains that equalise channels of these strengths; the smallest is 1. `None` if a channel has none.
 fn balancing(strengths: &[f64]) -> Option<Vec<f64>> {
     let largest = strengths.iter().copied().fold(0.0, f64::max);
     strengths.iter().all(|s| *s > 0.0).then(|| strengths.iter().map(|s| largest / s).collect())
 }
 
-/// The gains, one a channel, for samples with black at 0 and saturation at 1.
+/// The gains, one per channel, for samples with black at 0 and saturation at 1.
 pub(crate) fn grey_world(samples: &[f32], width: usize, mosaic: &Mosaic) -> Vec<f64> {
     let rows: Vec<Sums> =
         samples.par_chunks(width.max(1)).enumerate().map(|(y, row)| Sums::of_row(row, y, mosaic)).collect();
-    // Rows are added one after the other, so that threads do not show.
+    // Rows are added in order, so the result does not depend on threads.
     let total = rows.iter().fold(Sums::default(), |sum, row| sum.plus(row));
     let means: Vec<f64> = (0..mosaic.channels()).map(|c| total.values[c] / total.counts[c].max(1) as f64).collect();
     balancing(&means).unwrap_or_else(|| vec![1.0; mosaic.channels()])
@@ -70,18 +69,17 @@ impl Sums {
     }
 }
 
-/// A channel that sees nothing of the light.
+/// A channel without response to the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "channel {0} (0 red, 1 green, 2 blue) does not respond to the illuminant, so no gain makes it grey: choose an illuminant that lights every channel"
 )]
 pub struct NoResponse(pub usize);
 
-/// Gains of the channels for which a spectrally flat reflector under `illuminant` (any scale) is neutral; the smallest
-/// is 1.
+/// Gains of the channels for which a spectrally flat reflector under `illuminant` (any scale) is neutral; the smallest is 1.
 ///
 /// # Errors
-/// Where a channel does not respond to the illuminant.
+/// If a channel does not respond to the illuminant.
 pub fn white_balance_from_illuminant(
     responsivities: &[&Spectrum],
     illuminant: &Spectrum,
@@ -90,8 +88,8 @@ pub fn white_balance_from_illuminant(
     balancing(&white).ok_or_else(|| NoResponse(white.iter().position(|w| *w <= 0.0).unwrap_or(0)))
 }
 
-/// ∫ responsivity × illuminant × reflectance dλ, by trapezia of 1 nm (the ends, at 300 and 1 100 nm, count in full); of a
-/// white where no reflectance is given.
+/// ∫ responsivity × illuminant × reflectance dλ, by the trapezoidal rule with 1 nm steps (the ends, at 300 and 1 100 nm, count in full); for white if
+/// no reflectance is given.
 pub(crate) fn response(responsivity: &Spectrum, illuminant: &Spectrum, reflectance: Option<&Spectrum>) -> f64 {
     let light = responsivity.nodes().iter().zip(illuminant.nodes()).map(|(r, i)| f64::from(*r) * f64::from(*i));
     match reflectance {

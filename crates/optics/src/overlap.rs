@@ -1,9 +1,8 @@
-//! Mechanical vignetting: what a pupil sends to a sensor point where rims cut it; ranges and the wavelength that several lenses share.
+//! Mechanical vignetting: the light from a pupil to a sensor point where apertures clip it. Ranges and the wavelength shared by several lenses.
 //!
-//! In the plane of the pupil (its radius taken as 1) the pupil and the projections of the rims are discs whose centres lie
-//! on one line, the direction of the sensor point. Along that line the integrand z²/d⁴ has a closed antiderivative;
-//! across it, a Gauss–Legendre rule runs piece by piece between the points where the boundary changes from one
-//! circle to another, in a variable that takes away the square roots at the ends.
+//! In the plane of the pupil (radius 1) the pupil and the projections of the apertures are discs whose centres lie on one line, the direction of the
+//! sensor point. Along that line the integrand z²/d⁴ has a closed antiderivative. Across it, a Gauss–Legendre rule runs piecewise between the points
+//! where the boundary changes from one circle to another, in a variable that removes the square roots at the ends.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -22,24 +21,24 @@ pub(crate) struct Disc {
 const PUPIL: Disc = Disc { centre: 0.0, radius: 1.0 };
 
 impl Disc {
-    /// Whether part of the pupil lies outside this disc.
+    /// True if part of the pupil lies outside this disc.
     pub(crate) fn clips_unit_disc(self) -> bool {
         self.centre.abs() + 1.0 > self.radius
     }
 
-    /// Half the chord at height `t`; `None` where there is none.
+    /// Half the chord at height `t`; `None` if there is none.
     fn half_chord(self, t: f64) -> Option<f64> {
         let h2 = (self.radius - t) * (self.radius + t);
         (h2 >= 0.0).then(|| h2.sqrt())
     }
 }
 
-/// ∫ z²/d⁴ dA over the part of the pupil inside the rims, sr, for a sensor point `sensor_radius_mm` from the axis.
+/// ∫ z²/d⁴ dA over the part of the pupil inside the apertures, sr, for a sensor point `sensor_radius_mm` from the axis.
 pub(crate) fn clipped_etendue_sr(view: &PupilView, sensor_radius_mm: f64, rims: [Option<Disc>; 2]) -> f64 {
     over_half(rims, |t, low, high| strip_sr(view, sensor_radius_mm, t, low, high)) * 2.0
 }
 
-/// Where on the line the centroid (by area) of the part of the pupil inside the rims lies; `None` where nothing is open.
+/// Position on the line of the area centroid of the part of the pupil inside the apertures; `None` if nothing is open.
 pub(crate) fn open_centroid(rims: [Option<Disc>; 2]) -> Option<f64> {
     let area = over_half(rims, |_, low, high| high - low);
     let moment = over_half(rims, |_, low, high| 0.5 * (high - low) * (high + low));
@@ -76,7 +75,7 @@ fn strip_sr(view: &PupilView, sensor_radius_mm: f64, t: f64, low: f64, high: f64
     z * z * a * (primitive(high) - primitive(low))
 }
 
-/// Heights, in order from 0 to the least radius, between which the boundary is made of the same circles.
+/// Heights, in order from 0 to the smallest radius, between which the boundary consists of the same circles.
 fn break_heights(rims: [Option<Disc>; 2]) -> [f64; 5] {
     let [front, rear] = rims;
     let pair = |a: Option<Disc>, b: Option<Disc>| a.zip(b).and_then(|(a, b)| crossing_height(a, b)).unwrap_or(0.0);
@@ -88,7 +87,7 @@ fn break_heights(rims: [Option<Disc>; 2]) -> [f64; 5] {
     heights
 }
 
-/// The height at which two circles cross; `None` where they do not.
+/// The height at which two circles cross; `None` if they do not.
 fn crossing_height(a: Disc, b: Disc) -> Option<f64> {
     let d = b.centre - a.centre;
     let s = (d * d + a.radius * a.radius - b.radius * b.radius) / (2.0 * d);
@@ -96,7 +95,7 @@ fn crossing_height(a: Disc, b: Disc) -> Option<f64> {
     (t2 > 0.0).then(|| t2.sqrt())
 }
 
-/// ∫ f dt from `low` to `high`, with t = middle + half · sin φ, which takes away square roots at both ends.
+/// ∫ f dt from `low` to `high`, with t = centre + half · sin φ, which removes square roots at both ends.
 fn integrate(f: &impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     if half <= 0.0 {
@@ -122,26 +121,26 @@ pub(crate) const GAUSS: [[f64; 2]; 8] = [
     [0.9894009349916499, 0.027152459411754176],
 ];
 
-/// `value` where it is positive and finite.
+/// Returns `value` if it is positive and finite.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, OpticsError> {
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(OpticsError::NotPositive { name, value }) }
 }
 
-/// `value` where a lens can have it as its f-number.
+/// Returns `value` if it is a possible f-number of a lens.
 pub(crate) fn f_number(value: f64) -> Result<f64, OpticsError> {
     let value = positive("f_number", value)?;
     if value >= FASTEST { Ok(value) } else { Err(OpticsError::Faster { value }) }
 }
 
-/// The f-number at which light on the axis comes from the whole half space: an aplanatic lens in air has 1/2N = sin θ′ ≤ 1 (Abbe).
+/// The f-number at which axial light fills the whole half space: an aplanatic lens in air has 1/2N = sin θ′ ≤ 1 (Abbe).
 const FASTEST: f64 = 0.5;
 
-/// `value` where it is finite.
+/// Returns `value` if it is finite.
 pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, OpticsError> {
     if value.is_finite() { Ok(value) } else { Err(OpticsError::NotFinite { name, value }) }
 }
 
-/// The wavelength of ground truth, and of first-order quantities where a lens file names no other, nm: the helium d line.
+/// The wavelength of ground truth, and of first-order quantities if a lens file gives no other, nm: the helium d line.
 pub const PRINCIPAL_NM: f64 = 587.56;
 
 #[cfg(test)]

@@ -1,14 +1,14 @@
-//! A flat disc pupil: points of it, rays from it, and what it sends to a point of the sensor.
+//! A flat disc pupil: its points, its rays, and its light at a sensor point.
 //!
-//! Spectral irradiance at a sensor point is E = τ ∫ L cos θ cos θ′ / d² dA over the exit pupil. Pupil and
-//! sensor are parallel planes a distance z apart, so both cosines are z/d and the integrand is L z²/d⁴.
+//! Spectral irradiance at a sensor point is E = τ ∫ L cos θ cos θ′ / d² dA over the exit pupil. Pupil and sensor are parallel planes a distance z
+//! apart, so both cosines are z/d and the integrand is L z²/d⁴.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use etendue_core::{maths::f64::sin_cos, ray::PupilRay};
 use glam::{DVec2, DVec3};
 
-/// Millimetres in a metre.
+/// Metres per millimetre.
 pub(crate) const MM: f64 = 1e-3;
 
 /// From the unit square to the unit disc, area-preserving and continuous (Shirley and Chiu 1997).
@@ -29,7 +29,7 @@ pub(crate) fn concentric(u: DVec2) -> (DVec2, f64) {
     (DVec2::new(r * c, r * s), if r < 0.0 { PI - angle.abs() } else { angle.abs() })
 }
 
-/// A disc pupil as a sensor point sees it.
+/// A disc pupil as seen from a sensor point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PupilView {
     /// Distance between the planes of sensor and pupil, mm.
@@ -39,18 +39,17 @@ pub(crate) struct PupilView {
 }
 
 impl PupilView {
-    /// ∫ z²/d⁴ dA in sr were the integrand everywhere what it is at the pupil point `pupil_mm`. `sensor_mm` is in the
-    /// erect picture: the point itself lies at its negative.
+    /// ∫ z²/d⁴ dA in sr with the integrand's value at the pupil point `pupil_mm` used for the whole pupil. `sensor_mm` is in the erect image: the
+    /// point itself lies at its negative.
     pub(crate) fn weight_sr(&self, sensor_mm: DVec2, pupil_mm: DVec2) -> f64 {
         let (z2, area) = (self.distance_mm * self.distance_mm, PI * self.radius_mm * self.radius_mm);
         let d2 = z2 + (pupil_mm + sensor_mm).length_squared();
         area * (z2 / (d2 * d2))
     }
 
-    /// ∫ z²/d⁴ dA over the whole disc, sr: π times the form factor of a disc seen from a parallel plane (Foote 1915),
-    /// with T the tangent of the field angle and a the pupil's radius, both in units of the distance:
-    /// ½ (1 − B/S), B = 1 + T² − a², S² = B² + 4a², written as 2a²/(S (S + B)) where B > 0, which keeps all digits for
-    /// small pupils.
+    /// ∫ z²/d⁴ dA over the whole disc, sr: π times the form factor of a disc seen from a parallel plane (Foote 1915), with T the tangent of the field
+    /// angle and a the pupil's radius, both in units of the distance: ½ (1 − B/S), B = 1 + T² − a², S² = B² + 4a². For B > 0 it is written as 2a²/(S
+    /// (S + B)), which keeps all digits for small pupils.
     pub(crate) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         let a = self.radius_mm / self.distance_mm;
         let t2 = sensor_mm.length_squared() / (self.distance_mm * self.distance_mm);

@@ -1,6 +1,6 @@
-//! A calibrated camera: a model, its camera matrix, the size of its picture.
+//! A calibrated camera: a model, its camera matrix, and its image size.
 //!
-//! Points are raster coordinates of this project: px, the top-left corner of the picture at (0, 0), pixel centres at + 0.5.
+//! Points are raster coordinates of this project: px, the top-left corner of the image at (0, 0), pixel centres at + 0.5.
 
 use core::f64::consts::TAU;
 
@@ -10,10 +10,10 @@ use glam::{DVec2, DVec3};
 use crate::model::{Model, Sight, field_angle};
 use crate::raster::CameraMatrix;
 
-/// Why a calibration cannot be used.
+/// Error of a calibration.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrationError {
-    /// A camera matrix that is none.
+    /// An invalid camera matrix.
     #[error(
         "the camera matrix fx = {fx}, fy = {fy}, skew = {skew}, cx = {cx}, cy = {cy} needs finite numbers and positive fx and fy"
     )]
@@ -37,13 +37,13 @@ pub enum CalibrationError {
         /// Rows.
         height: usize,
     },
-    /// A greatest angle that is none.
+    /// An invalid maximum angle.
     #[error("the greatest field angle is {}°; expected more than 0° and no more than 180°", angle_rad.to_degrees())]
     Angle {
         /// The angle, rad.
         angle_rad: f64,
     },
-    /// The picture reaches beyond a fold.
+    /// A fold inside the image.
     #[error(
         "the calibration folds the picture over at a radius of {radius_px:.3} px from the principal point (field angle \
          {:.3}°), inside the picture, which reaches out to {needed_px:.3} px: use coefficients fitted over the whole \
@@ -51,11 +51,11 @@ pub enum CalibrationError {
         angle_rad.to_degrees()
     )]
     Fold {
-        /// Least distance of the fold's image from the principal point, px.
+        /// Smallest distance of the fold's image from the principal point, px.
         radius_px: f64,
         /// Field angle of the fold, rad.
         angle_rad: f64,
-        /// Largest distance of a corner of the picture from the principal point, px.
+        /// Largest distance of a corner of the image from the principal point, px.
         needed_px: f64,
     },
 }
@@ -70,10 +70,10 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// The camera of a model, a camera matrix (raster coordinates) and a size (width, height).
+    /// Creates the camera from a model, a camera matrix (raster coordinates) and a size (width, height).
     ///
     /// # Errors
-    /// Where the matrix or the picture is none. A fold inside the picture is told by [`check`](Self::check).
+    /// If the matrix or the image size is invalid. A fold inside the image is reported by [`check`](Self::check).
     pub fn new(model: Model, matrix: CameraMatrix, size_px: [usize; 2]) -> Result<Self, CalibrationError> {
         let CameraMatrix { fx, fy, skew, cx, cy } = matrix;
         let finite = [fx, fy, skew, cx, cy].iter().all(|x| x.is_finite());
@@ -87,10 +87,10 @@ impl Calibration {
         Ok(Self { model, matrix, size_px, greatest_angle_rad: None })
     }
 
-    /// The same camera that sees nothing at this field angle and beyond.
+    /// The same camera limited to directions below this field angle.
     ///
     /// # Errors
-    /// Where the angle is not in (0, π].
+    /// If the angle is not in (0, π].
     pub fn limited_to(self, angle_rad: f64) -> Result<Self, CalibrationError> {
         if !(angle_rad > 0.0 && angle_rad <= core::f64::consts::PI) {
             return Err(CalibrationError::Angle { angle_rad });
@@ -126,14 +126,13 @@ impl Calibration {
         self.size_px
     }
 
-    /// The field angle from which on nothing is seen by decree, rad; the model's own [`edge`](Model::edge) may come before.
+    /// The stated limit of the field angle, rad; the model's own [`edge`](Model::edge) may come before.
     #[must_use]
     pub fn greatest_angle_rad(&self) -> Option<f64> {
         self.greatest_angle_rad
     }
 
-    /// The raster point (px) at which a direction of the camera frame (any length) is seen, inside the picture or not;
-    /// `None` outside the field.
+    /// The raster point (px) of a direction of the camera frame (any length), inside the image or not; `None` outside the field.
     #[must_use]
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
         let limit = self.greatest_angle_rad;
@@ -143,14 +142,14 @@ impl Calibration {
         Some(self.matrix.raster_px(self.model.project(direction)?))
     }
 
-    /// The unit direction of the camera frame seen at a raster point; `None` where nothing is.
+    /// The unit direction of the camera frame seen at a raster point; `None` if there is none.
     #[must_use]
     pub fn unproject(&self, raster_px: DVec2) -> Option<DVec3> {
         let direction = self.model.unproject(self.matrix.point(raster_px))?;
         self.sees(direction).then_some(direction)
     }
 
-    /// dΩ/dA, the solid angle that a pixel's area sees at a raster point, sr per px²; `None` where nothing is seen.
+    /// dΩ/dA, the solid angle seen per pixel area at a raster point, sr per px²; `None` if there is no direction.
     #[must_use]
     pub fn solid_angle_per_area(&self, raster_px: DVec2) -> Option<f64> {
         let point = self.matrix.point(raster_px);
@@ -160,16 +159,16 @@ impl Calibration {
         Some(self.model.solid_angle_per_area(point)? / self.matrix.area_px())
     }
 
-    /// What a raster point sees: [`unproject`](Self::unproject) and [`solid_angle_per_area`](Self::solid_angle_per_area) (sr per
-    /// px²), for little more than one of them; `None` where nothing is seen.
+    /// [`unproject`](Self::unproject) and [`solid_angle_per_area`](Self::solid_angle_per_area) (sr per px²) of a raster point, at little more than
+    /// the cost of one of them; `None` if there is no direction.
     #[must_use]
     pub fn sight(&self, raster_px: DVec2) -> Option<Sight> {
         let sight = self.model.sight(self.matrix.point(raster_px))?;
         self.sees(sight.direction).then(|| sight.enlarged(self.matrix.area_px()))
     }
 
-    /// Refuses a calibration that folds over inside the picture, with the radius at which it does. Parts of the picture
-    /// that lie beyond the greatest angle, or where the model's formula ends without a fold, are legal: they see nothing.
+    /// Refuses a calibration that folds inside the image, with the radius of the fold. Parts of the image beyond the maximum angle, or beyond the end
+    /// of the model's formula without a fold, are legal: they have no direction.
     ///
     /// # Errors
     /// [`CalibrationError::Fold`].
@@ -192,8 +191,8 @@ impl Calibration {
         (raster_px - DVec2::new(self.matrix.cx, self.matrix.cy)).length()
     }
 
-    /// The fold's image, least distance from the principal point, by directions some roundings before it. There the
-    /// radius stands still (a polynomial of the angle) or the angle does (one of the radius: √1e-14 of the radius off).
+    /// Smallest distance of the fold's image from the principal point, from directions a few roundings before it. There the radius is stationary (a
+    /// polynomial of the angle) or the angle is (one of the radius: √1e-14 of the radius off).
     fn fold_radius_px(&self, angle_rad: f64) -> f64 {
         const DIRECTIONS: i32 = 720;
         let (sin, cos) = sin_cos(angle_rad * (1.0 - 1e-14));
@@ -207,7 +206,7 @@ impl Calibration {
         [DVec2::ZERO, DVec2::new(size.x, 0.0), DVec2::new(0.0, size.y), size].into_iter()
     }
 
-    /// The corners of all pixels along the picture's border, no more than some thousand to a side.
+    /// The corners of all pixels along the image's border, at most some thousand per side.
     fn border(&self) -> impl Iterator<Item = DVec2> {
         const MOST: usize = 4096;
         let size = self.size();

@@ -8,7 +8,7 @@
 //! | [`Model`] | direction ↔ point of the normalised image plane: the family of calibrated cameras | `model/`, on `plane/` |
 //! | [`Raster`], [`CameraMatrix`] | point of the sensor plane, mm ↔ raster coordinates, px | `raster.rs` |
 //!
-//! Frames are those of `etendue_core`: camera x right, y down, z forward; sensor x right, y down as the erect picture is
+//! Frames are those of `etendue_core`: camera x right, y down, z forward; sensor x right, y down as the erect image is
 //! seen, mm from the principal point; raster x right, y down, pixel centres at + 0.5.
 
 mod calibration;

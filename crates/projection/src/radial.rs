@@ -5,24 +5,22 @@
 //! | | the polynomial takes | and gives | barrel has |
 //! | --- | --- | --- | --- |
 //! | [`Sense::IdealToObserved`] | the undistorted radius | the distorted radius | k₁ < 0 (OpenCV, with the radius in focal lengths) |
-//! | [`Sense::ObservedToIdeal`] | the distorted radius | the undistorted radius | k₁ > 0 (picture filters that fetch) |
+//! | [`Sense::ObservedToIdeal`] | the distorted radius | the undistorted radius | k₁ > 0 (image filters that map output to input) |
 //!
-//! The other direction is the numerical inverse, so both directions of one model are exact inverses of each other. A
-//! polynomial of the other direction that comes near is a [`fit`](RadialDistortion::fitted), with its residual; to first
-//! order its k₁ has the opposite sign.
+//! The other direction is the numerical inverse, so both directions of one model are exact inverses of each other. A polynomial of the other
+//! direction is available as a [`fit`](RadialDistortion::fitted), with its residual; to first order its k₁ has the opposite sign.
 //!
 //! Left out: tangential and thin-prism terms, k₃ and up, the rational form.
 //!
 //! One direction of a radial distortion fitted to the other.
 //!
-//! Programs and papers write distortion in either direction; a polynomial of one direction has no polynomial of the other
-//! as its inverse, but one comes near over a picture. The fit is least squares of the radius and says how far it is off.
+//! Programs and papers write distortion in either direction. The inverse of a polynomial is not a polynomial, but can be approximated by one over an
+//! image. The fit is least squares of the radius; its maximum error is reported.
 //!
-//! The even radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴), its inverse, and where it folds.
+//! The even radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴), its inverse, and its fold.
 //!
-//! The first radius at which dr′/dr = 1 + 3 k₁ r² + 5 k₂ r⁴ vanishes is the fold: beyond it two radii would share one
-//! image. Only the branch from 0 to the fold exists here; beyond it every function answers `None`.
-//! r is dimensionless: its unit is the caller's ([`RadialDistortion`] states it).
+//! The first radius at which dr′/dr = 1 + 3 k₁ r² + 5 k₂ r⁴ vanishes is the fold: beyond it two radii would share one image. Only the branch from 0
+//! to the fold is defined; beyond it every function returns `None`. r is dimensionless: the caller chooses its unit ([`RadialDistortion`] states it).
 
 #[cfg(test)]
 mod tests;
@@ -31,7 +29,7 @@ use glam::DVec2;
 
 use crate::root::increasing;
 
-/// Which way the polynomial runs.
+/// Direction of the polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sense {
     /// From the undistorted radius to the distorted one (OpenCV's direction).
@@ -45,21 +43,20 @@ pub enum Sense {
 pub enum RadiusUnit {
     /// Millimetres on the sensor.
     Millimetres,
-    /// Principal distances: tangents of the field angle (OpenCV). The principal distance is the focal length of a lens
-    /// focused at infinity.
+    /// Principal distances: tangents of the field angle (OpenCV). The principal distance is the focal length of a lens focused at infinity.
     FocalLengths,
-    /// Halves of the picture's diagonal.
+    /// Half of the image's diagonal.
     HalfDiagonals,
     /// Pixels (square ones).
     Pixels,
 }
 
-/// The lengths that the radius units stand for.
+/// Lengths of the radius units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadiusScales {
     /// The principal distance, mm.
     pub principal_distance_mm: f64,
-    /// Half the picture's diagonal, mm.
+    /// Half the image's diagonal, mm.
     pub half_diagonal_mm: f64,
     /// The pixel pitch, mm.
     pub pixel_pitch_mm: f64,
@@ -78,10 +75,10 @@ impl RadiusUnit {
     }
 }
 
-/// Why a distortion cannot be used.
+/// Error of a distortion.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum DistortionError {
-    /// A coefficient that is not a number, or so large that its radii are none.
+    /// A coefficient that is not a number, or is so large that its radii overflow.
     #[error("the distortion coefficients k1 = {k1}, k2 = {k2} must be finite and at most 1e30 in size")]
     Coefficient {
         /// First coefficient.
@@ -89,13 +86,13 @@ pub enum DistortionError {
         /// Second coefficient.
         k2: f64,
     },
-    /// A radius unit of no length.
+    /// A radius unit without a positive length.
     #[error("the distortion's radius unit is {length_mm} mm long; it must be positive and finite")]
     Unit {
         /// Length of the unit, mm.
         length_mm: f64,
     },
-    /// The picture reaches beyond the fold.
+    /// A fold inside the image.
     #[error(
         "the distortion with k1 = {k1}, k2 = {k2} folds the picture over at an observed radius of {fold_mm:.6} mm, but \
          the picture reaches out to {needed_mm:.6} mm: use coefficients fitted over the whole picture, or crop it"
@@ -107,7 +104,7 @@ pub enum DistortionError {
         k2: f64,
         /// Observed radius of the fold, mm.
         fold_mm: f64,
-        /// Largest observed radius asked for, mm.
+        /// Largest observed radius required, mm.
         needed_mm: f64,
     },
 }
@@ -124,11 +121,10 @@ pub struct RadialDistortion {
 }
 
 impl RadialDistortion {
-    /// The distortion whose polynomial runs by `sense` over radii in units of `unit_mm` millimetres
-    /// ([`RadiusUnit::length_mm`]).
+    /// Creates the distortion whose polynomial has the direction `sense`, over radii in units of `unit_mm` millimetres ([`RadiusUnit::length_mm`]).
     ///
     /// # Errors
-    /// Where a coefficient is not finite or beyond 1e30 (squares of it would overflow), or the unit not a positive length.
+    /// If a coefficient is not finite or beyond 1e30 (its square would overflow), or the unit is not a positive length.
     pub fn new(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> Result<Self, DistortionError> {
         if ![k1, k2].iter().all(|k| k.abs() <= LARGEST) {
             return Err(DistortionError::Coefficient { k1, k2 });
@@ -139,11 +135,11 @@ impl RadialDistortion {
         Ok(Self { sense, polynomial: RadialPolynomial::new(k1, k2), unit_mm })
     }
 
-    /// Refuses a distortion that folds inside a picture.
+    /// Refuses a distortion that folds inside an image.
     ///
     /// # Errors
-    /// Where the fold's observed radius is not beyond `max_observed_mm`, the largest distance of a point of the picture
-    /// from the principal point ([`Raster::max_radius_mm`](crate::Raster::max_radius_mm)).
+    /// If the fold's observed radius is not beyond `max_observed_mm`, the largest distance of a point of the image from the principal point
+    /// ([`Raster::max_radius_mm`](crate::Raster::max_radius_mm)).
     pub fn check(&self, max_observed_mm: f64) -> Result<(), DistortionError> {
         let fold_mm = self.fold_observed_mm();
         if fold_mm > max_observed_mm {
@@ -153,7 +149,7 @@ impl RadialDistortion {
         Err(DistortionError::Fold { k1, k2, fold_mm, needed_mm: max_observed_mm })
     }
 
-    /// Which way the polynomial runs.
+    /// Direction of the polynomial.
     #[must_use]
     pub fn sense(&self) -> Sense {
         self.sense
@@ -171,7 +167,7 @@ impl RadialDistortion {
         self.unit_mm
     }
 
-    /// The observed radius of the fold, mm; infinite where there is none.
+    /// The observed radius of the fold, mm; infinite if there is none.
     #[must_use]
     pub fn fold_observed_mm(&self) -> f64 {
         self.unit_mm
@@ -181,7 +177,7 @@ impl RadialDistortion {
             }
     }
 
-    /// The ideal radius of the fold, mm; infinite where there is none.
+    /// The ideal radius of the fold, mm; infinite if there is none.
     #[must_use]
     pub fn fold_ideal_mm(&self) -> f64 {
         self.unit_mm
@@ -215,8 +211,7 @@ impl RadialDistortion {
         self.radius(ideal_mm, Sense::IdealToObserved)
     }
 
-    /// How much ideal area one unit of observed area stands for, at an observed radius: (R/r) · dR/dr with R(r) the
-    /// ideal radius. 1 on the axis; `None` beyond the fold.
+    /// Ideal area per unit of observed area at an observed radius: (R/r) · dR/dr with R(r) the ideal radius. 1 on the axis; `None` beyond the fold.
     #[must_use]
     pub fn ideal_area_per_observed(&self, observed_mm: f64) -> Option<f64> {
         let ideal_mm = self.ideal_radius_mm(observed_mm)?;
@@ -244,7 +239,7 @@ fn scaled(point: DVec2, radius: impl Fn(f64) -> Option<f64>) -> Option<DVec2> {
     Some(if r > 0.0 { point * (mapped / r) } else { point })
 }
 
-/// A distortion fitted to another over a picture.
+/// A distortion fitted to another over an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     /// The fitted distortion.
@@ -254,11 +249,11 @@ pub struct Fit {
 }
 
 impl RadialDistortion {
-    /// The polynomial of direction `sense` and the same radius unit that comes nearest to this distortion, by least
-    /// squares of the radius over the radii of a picture.
+    /// Fits the polynomial of direction `sense` and the same radius unit to this distortion, by least squares of the radius over the radii of an
+    /// image.
     ///
     /// # Errors
-    /// Where this distortion folds inside the picture, or the fitted one does.
+    /// If this distortion folds inside the image, or the fitted one does.
     pub fn fitted(&self, sense: Sense, max_observed_mm: f64) -> Result<Fit, DistortionError> {
         self.check(max_observed_mm)?;
         let samples = self.pairs(sense, max_observed_mm);
@@ -269,7 +264,7 @@ impl RadialDistortion {
         Ok(Fit { distortion, worst_mm: worst * self.unit_mm() })
     }
 
-    /// Argument and value, in radius units, of the map of direction `sense` over the radii of a picture.
+    /// Argument and value, in radius units, of the map of direction `sense` over the radii of an image.
     fn pairs(&self, sense: Sense, max_observed_mm: f64) -> Vec<[f64; 2]> {
         (1..=FIT_SAMPLES)
             .filter_map(|i| {
@@ -286,7 +281,7 @@ impl RadialDistortion {
     }
 }
 
-/// Radii at which a fit compares: many more than a fifth-degree difference has turning points.
+/// Radii at which a fit is evaluated: many more than the turning points of a fifth-degree difference.
 const FIT_SAMPLES: usize = 256;
 
 /// k₁, k₂ that minimise Σ (r (1 + k₁ r² + k₂ r⁴) − r′)², by normal equations in the radius scaled to 1 at its end.
@@ -329,13 +324,13 @@ impl RadialPolynomial {
         [self.k1, self.k2]
     }
 
-    /// The first radius with a vanishing derivative; infinite where there is none.
+    /// The first radius with a vanishing derivative; infinite if there is none.
     #[must_use]
     pub fn fold(&self) -> f64 {
         self.fold
     }
 
-    /// The value at the fold: the least upper bound of what [`forward`](Self::forward) returns.
+    /// The value at the fold: the supremum of [`forward`](Self::forward).
     #[must_use]
     pub fn fold_value(&self) -> f64 {
         if self.fold.is_finite() { self.value(self.fold) } else { f64::INFINITY }
@@ -379,7 +374,7 @@ impl RadialPolynomial {
     }
 }
 
-/// The smallest positive root in r of 1 + 3 k₁ r² + 5 k₂ r⁴; infinite where there is none.
+/// The smallest positive root in r of 1 + 3 k₁ r² + 5 k₂ r⁴; infinite if there is none.
 fn fold(k1: f64, k2: f64) -> f64 {
     let (a, b) = (5.0 * k2, 3.0 * k1);
     let discriminant = b * b - 4.0 * a;

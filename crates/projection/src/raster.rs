@@ -1,12 +1,12 @@
-//! Where on the sensor plane a pixel lies, and the camera matrix that other programs expect.
+//! Positions of pixels on the sensor plane, and the camera matrix that other programs expect.
 //!
-//! Raster coordinates have their origin at the top-left corner of the picture and pixel centres at + 0.5; column i
-//! covers [i, i + 1). OpenCV and ROS put the centre of the top-left pixel at (0, 0), so their cx = cx(raster) − 0.5 and
-//! cy = cy(raster) − 0.5; COLMAP uses the raster's own convention. fx and fy are the same in all of them.
+//! Raster coordinates have their origin at the top-left corner of the image and pixel centres at + 0.5; column i covers [i, i + 1). OpenCV and ROS
+//! put the centre of the top-left pixel at (0, 0), so their cx = cx(raster) − 0.5 and cy = cy(raster) − 0.5; COLMAP uses the raster's own convention.
+//! fx and fy are the same in all of them.
 
 use glam::DVec2;
 
-/// Why a raster cannot be.
+/// Error of a raster.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RasterError {
     /// No pixels.
@@ -45,10 +45,10 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// A grid of `width` × `height` pixels of `pitch_mm`, with the optical axis at `principal_px` (raster coordinates).
+    /// Creates a grid of `width` × `height` pixels of `pitch_mm`, with the optical axis at `principal_px` (raster coordinates).
     ///
     /// # Errors
-    /// Where there are no pixels or a number is not finite or a pitch not positive.
+    /// If there are no pixels, a number is not finite, or a pitch is not positive.
     pub fn new(width: usize, height: usize, pitch_mm: DVec2, principal_px: DVec2) -> Result<Self, RasterError> {
         if width == 0 || height == 0 {
             return Err(RasterError::Empty { width, height });
@@ -62,7 +62,7 @@ impl Raster {
         Ok(Self { width, height, pitch_mm, principal_px })
     }
 
-    /// A grid of square pixels with the optical axis at its centre.
+    /// Creates a grid of square pixels with the optical axis at its centre.
     ///
     /// # Errors
     /// As [`Raster::new`].
@@ -71,7 +71,7 @@ impl Raster {
         Self::new(width, height, DVec2::splat(pitch_mm), centre)
     }
 
-    /// The same grid with columns more on the left and on the right, and rows more above and below.
+    /// The same grid with additional columns on the left and on the right, and additional rows above and below.
     #[must_use]
     pub fn widened(&self, [columns, rows]: [usize; 2]) -> Self {
         Self {
@@ -106,19 +106,19 @@ impl Raster {
         self.principal_px
     }
 
-    /// Width and height of the picture on the sensor, mm.
+    /// Width and height of the image on the sensor, mm.
     #[must_use]
     pub fn size_mm(&self) -> DVec2 {
         self.pitch_mm * DVec2::new(self.width as f64, self.height as f64)
     }
 
-    /// Half the picture's diagonal, mm.
+    /// Half the image's diagonal, mm.
     #[must_use]
     pub fn half_diagonal_mm(&self) -> f64 {
         0.5 * self.size_mm().length()
     }
 
-    /// The largest distance of a point of the picture from the principal point, mm.
+    /// The largest distance of a point of the image from the principal point, mm.
     #[must_use]
     pub fn max_radius_mm(&self) -> f64 {
         let far_px =
@@ -153,7 +153,7 @@ pub struct CameraMatrix {
     pub fx: f64,
     /// Principal distance in rows, px.
     pub fy: f64,
-    /// Columns that a principal distance downwards adds, px; 0 where rows and columns are at right angles.
+    /// Columns added per principal distance downwards, px; 0 if rows and columns are at right angles.
     pub skew: f64,
     /// Column coordinate of the principal point, px.
     pub cx: f64,
@@ -162,13 +162,13 @@ pub struct CameraMatrix {
 }
 
 impl CameraMatrix {
-    /// The same camera with the centre of the top-left pixel at (0, 0), as OpenCV and ROS write it.
+    /// The same camera with the centre of the top-left pixel at (0, 0), as in OpenCV and ROS.
     #[must_use]
     pub fn to_opencv(self) -> Self {
         Self { cx: self.cx - 0.5, cy: self.cy - 0.5, ..self }
     }
 
-    /// The raster's matrix of one that OpenCV or ROS wrote.
+    /// The raster's matrix of one from OpenCV or ROS.
     #[must_use]
     pub fn from_opencv(self) -> Self {
         Self { cx: self.cx + 0.5, cy: self.cy + 0.5, ..self }
@@ -193,7 +193,7 @@ impl CameraMatrix {
         self.fx * self.fy
     }
 
-    /// Row by row, as calibration files keep it.
+    /// Row by row, as stored in calibration files.
     #[must_use]
     pub fn rows(self) -> [[f64; 3]; 3] {
         [[self.fx, self.skew, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]]

@@ -1,7 +1,7 @@
-//! The rectilinear (perspective, gnomonic) projection, in which straight lines stay straight, and why a model cannot be.
+//! The rectilinear (perspective, gnomonic) projection, in which straight lines stay straight, and the errors of models.
 //!
-//! x = c · X / Z, y = c · Y / Z, with c the principal distance: the focal length of a lens focused at infinity, longer
-//! where it is focused nearer. Covers less than 180°: directions with Z ≤ 0 have no image.
+//! x = c · X / Z, y = c · Y / Z, with c the principal distance: the focal length of a lens focused at infinity, longer at nearer focus. Covers less
+//! than 180°: directions with Z ≤ 0 have no image.
 
 use glam::{DVec2, DVec3};
 
@@ -27,15 +27,15 @@ impl Rectilinear {
     }
 }
 
-/// A number of a model that it cannot have.
+/// An illegal number in a model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{name} = {value}; expected {expected}")]
 pub struct ModelError {
     /// The parameter's name.
     pub name: String,
-    /// The value it was given.
+    /// Value given.
     pub value: f64,
-    /// What is legal.
+    /// The legal range.
     pub expected: &'static str,
 }
 
@@ -45,10 +45,10 @@ impl ModelError {
     }
 }
 
-/// Largest size of a parameter: squares of more overflow, and no camera has it.
+/// Largest magnitude of a parameter: larger squares overflow, and no camera has it.
 const LARGEST: f64 = 1e30;
 
-/// Refuses what is not finite, or too large to be calculated with.
+/// Refuses values that are not finite or too large for computation.
 pub(crate) fn finite<'a>(values: impl IntoIterator<Item = (&'a str, f64)>) -> Result<(), ModelError> {
     match values.into_iter().find(|(_, value)| value.is_nan() || value.abs() > LARGEST) {
         Some((name, value)) if value.is_finite() => {

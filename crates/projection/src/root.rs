@@ -1,11 +1,11 @@
-//! Roots: of an increasing function by Newton's method in a bracket, and of a polynomial by its stationary points.
+//! Root finding: of an increasing function by Newton's method in a bracket, and of a polynomial by its stationary points.
 
-/// Newton steps before a bracket of any size has been halved to nothing.
+/// Maximum Newton steps; enough to bisect a bracket of any size to nothing.
 const STEPS: usize = 200;
 
-/// The argument in [`low`, `high`) at which an increasing function takes the value `target`; `None` where it reaches it at
-/// the upper end or later. `function` gives value and slope. Newton's method from `guess`, kept in the bracket; where it
-/// would leave or its steps do not halve, the bracket is halved instead. To the last units in the last place.
+/// The argument in [`low`, `high`) at which an increasing function has the value `target`; `None` if it reaches it at the upper end or later.
+/// `function` gives value and slope. Newton's method from `guess`, kept in the bracket; if it would leave or its steps do not halve, the bracket is
+/// bisected instead. Accurate to the last units in the last place.
 pub(crate) fn increasing(
     target: f64,
     [mut low, mut high]: [f64; 2],
@@ -62,7 +62,7 @@ pub(crate) fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
     c
 }
 
-/// The smallest x in (0, `limit`] at which the polynomial changes its sign. Where it only touches zero it does not.
+/// The smallest x in (0, `limit`] at which the polynomial changes its sign. Touching zero does not count.
 pub(crate) fn first_sign_change(c: &[f64], limit: f64) -> Option<f64> {
     sign_changes(c, limit.min(bound(c))).first().copied()
 }
@@ -73,7 +73,7 @@ fn bound(c: &[f64]) -> f64 {
     1.0 + c.iter().map(|c| (c / leading).abs()).fold(0.0, f64::max)
 }
 
-/// All of them, ascending: between stationary points a polynomial has one at most.
+/// All sign changes, ascending: between stationary points a polynomial has one at most.
 fn sign_changes(c: &[f64], limit: f64) -> Vec<f64> {
     if c.iter().skip(1).all(|c| *c == 0.0) {
         return Vec::new();
@@ -84,7 +84,7 @@ fn sign_changes(c: &[f64], limit: f64) -> Vec<f64> {
     knots.windows(2).filter_map(|w| crossing([w[0], w[1]], |x| polynomial(c, x))).collect()
 }
 
-/// Where `function` changes its sign between two ends of different signs, by bisection.
+/// The sign change of `function` between two ends of different signs, by bisection.
 pub(crate) fn crossing([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> Option<f64> {
     let rising = function(low) < 0.0;
     if rising == (function(high) < 0.0) {
@@ -127,7 +127,7 @@ mod tests {
             // Newton stops at a step of one unit in the last place.
             assert!((increasing(8.0, [0.0, high], 0.1, cube).expect("inside") - 2.0).abs() < 1e-15);
         }
-        // Newton's steps alone go to and fro for ever: √|x − 2| with the sign of x − 2, from any guess.
+        // Newton's steps alone alternate for ever: √|x − 2| with the sign of x − 2, from any guess.
         let root = |x: f64| [(x - 2.0).signum() * (x - 2.0).abs().sqrt() + 2.0, 0.5 / (x - 2.0).abs().sqrt()];
         assert!((increasing(2.0, [0.0, 5.0], 3.0, root).expect("inside") - 2.0).abs() < 1e-15);
         assert!(increasing(27.0, [0.0, 3.0], 1.0, cube).is_none());

@@ -1,6 +1,6 @@
-//! Colour filter arrays: which channel a pixel belongs to.
+//! Colour filter arrays: the channel of each pixel.
 
-/// The four places that a Bayer tile can start at, named by its rows: the first two letters are the top row.
+/// The four possible phases of a Bayer tile, named by its rows: the first two letters are the top row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BayerPhase {
     /// Red green / green blue.
@@ -20,15 +20,15 @@ pub struct Cfa {
     channels: Vec<usize>,
 }
 
-/// Why a tile cannot be made.
+/// Error of a tile.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CfaError {
     /// No pixels, or not a rectangle.
     #[error("a colour filter tile {width} wide and {height} high needs {} entries and at least one, but {entries} are given", .width * .height)]
     Shape {
-        /// Columns asked for.
+        /// Columns requested.
         width: usize,
-        /// Rows asked for.
+        /// Rows requested.
         height: usize,
         /// Entries given.
         entries: usize,
@@ -54,10 +54,10 @@ impl Cfa {
         Self { width: 2, channels: channels.to_vec() }
     }
 
-    /// Any tile, as channel numbers row by row.
+    /// Creates any tile, from channel numbers row by row.
     ///
     /// # Errors
-    /// Where the entries do not fill the tile or there are none.
+    /// If the entries do not fill the tile or there are none.
     pub fn tile(width: usize, height: usize, channels: Vec<usize>) -> Result<Self, CfaError> {
         if channels.is_empty() || width * height != channels.len() {
             return Err(CfaError::Shape { width, height, entries: channels.len() });

@@ -1,6 +1,6 @@
-//! Why a sensor cannot be, and the checks that find it.
+//! Errors of a sensor, and the checks that find them.
 
-/// Why a sensor cannot be.
+/// An error of a sensor.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SensorError {
     /// A number outside its range.
@@ -10,7 +10,7 @@ pub enum SensorError {
         key: &'static str,
         /// Its value.
         value: f64,
-        /// What would be legal.
+        /// The legal range.
         expected: &'static str,
     },
     /// A quantum efficiency outside 0 to 1.
@@ -25,12 +25,12 @@ pub enum SensorError {
         /// Its largest value.
         high: f32,
     },
-    /// The tile names a channel that does not exist.
+    /// A channel number in the tile without a channel.
     #[error("the colour filter tile names channel {channel}, but there are only {channels}, counted from 0")]
     NoSuchChannel {
         /// The channel's number.
         channel: usize,
-        /// How many there are.
+        /// Number of channels.
         channels: usize,
     },
     /// A channel that no pixel has.
@@ -39,15 +39,15 @@ pub enum SensorError {
     /// Parameters that contradict each other.
     #[error("{key}: {problem}")]
     Conflict {
-        /// The parameter that gives way.
+        /// The parameter to be changed.
         key: &'static str,
-        /// What is wrong, and what to do.
+        /// Problem and remedy.
         problem: String,
     },
 }
 
 impl SensorError {
-    /// The key at fault, by its path below `[sensor]` in a camera file, such as `dark.temperature_c`; of a list of tables without a number.
+    /// The key concerned, by its path below `[sensor]` in a camera file, such as `dark.temperature_c`; for a list of tables without an index.
     #[must_use]
     pub fn key(&self) -> &'static str {
         match self {
@@ -58,7 +58,7 @@ impl SensorError {
     }
 }
 
-/// Collects what is wrong with a sensor's parameters.
+/// Collects the errors of a sensor's parameters.
 #[derive(Debug, Default)]
 pub(crate) struct Checks {
     pub(crate) errors: Vec<SensorError>,

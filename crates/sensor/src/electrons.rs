@@ -6,14 +6,14 @@ use rayon::prelude::*;
 
 use crate::sensor::Sensor;
 
-/// Rows of light that are read at a time.
+/// Rows of light read at a time.
 const STRIP_ROWS: usize = 16;
 
 impl Sensor {
     /// Mean electrons of every pixel: Σ over bands of (band mean of E) × (integral of R over the band).
     ///
-    /// Exact where E or R is constant within each band. Light outside the cube's bands is not there. The sum runs in f64
-    /// in order of wavelength, so the result does not depend on threads; it uses the rayon pool of its caller.
+    /// Exact if E or R is constant within each band. Light outside the cube's bands counts as zero. The sum is computed in f64 in order of
+    /// wavelength, so the result does not depend on threads; it uses the rayon pool of its caller.
     #[must_use]
     pub fn electrons(&self, irradiance: &SpectralCube<Irradiance>) -> Plane<MeanElectrons> {
         let (width, height) = (irradiance.width(), irradiance.height());
@@ -27,10 +27,10 @@ impl Sensor {
         plane
     }
 
-    /// The same of a cube wherever it is, of which some rows at a time are read.
+    /// The same for a stored cube, of which some rows at a time are read.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// If they cannot be read.
     pub fn electrons_of(&self, irradiance: &KeptCube<Irradiance>) -> Result<Plane<MeanElectrons>, String> {
         let (width, height) = (irradiance.width(), irradiance.height());
         let mut plane = Plane::new(width, height);
@@ -49,7 +49,7 @@ impl Sensor {
         Ok(plane)
     }
 
-    /// Of row `y` of the sensor, which is row `place` of the light.
+    /// Mean electrons of row `y` of the sensor, which is row `place` of the light.
     fn electrons_of_row(
         &self,
         light: &SpectralCube<Irradiance>,

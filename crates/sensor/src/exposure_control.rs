@@ -1,10 +1,10 @@
-//! Automatic exposure: time and gain that bring a percentile of the picture to a target.
+//! Automatic exposure: time and gain that bring a percentile of the image to a target.
 //!
-//! After a frame, ℓ is the level below which a fraction p of the picture's pixels lies, as a fraction of the range from black to white.
-//! With E the product of time and gain, the next frame has E ← E (target/ℓ)^d, d the damping in (0, 1], the factor kept within
-//! 1/16 and 16. Time is used first, then gain, each within its limits: t = clamp(E/g_min), g = clamp(E/t). Where ℓ is white,
-//! target/ℓ is the target itself: the control walks down by that factor a frame until it sees.
-//! Left out: metering by region, flicker avoidance, delays of more than a frame, steps of lines.
+//! After a frame, ℓ is the level below which a fraction p of the image's pixels lies, as a fraction of the range from black to white. With E the
+//! product of time and gain, the next frame has E ← E (target/ℓ)^d, d the damping in (0, 1], the factor limited to 1/16 to 16. Time is changed first,
+//! then gain, each within its limits: t = clamp(E/g_min), g = clamp(E/t). Where ℓ is white, target/ℓ is the target itself: the control lowers E by
+//! that factor per frame until the level is below white. Left out: metering by region, flicker avoidance, delays of more than a frame, steps of
+//! lines.
 
 use etendue_core::{EffectStatus, maths::f64::pow};
 
@@ -12,12 +12,12 @@ use crate::capture::{OperatingPoint, Operation};
 use crate::effect::{Effect, SensorFacts};
 use crate::{check::Checks, raw::Raw};
 
-/// How exposure is set from frame to frame.
+/// Automatic control of exposure from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExposureControl {
-    /// Percentile of the picture's levels that shall reach the target, (0, 100).
+    /// Percentile of the image's levels that is brought to the target, (0, 100).
     pub percentile: f64,
-    /// Where it shall end, as a fraction of the range from black to white, (0, 1).
+    /// Target level, as a fraction of the range from black to white, (0, 1).
     pub target: f64,
     /// Exponent of a frame's correction, (0, 1].
     pub damping: f64,
@@ -40,7 +40,7 @@ impl ExposureControl {
         OperatingPoint { exposure_s, analogue_gain }
     }
 
-    /// The level below which the percentile lies, 0 to 1; `None` where there are no pixels.
+    /// The level of the percentile, 0 to 1; `None` if there are no pixels.
     fn level(&self, raw: &Raw) -> Option<f64> {
         let linear = raw.linear();
         let mut dn = linear.plane.samples().to_vec();
@@ -108,7 +108,7 @@ mod tests {
         Sensor::new(p).expect("legal")
     }
 
-    /// Levels and operating points over frames of a scene that gives `mean` in the described exposure.
+    /// Levels and operating points over frames of a scene with `mean` electrons in the described exposure.
     fn frames(sensor: &Sensor, mean: f32, count: u32) -> Vec<(u32, OperatingPoint)> {
         let mut state = SensorState::default();
         let mut seen = Vec::new();
@@ -125,7 +125,7 @@ mod tests {
         for (mean, damping, count) in [(1500.0, 1.0, 4), (1e7, 1.0, 14), (3000.0, 0.5, 12), (1400.0, 0.5, 14)] {
             let seen = frames(&controlled(damping), mean, count);
             let (dn, _) = *seen.last().expect("frames");
-            // Half of the well, to a rounding of the level that was measured.
+            // Half of the well, to a rounding of the measured level.
             assert!((f64::from(dn) / 5000.0 - 1.0).abs() < 0.02, "{mean}: {seen:?}");
         }
     }
@@ -134,7 +134,7 @@ mod tests {
     fn time_comes_before_gain_and_limits_hold() {
         let (_, point) = *frames(&controlled(1.0), 500.0, 6).last().expect("frames");
         assert_eq!(point.exposure_s, 0.04);
-        // 2000 e⁻ at the longest time; half of the converter's 16 383 DN is white's half where the gain exceeds 1.6.
+        // 2000 e⁻ at the longest time; half of the ADC's 16 383 DN is half of white if the gain exceeds 1.6.
         assert!((point.analogue_gain - 16_383.0 / 4000.0).abs() < 0.01, "{point:?}");
         let (_, point) = *frames(&controlled(1.0), 1.0, 8).last().expect("frames");
         assert_eq!((point.exposure_s, point.analogue_gain), (0.04, 8.0));

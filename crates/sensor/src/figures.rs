@@ -7,21 +7,20 @@
 //! | quantisation noise | σ_q² = 1/12 DN² |
 //! | temporal dark noise, e⁻ | σ_d = √(σ_y.dark² − σ_q²)/K |
 //! | absolute sensitivity threshold, e⁻ | μ_e.min = √(σ_d² + σ_q²/K²) + ½ |
-//! | greatest signal-to-noise ratio | SNR_max = √μ_e.sat |
+//! | largest signal-to-noise ratio | SNR_max = √μ_e.sat |
 //! | dynamic range | DR = μ_e.sat/μ_e.min |
 //!
-//! What range of light one frame holds, and how well, as the description says it.
+//! The dynamic range of one frame and its signal-to-noise ratio, as described.
 //!
-//! In photo-electrons of the first capture: the least is the signal whose ratio to its noise is 1,
-//! μ = ½ (1 + √(1 + 4 σ²)), σ² = read noise² + dark electrons + quantisation² (EMVA 1288, equation 26, solved without its
-//! approximation); the most is that of the white level. The range is 20 log₁₀ (most/least) dB.
+//! In photo-electrons of the first capture: the lower end is the signal at a signal-to-noise ratio of 1, μ = ½ (1 + √(1 + 4 σ²)), σ² = read noise² +
+//! dark electrons + quantisation² (EMVA 1288, equation 26, solved without its approximation); the upper end is that of the white level. The range is
+//! 20 log₁₀ (upper/lower) dB.
 //!
-//! Captures are read up to their switch; there the signal-to-noise ratio falls from μ_k/√(μ_k + σ_k²), with μ_k the electrons
-//! that this capture has of the light, to that of the next one. Fixed patterns are no part of it.
+//! Each capture is used up to its switch. There the signal-to-noise ratio falls from μ_k/√(μ_k + σ_k²), with μ_k the electrons of this capture, to
+//! that of the next one. Fixed patterns are excluded.
 //!
-//! How much the number of a pixel fluctuates from frame to frame under steady light: shot noise of light and dark current, read
-//! noise and quantisation (EMVA 1288, equation 10), in the electrons of the described exposure. Fixed patterns, blinking pixels
-//! and what a sensor remembers of earlier frames are no part of it.
+//! Temporal fluctuation of a pixel's number under constant light: shot noise of light and dark current, read noise and quantisation (EMVA 1288,
+//! equation 10), in the electrons of the described exposure. Excluded: fixed patterns, blinking pixels and the sensor's memory of earlier frames.
 
 use etendue_core::maths::f64::{log2, log10};
 
@@ -31,11 +30,10 @@ use crate::{capture::OperatingPoint, parameters::SensorParameters, sensor::Senso
 /// Variance of rounding, DN².
 pub const QUANTISATION_DN2: f64 = 1.0 / 12.0;
 
-/// The least temporal variance of dark pixels that tells their noise, DN²: below, rounding decides what is measured.
+/// Minimum temporal variance of dark pixels from which their noise can be determined, DN²; below it, rounding dominates.
 pub const MIN_DARK_DN2: f64 = 0.24;
 
-/// Temporal dark noise, e⁻, of a measured deviation of digital numbers (rounding included) at a gain in DN/e⁻; `None` where
-/// rounding alone makes more.
+/// Temporal dark noise, e⁻, from a measured deviation of digital numbers (rounding included) at a gain in DN/e⁻; `None` if rounding alone exceeds it.
 #[must_use]
 pub fn dark_noise_e(sigma_y_dark_dn: f64, gain_dn_e: f64) -> Option<f64> {
     let variance = sigma_y_dark_dn * sigma_y_dark_dn - QUANTISATION_DN2;
@@ -60,21 +58,21 @@ pub fn bit(ratio: f64) -> f64 {
     log2(ratio)
 }
 
-/// The range of light of one frame, in photo-electrons of the first capture.
+/// The dynamic range of one frame, in photo-electrons of the first capture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DynamicRange {
-    /// The signal whose ratio to its noise is 1, e⁻.
+    /// The signal at a signal-to-noise ratio of 1, e⁻.
     pub least_e: f64,
     /// The signal that reaches the white level, e⁻.
     pub most_e: f64,
-    /// Where the reading goes on to the next capture.
+    /// Switches to the next capture.
     pub switches: Vec<Switch>,
 }
 
 /// A switch from a capture to the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Switch {
-    /// The signal there, e⁻ of the first capture.
+    /// The signal at the switch, e⁻ of the first capture.
     pub at_e: f64,
     /// Signal-to-noise ratio of the capture before.
     pub before: f64,
@@ -91,7 +89,7 @@ impl DynamicRange {
 }
 
 impl Sensor {
-    /// The range of light that one frame of the sensor holds, as described.
+    /// The dynamic range of one frame of the sensor as described.
     #[must_use]
     pub fn dynamic_range(&self) -> DynamicRange {
         let p = self.parameters();
@@ -112,28 +110,28 @@ impl Sensor {
 /// The noise of one frame by the mean signal of a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TemporalNoise {
-    /// Those of a frame, the most sensitive first.
+    /// The captures of a frame, the most sensitive first.
     captures: Vec<CaptureNoise>,
     exposure_s: f64,
     counts: bool,
 }
 
-/// A capture as far as its noise goes.
+/// The noise properties of a capture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct CaptureNoise {
-    /// What it has of the described exposure's light.
+    /// Its fraction of the described exposure's light.
     light: f64,
     /// Wells that are read together.
     wells: f64,
-    /// Variance of all but the signal's shot noise, e⁻² of its own, at the signal 0.
+    /// Variance without the signal's shot noise, e⁻² of the capture, at the signal 0.
     dark_e2: f64,
-    /// Signal of a pixel up to which it is read, e⁻ of the described exposure: to white, or to the switch to the next one.
+    /// Upper limit of the signal of a pixel for this capture, e⁻ of the described exposure: white, or the switch to the next one.
     up_to_e: f64,
 }
 
 impl Sensor {
-    /// The noise of a frame as described; under exposure control that of the longest exposure and the largest gain, which is the
-    /// least beside the light, and which no light saturates.
+    /// The noise of a frame as described. Under exposure control that of the longest exposure and the largest gain: the lowest relative to the light,
+    /// without saturation.
     #[must_use]
     pub fn temporal_noise(&self) -> TemporalNoise {
         let p = self.parameters();
@@ -162,7 +160,7 @@ fn most_sensitive(p: &SensorParameters) -> OperatingPoint {
 }
 
 impl TemporalNoise {
-    /// That of one capture of `exposure_s` with photon noise and a constant variance (e⁻²), white at `white_e` electrons.
+    /// The noise of one capture of `exposure_s` with photon noise and a constant variance (e⁻²), white at `white_e` electrons.
     #[must_use]
     pub fn of_one_capture(exposure_s: f64, dark_e2: f64, white_e: f64) -> Self {
         Self {
@@ -172,15 +170,15 @@ impl TemporalNoise {
         }
     }
 
-    /// The same of a sensor that no light saturates.
+    /// The same for a sensor that never saturates.
     #[must_use]
     pub fn never_white(mut self) -> Self {
         self.captures.iter_mut().for_each(|capture| capture.up_to_e = f64::INFINITY);
         self
     }
 
-    /// Variance of the signal of a pixel of `mean_e` electrons of the described exposure (below 0: as 0), e⁻² of that exposure: that
-    /// of the capture that is read there. Of pixels that are read together each has its share.
+    /// Variance of the signal of a pixel of `mean_e` electrons of the described exposure (negative values count as 0), e⁻² of that exposure: that of
+    /// the capture used at this signal. For pixels that are read together it is divided among them.
     #[must_use]
     pub fn variance_e2(&self, mean_e: f64) -> f64 {
         let mean_e = mean_e.max(0.0);
@@ -191,7 +189,7 @@ impl TemporalNoise {
         })
     }
 
-    /// The signal of a pixel, e⁻ of the described exposure, from which on every capture is white.
+    /// The signal of a pixel, e⁻ of the described exposure, above which every capture is white.
     #[must_use]
     pub fn white_e(&self) -> f64 {
         self.captures.last().map_or(0.0, |capture| capture.up_to_e)
@@ -258,7 +256,7 @@ mod tests {
         let range = Sensor::new(p).expect("legal").dynamic_range();
         let switch = range.switches[0];
         assert!((switch.at_e - 54_000.0).abs() < 1e-6 && (range.most_e - 960_000.0).abs() < 1e-3);
-        // Shot noise alone, but for 1/12: √54 000 and √(54 000/16).
+        // Shot noise alone, except for 1/12: √54 000 and √(54 000/16).
         assert!((switch.before / 232.38 - 1.0).abs() < 1e-4 && (switch.after / 58.095 - 1.0).abs() < 1e-4);
     }
 

@@ -1,16 +1,14 @@
-//! Which pixels are read, and which are read together.
+//! Sensor layout: the pixels that are read, and those that are read together.
 //!
-//! - Optical black: rows above and columns left of the picture that no light reaches. They have dark current, smear and all noises.
-//! - Binning: n × m pixels of the same colour give one. Charge: their electrons are added before the chain, whose noise comes once (the
-//!   register is taken to hold the sum). Digital: their digital numbers are averaged and rounded.
-//!   Of tiles w × h pixels, the pixel (x, y) of the result takes the pixels ⌊x/w⌋ w n + x mod w + i w of a row, i < n, and so down: the
-//!   tile's order stays.
-//! - Skipping: of every n × m tiles of the colour filter array only the first is read. The pixel (x, y) of the result is the pixel
-//!   (⌊x/w⌋ w n + x mod w, ⌊y/h⌋ h m + y mod h) alone, without its neighbours' charge: finer patterns alias. The others still collect,
-//!   smear and bloom.
-//! - Region: a rectangle of the picture is read. The pixels around it still collect, smear and bloom.
+//! - Optical black: rows above and columns left of the image without light. They have dark current, smear and all noises.
+//! - Binning: n × m pixels of the same colour give one. Charge: their electrons are added before the read-out chain, whose noise is added once (the
+//!   register is assumed to hold the sum). Digital: their digital numbers are averaged and rounded. With tiles of w × h pixels, the pixel (x, y) of
+//!   the result takes the pixels ⌊x/w⌋ w n + x mod w + i w of a row, i < n, and likewise along columns: the order of the tile is preserved.
+//! - Skipping: of every n × m tiles of the colour filter array only the first is read. The pixel (x, y) of the result is the pixel (⌊x/w⌋ w n + x mod
+//!   w, ⌊y/h⌋ h m + y mod h) alone, without its neighbours' charge: finer patterns alias. The others still collect charge, smear and bloom.
+//! - Region: a rectangle of the image is read. The pixels around it still collect charge, smear and bloom.
 //!
-//! Left out: binning without regard to colour, binning and skipping together.
+//! Left out: binning across colours, binning and skipping together.
 
 #[cfg(test)]
 mod tests;
@@ -22,12 +20,12 @@ use crate::check::{Checks, SensorError};
 use crate::effect::{Effect, SensorFacts};
 use crate::{capture::Operation, cfa::Cfa};
 
-/// Pixels that no light reaches.
+/// Optical-black pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OpticalBlack {
-    /// Rows above the picture.
+    /// Rows above the image.
     pub rows: usize,
-    /// Columns left of the picture.
+    /// Columns left of the image.
     pub columns: usize,
 }
 
@@ -44,7 +42,7 @@ pub struct Region {
     pub height: usize,
 }
 
-/// What is put together.
+/// Quantity combined by binning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinningOf {
     /// Charge is added before it is read.
@@ -60,20 +58,20 @@ pub struct Binning {
     pub columns: usize,
     /// Pixels of a column.
     pub rows: usize,
-    /// What is put together.
+    /// Quantity combined.
     pub of: BinningOf,
 }
 
-/// Which pixels are read, and which are read together.
+/// The pixels that are read, and those that are read together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// Pixels that no light reaches.
+    /// Optical-black pixels.
     pub optical_black: OpticalBlack,
-    /// The part of the picture that is read; `None`: all of it.
+    /// The part of the image that is read; `None`: all of it.
     pub region: Option<Region>,
-    /// Pixels that are read together; `None`: each on its own.
+    /// Binning; `None`: each pixel on its own.
     pub binning: Option<Binning>,
-    /// Pixels that are not read; `None`: all are.
+    /// Skipping; `None`: all pixels are read.
     pub skipping: Option<Skipping>,
 }
 
@@ -81,7 +79,7 @@ impl Effect for Layout {
     const NAME: &'static str = "region and binning";
     const KEY: &'static str = "sensor.binning";
 
-    /// It has to fit the picture, whose size the sensor does not know ([`Layout::errors`]).
+    /// The layout must fit the image, whose size the sensor does not know ([`Layout::errors`]).
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
@@ -105,20 +103,20 @@ impl Effect for Layout {
         if parts.is_empty() { EffectStatus::NotDescribed } else { EffectStatus::Modelled(parts.join("; ")) }
     }
 
-    /// A sensor is not without it.
+    /// A sensor always has a layout.
     fn left_out_by(&self) -> Vec<KeyChange> {
         Vec::new()
     }
 }
 
 impl Layout {
-    /// Whether the picture has each pixel of the sensor as one of its own.
+    /// True if every pixel of the sensor is a pixel of the image.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.region.is_none() && self.binning.is_none() && self.skipping.is_none()
     }
 
-    /// What is wrong with this layout on a picture of `width` × `height` pixels under a tile.
+    /// Errors of this layout for an image of `width` × `height` pixels under a tile.
     pub(crate) fn errors(&self, cfa: &Cfa, width: usize, height: usize) -> Vec<SensorError> {
         let mut checks = Checks::default();
         let (w, h) = (cfa.width(), cfa.height());
@@ -164,7 +162,7 @@ impl Layout {
         checks.errors
     }
 
-    /// The whole array: the picture with the pixels that no light reaches. `None` where there are none.
+    /// The whole array: the image with its optical-black pixels. `None` if there are none.
     pub(crate) fn with_optical_black(&self, picture: &Plane<MeanElectrons>) -> Option<Plane<MeanElectrons>> {
         let OpticalBlack { rows, columns } = self.optical_black;
         if rows == 0 && columns == 0 {
@@ -179,17 +177,17 @@ impl Layout {
         Some(array)
     }
 
-    /// The binning of charge, where there is one.
+    /// The binning of charge, if any.
     pub(crate) fn charge_binning(&self) -> Option<Binning> {
         self.binning.filter(|b| b.of == BinningOf::Charge)
     }
 
-    /// The binning of digital numbers, where there is one.
+    /// The binning of digital numbers, if any.
     pub(crate) fn number_binning(&self) -> Option<Binning> {
         self.binning.filter(|b| b.of == BinningOf::Numbers)
     }
 
-    /// How many columns and rows of the array make one of the result.
+    /// Columns and rows of the array per pixel of the result.
     fn steps(&self) -> (usize, usize) {
         let binned = self.binning.map(|b| (b.columns, b.rows));
         binned.or(self.skipping.map(|s| (s.columns, s.rows))).unwrap_or((1, 1))
@@ -201,22 +199,22 @@ impl Layout {
         self.region.map(|r| Region { x: r.x / n, y: r.y / m, width: r.width / n, height: r.height / m })
     }
 
-    /// Where the picture lies in a raw of `width` × `height` pixels.
+    /// Position of the image in a raw of `width` × `height` pixels.
     pub(crate) fn picture_in_raw(&self, width: usize, height: usize) -> Region {
         let (n, m) = self.steps();
         let (x, y) = (self.optical_black.columns / n, self.optical_black.rows / m);
         Region { x, y, width: width - x, height: height - y }
     }
 
-    /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels.
+    /// Columns and rows of the delivered image of a sensor of `width` × `height` pixels.
     pub(crate) fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
         let (n, m) = self.steps();
         let (width, height) = self.region.map_or((width, height), |r| (r.width, r.height));
         (width / n, height / m)
     }
 
-    /// Where a point of the sensor (pixels, the top left corner is 0, 0) lies in the delivered picture. Of tiles that are not skipped, those of
-    /// more than one pixel keep their middle.
+    /// Maps a point of the sensor (pixels, the top left corner is 0, 0) to the delivered image. With skipping, tiles of more than one pixel keep
+    /// their centre.
     pub(crate) fn in_picture(&self, cfa: &Cfa, [x, y]: [f64; 2]) -> [f64; 2] {
         let (n, m) = self.steps();
         let (left, top) = self.region.map_or((0, 0), |r| (r.x, r.y));
@@ -226,7 +224,7 @@ impl Layout {
         [along(x, middle(cfa.width()), n), along(y, middle(cfa.height()), m)]
     }
 
-    /// Where pixel (x, y) of the array is found in the raw; `None` where it is not read.
+    /// Position in the raw of pixel (x, y) of the array; `None` if it is not read.
     pub(crate) fn raw_of_array(&self, cfa: &Cfa, x: usize, y: usize) -> Option<(usize, usize)> {
         let along = |i: usize, tile: usize, n: usize| i / (tile * n) * tile + i % tile;
         let (n, m) = self.steps();
@@ -245,14 +243,14 @@ impl Layout {
     }
 }
 
-/// What pixels that are read together have the sum of.
+/// Quantities that are summed over pixels read together.
 pub(crate) trait AddsUp: Quantity<Sample = f32> {}
 
 impl AddsUp for Charge {}
 impl AddsUp for SignalPart {}
 
 impl Binning {
-    /// Samples of the same colour put together by `fold`.
+    /// Samples of the same colour combined by `fold`.
     fn folded<Q: Quantity>(&self, cfa: &Cfa, plane: &Plane<Q>, fold: impl Fn(&[Q::Sample]) -> Q::Sample) -> Plane<Q> {
         let (n, m, w, h) = (self.columns, self.rows, cfa.width(), cfa.height());
         let mut out = Plane::new(plane.width() / n, plane.height() / m);
@@ -270,17 +268,17 @@ impl Binning {
         out
     }
 
-    /// Charge added, or the parts that it is made of.
+    /// The sum of charge, or of its parts.
     pub(crate) fn added<Q: AddsUp>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
         self.folded(cfa, plane, |q| q.iter().map(|q| f64::from(*q)).sum::<f64>() as f32)
     }
 
-    /// The mean of the parts that numbers are made of.
+    /// The mean of the parts of digital numbers.
     pub(crate) fn mean(&self, cfa: &Cfa, plane: &Plane<SignalPart>) -> Plane<SignalPart> {
         self.folded(cfa, plane, |q| (q.iter().map(|q| f64::from(*q)).sum::<f64>() / q.len() as f64) as f32)
     }
 
-    /// Digital numbers averaged, halves to even.
+    /// The mean of digital numbers, halves to even.
     pub(crate) fn averaged(&self, cfa: &Cfa, plane: &Plane<DigitalNumber>) -> Plane<DigitalNumber> {
         let mean = |dn: &[u32]| dn.iter().map(|dn| f64::from(*dn)).sum::<f64>() / dn.len() as f64;
         self.folded(cfa, plane, |dn| mean(dn).round_ties_even() as u32)
@@ -296,12 +294,12 @@ impl Region {
     }
 }
 
-/// Pixels that are not read: of so many tiles of the colour filter array only the first is.
+/// Skipped pixels: of each group of tiles of the colour filter array only the first is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Skipping {
-    /// Tiles beside each other.
+    /// Tiles per group along a row.
     pub columns: usize,
-    /// Tiles below each other.
+    /// Tiles per group along a column.
     pub rows: usize,
 }
 
@@ -317,7 +315,7 @@ impl Skipping {
     }
 }
 
-/// The first of the columns, or rows, of the array that column, or row, `i` of the result is made of, `n` of them in one, in tiles of a length.
+/// The first array column (or row) that contributes to column (or row) `i` of the result, with `n` per result pixel, in tiles of a length.
 fn first_of(i: usize, tile: usize, n: usize) -> usize {
     i / tile * tile * n + i % tile
 }

@@ -1,19 +1,17 @@
-//! Irradiance to electrons to digital numbers, every noise with a cause.
+//! Irradiance to electrons to digital numbers, with a physical cause for every noise.
 //!
 //! ```text
 //! E(λ) W·m⁻²·nm⁻¹ ──responsivity──▶ mean electrons ──shot noise──▶ charge ──response──▶ voltage ──converter──▶ DN
 //! ```
 //!
-//! - [`Sensor::responsivity`] says how many electrons a channel makes of an irradiance during the exposure; an irradiance
-//!   cube ([`Sensor::electrons`]) or the caller's own accumulation makes mean electrons of it.
-//! - [`Sensor::step`] makes a raw picture of mean electrons by the effects a sensor has, in their physical order
-//!   ([`effects`]). It is an ordered fold over frames; its state is [`SensorState`]. [`Sensor::step_with_breakdown`] says
-//!   beside it what each pixel's value is made of.
-//! - [`Sensor::effects`] says which effects a sensor has, and why others are absent.
+//! - [`Sensor::responsivity`] states the electrons of a channel per irradiance during the exposure. An irradiance cube ([`Sensor::electrons`]) or the
+//!   caller's own accumulation turns irradiance into mean electrons.
+//! - [`Sensor::step`] computes a raw image from mean electrons by the effects of a sensor, in their physical order ([`effects`]). It is an ordered
+//!   fold over frames; its state is [`SensorState`]. [`Sensor::step_with_breakdown`] also returns the components of each pixel's value.
+//! - [`Sensor::effects`] lists the effects of a sensor, with reasons for absent ones.
 //!
-//! The model is that of EMVA 1288 (linear), with what the standard leaves out. Every random number has an address, so a
-//! picture's bits do not depend on threads or on the order of work. Noise from frame to frame is drawn from the job's seed,
-//! fixed patterns from the specimen's.
+//! The model is that of EMVA 1288 (linear), with additions beyond the standard. Every random number has an address, so an image's bits do not depend
+//! on threads or on the order of work. Temporal noise uses the job's seed, fixed patterns that of the unit.
 
 mod capture;
 pub mod cfa;

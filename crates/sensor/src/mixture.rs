@@ -1,16 +1,16 @@
-//! What the channels of an even picture measure: neighbours of other colours mix in.
+//! Effective responsivities of the channels under uniform illumination, including the mixing of neighbours of other colours.
 //!
-//! Optical crosstalk and inter-pixel capacitance bring part of each pixel's signal from its neighbours, which sit under other filters:
-//! a picture's red is R' = Σ w_c R_c over the channels c. White balance and colour matrices belong to these responsivities, as they
-//! would if they were measured on the camera. The weights of a channel are the mean over its pixels in the tile.
+//! Optical crosstalk and inter-pixel capacitance bring part of each pixel's signal from its neighbours, which have other filters: an image's red is
+//! R' = Σ w_c R_c over the channels c. White balance and colour matrices use these responsivities, as they would if measured on the camera. The
+//! weights of a channel are the mean over its pixels in the tile.
 
 use etendue_spectra::Spectrum;
 
 use crate::{cfa::Cfa, effects::neighbours::Neighbours, sensor::Sensor};
 
 impl Sensor {
-    /// Responsivities of all channels as an even picture shows them, e⁻ per W·m⁻² during the exposure; during a second where that
-    /// is zero, as colours want them in any common scale.
+    /// Effective responsivities of all channels under uniform illumination, e⁻ per W·m⁻² during the exposure; during a second if that is zero, as
+    /// colour computations accept any common scale.
     #[must_use]
     pub fn picture_responsivities(&self) -> Vec<Spectrum> {
         let own = self.colour_responsivities();
@@ -20,8 +20,8 @@ impl Sensor {
         self.channel_weights().iter().map(mixed).collect()
     }
 
-    /// Electrons a photon on a pixel's whole square, as an even picture shows them, of all channels at a wavelength, nm: what photon
-    /// transfer measures.
+    /// Effective quantum efficiencies of all channels on a pixel's whole square under uniform illumination, at a wavelength, nm: the quantity that
+    /// photon transfer measures.
     #[must_use]
     pub fn picture_quantum_efficiencies(&self, nm: f64) -> Vec<f64> {
         let p = self.parameters();
@@ -41,7 +41,7 @@ impl Sensor {
     }
 }
 
-/// The weights of each place of a tile after an exchange with the eight neighbours.
+/// The weights of each tile position after an exchange with the eight neighbours.
 fn exchanged(cfa: &Cfa, tile: &[Vec<f64>], neighbours: &Neighbours) -> Vec<Vec<f64>> {
     let (width, height) = (cfa.width(), cfa.height());
     let place = |i: usize| {
@@ -55,7 +55,7 @@ fn exchanged(cfa: &Cfa, tile: &[Vec<f64>], neighbours: &Neighbours) -> Vec<Vec<f
     (0..tile.len()).map(place).collect()
 }
 
-/// The mean weights of the places of a channel; its own alone where the tile has none.
+/// The mean weights of the tile positions of a channel; its own alone if the tile has none.
 fn mean_of(channel: usize, cfa: &Cfa, tile: &[Vec<f64>]) -> Vec<f64> {
     let places: Vec<&Vec<f64>> =
         cfa.channels().iter().zip(tile).filter(|(c, _)| **c == channel).map(|(_, w)| w).collect();
@@ -89,7 +89,7 @@ mod tests {
         assert_eq!(sensor.picture_responsivities(), sensor.responsivities());
     }
 
-    /// By hand for Bayer: red has four greens beside it and four blues across its corners.
+    /// By hand for Bayer: red has four adjacent greens and four diagonal blues.
     #[test]
     fn red_takes_from_green_and_blue() {
         let mut p = bayer(BayerPhase::Gbrg);
@@ -101,7 +101,7 @@ mod tests {
         assert!((red / expected - 1.0).abs() < 1e-6, "{red} {expected}");
     }
 
-    /// The same as the numbers that the sensor delivers of even light, channel by channel.
+    /// Equal to the numbers that the sensor delivers under uniform illumination, channel by channel.
     #[test]
     fn an_even_picture_has_them() {
         let mut p = bayer(BayerPhase::Grbg);
@@ -123,9 +123,9 @@ mod tests {
                 .map(|(x, y)| f64::from(raw.plane.at(x, y)))
                 .collect();
             let mean = of.iter().sum::<f64>() / of.len() as f64 - p.read_out.black_level_dn;
-            // One digital number an electron: rounding.
+            // One digital number per electron: rounding.
             assert!((mean - level(mixed) * p.read_out.gain_dn_e).abs() < 0.6, "{channel}: {mean} {}", level(mixed));
-            // The same as an efficiency: electrons over those of a channel whose own is known.
+            // The same as an efficiency: electrons over those of a channel of known efficiency.
             let own = f64::from(p.channels[1].quantum_efficiency.at(500.0)) * p.pixel.fill_factor;
             let efficiency = sensor.picture_quantum_efficiencies(500.0)[channel];
             assert!((efficiency - own * level(mixed) / 1e5).abs() < 1e-6, "{channel}: {efficiency}");

@@ -1,4 +1,4 @@
-//! What a sensor is, as the description says it. Each effect's own parameters stand in the effect's file.
+//! Parameters of a sensor as described. The parameters of each effect are in the effect's file.
 
 use etendue_spectra::Spectrum;
 
@@ -12,83 +12,83 @@ use crate::{
     hdr::HighDynamicRange, layout::Layout,
 };
 
-/// One kind of pixel.
+/// One channel: a kind of pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     /// Its name in results, such as `r` or `mono`.
     pub name: String,
-    /// Electrons a photon, 0 to 1, with the colour filter in it.
+    /// Electrons per photon, 0 to 1, including the colour filter.
     pub quantum_efficiency: Spectrum,
 }
 
 /// Geometry of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
-    /// Distance between the centres of neighbours, µm; pixels are square.
+    /// Pixel pitch, µm; pixels are square.
     pub pitch_um: f64,
     /// Fraction of the pixel's square that collects light, (0, 1].
     pub fill_factor: f64,
 }
 
-/// When light is collected.
+/// Exposure of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exposure {
-    /// Time of collection, s; zero is legal.
+    /// Exposure time, s; zero is legal.
     pub exposure_s: f64,
-    /// Time from frame to frame, s; needed by effects that count it.
+    /// Time from frame to frame, s; required by effects that use it.
     pub frame_period_s: Option<f64>,
-    /// What sets exposure and gain from frame to frame; `None` where they stay.
+    /// Automatic control of exposure and gain from frame to frame; `None`: both are constant.
     pub control: Option<ExposureControl>,
 }
 
-/// From charge to digital numbers.
+/// Read-out: from charge to digital numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadOut {
     /// Voltage over charge.
     pub response: Response,
-    /// Digital numbers an electron (EMVA's K) at an analogue gain of 1.
+    /// Digital numbers per electron (EMVA's K) at an analogue gain of 1.
     pub gain_dn_e: f64,
-    /// Factor on the voltage before the converter.
+    /// Factor on the voltage before the ADC.
     pub analogue_gain: f64,
-    /// Digital number of no charge, DN.
+    /// Digital number of zero charge, DN.
     pub black_level_dn: f64,
-    /// Bits of the converter, 1 to 24.
+    /// Bits of the ADC, 1 to 24.
     pub bits: u32,
     /// Factor on digital numbers above black.
     pub digital_gain: f64,
-    /// Which pixels are read, and which are read together.
+    /// The pixels that are read, and those that are read together.
     pub layout: Layout,
 }
 
-/// What a sensor is, as the description says it.
+/// Parameters of a sensor as described.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorParameters {
     /// Geometry of a pixel.
     pub pixel: Pixel,
-    /// The kinds of pixels.
+    /// Channels: the kinds of pixels.
     pub channels: Vec<Channel>,
-    /// Which pixel is of which kind.
+    /// Colour filter array: the channel of each pixel.
     pub cfa: Cfa,
-    /// When light is collected.
+    /// Exposure of a frame.
     pub exposure: Exposure,
-    /// Which specimen the fixed patterns are of. `None`: the one of the camera's place in the job.
+    /// Unit (individual sensor) of the fixed patterns. `None`: the one of the camera's place in the job.
     pub specimen: Option<u64>,
-    /// What light meets before it is counted.
+    /// Effects on light before it is counted.
     pub light: LightEffects,
-    /// What happens to charge in its pixel.
+    /// Effects on charge in its pixel.
     pub charge: ChargeEffects,
-    /// What happens to voltage before the converter.
+    /// Effects on voltage before the ADC.
     pub voltage: VoltageEffects,
-    /// From charge to digital numbers.
+    /// Read-out: from charge to digital numbers.
     pub read_out: ReadOut,
-    /// Several captures a frame, or fewer bits by a curve.
+    /// Several captures per frame, or fewer bits by a curve.
     pub hdr: HighDynamicRange,
-    /// Whether randomness from frame to frame is modelled. Without, a picture is the quantised mean; fixed patterns stay.
+    /// True if temporal noise is modelled. Without it, an image is the quantised mean; fixed patterns stay.
     pub noise: bool,
 }
 
 impl SensorParameters {
-    /// What all captures have in common.
+    /// The facts shared by all captures.
     pub(crate) fn facts(&self) -> SensorFacts {
         let captures = &self.hdr.captures;
         let dark = &self.read_out.layout.optical_black;
@@ -111,19 +111,19 @@ impl SensorParameters {
         }
     }
 
-    /// Exposure and gain that the description says.
+    /// Exposure and gain as described.
     pub(crate) fn described_point(&self) -> OperatingPoint {
         OperatingPoint { exposure_s: self.exposure.exposure_s, analogue_gain: self.read_out.analogue_gain }
     }
 
-    /// The point of the smallest gain that the sensor can come to.
+    /// The operating point of the smallest possible gain.
     pub(crate) fn least_point(&self) -> OperatingPoint {
         let point = self.described_point();
         let analogue_gain = self.exposure.control.map_or(point.analogue_gain, |control| control.analogue_gain[0]);
         OperatingPoint { analogue_gain, ..point }
     }
 
-    /// How the first capture of a frame at an operating point is taken.
+    /// The operation of the first capture of a frame at an operating point.
     pub(crate) fn operation(&self, point: OperatingPoint) -> Operation {
         let described_s = self.exposure.exposure_s;
         let light = if point.exposure_s == described_s { 1.0 } else { point.exposure_s / described_s };
@@ -136,18 +136,18 @@ impl SensorParameters {
         }
     }
 
-    /// How the first capture is taken, as described.
+    /// The operation of the first capture as described.
     pub(crate) fn described_operation(&self) -> Operation {
         self.operation(self.described_point())
     }
 
-    /// The converter at the gain of a capture.
+    /// The ADC at the gain of a capture.
     pub(crate) fn converter(&self, operation: &Operation) -> Converter {
         let ReadOut { black_level_dn, bits, digital_gain, .. } = self.read_out;
         Converter { gain_dn_e: operation.gain_dn_e, black_level_dn, bits, digital_gain }
     }
 
-    /// How many pixels' charge is read together.
+    /// Number of pixels whose charge is read together.
     pub(crate) fn wells_read(&self) -> f64 {
         self.read_out.layout.charge_binning().map_or(1, |b| b.columns * b.rows) as f64
     }
@@ -165,21 +165,21 @@ impl SensorParameters {
         self.read_out.black_level_dn + self.merged_range_dn(last, operation)
     }
 
-    /// Merged numbers from black to where capture `k`, taken by `operation`, is saturated.
+    /// Merged numbers from black to the saturation of capture `k`, taken by `operation`.
     pub(crate) fn merged_range_dn(&self, k: usize, operation: &Operation) -> f64 {
         self.hdr.scale(k) * (self.capture_white_dn(operation) - self.read_out.black_level_dn)
     }
 
-    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many rows, s. Shielded rows take their
-    /// time, too, and add nothing.
+    /// The exposure, s, that smear adds to every pixel of a uniformly and steadily lit image of this number of rows. Shielded rows take their time as
+    /// well and add nothing.
     #[must_use]
     pub fn even_smear_s(&self, rows: usize) -> f64 {
         let all = rows + self.read_out.layout.optical_black.rows;
         self.light.smear.map_or(0.0, |smear| smear.even_s(self.exposure.frame_period_s, rows, all))
     }
 
-    /// Shows all effects, in physical order; the converter at the gain of the first capture as described. Checks and plans are made of this
-    /// list, so that what it has is both checked and told.
+    /// Visits all effects in physical order, with the ADC at the gain of the first capture as described. Checks and plans are built from this list,
+    /// so every listed effect is both checked and reported.
     pub(crate) fn show(&self, visitor: &mut impl Visitor) {
         visitor.visit(&self.exposure.control);
         self.light.show(visitor);
@@ -223,7 +223,7 @@ impl Visitor for EffectList {
 }
 
 impl ChargeEffects {
-    /// Charge with a well and an even dark current, and nothing else.
+    /// Charge with a well and a uniform dark current, and nothing else.
     #[must_use]
     pub fn plain(full_well_e: f64, dark_current_e_s: f64) -> Self {
         Self {
@@ -244,7 +244,7 @@ impl VoltageEffects {
 }
 
 impl ReadOut {
-    /// A linear chain, each pixel on its own.
+    /// A linear read-out, each pixel on its own.
     #[must_use]
     pub fn linear(gain_dn_e: f64, black_level_dn: f64, bits: u32) -> Self {
         Self {

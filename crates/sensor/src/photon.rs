@@ -5,7 +5,7 @@ pub const PLANCK_J_S: f64 = 6.626_070_15e-34;
 /// Speed of light c, m·s⁻¹.
 pub const LIGHT_M_S: f64 = 299_792_458.0;
 
-/// Photons of wavelength `nm` in a joule: λ/(hc).
+/// Photons of wavelength `nm` per joule: λ/(hc).
 #[must_use]
 pub fn photons_per_joule(nm: f64) -> f64 {
     nm * 1e-9 / (PLANCK_J_S * LIGHT_M_S)

@@ -1,4 +1,4 @@
-//! A raw picture, with what development needs to know.
+//! A raw image, with the data needed for development.
 
 use std::borrow::Cow;
 
@@ -6,45 +6,45 @@ use etendue_core::{Plane, quantity::DigitalNumber, random::Pixel};
 
 use crate::{capture::OperatingPoint, hdr::companding::Companding, layout::Region, signal_breakdown::ChargeAccount};
 
-/// A raw picture, with what development needs to know.
+/// A raw image, with the data needed for development.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raw {
     /// Digital numbers.
     pub plane: Plane<DigitalNumber>,
-    /// Digital number of no charge.
+    /// Digital number of zero charge.
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
     /// Bits of a number.
     pub bits: u32,
-    /// The curve by which numbers were put into fewer bits.
+    /// The companding curve of the numbers.
     pub companding: Option<Companding>,
-    /// The part of the plane that light reached.
+    /// The lit part of the plane.
     pub picture: Region,
     /// Exposure time and gain of the frame.
     pub operating_point: OperatingPoint,
-    /// Where the charge went at the full well: of each capture that has charge of its own, with its place.
+    /// Balance of charge at the full well: for each capture with its own charge, with its index.
     pub accounts: Vec<(usize, ChargeAccount)>,
-    /// Pixels whose mean electrons were not a number, infinite or negative, in raster order of the array. The digital
-    /// numbers they go into are 0, and mean nothing.
+    /// Pixels whose mean electrons were not a number, infinite or negative, in raster order of the array. The digital numbers that include them are 0
+    /// and meaningless.
     pub invalid: Vec<Pixel>,
 }
 
-/// The part that light reached, in numbers proportional to the merged reading.
+/// The lit part, in numbers proportional to the merged reading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearRaw<'a> {
     /// Digital numbers.
     pub plane: Cow<'a, Plane<DigitalNumber>>,
-    /// Digital number of no charge.
+    /// Digital number of zero charge.
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
-    /// The rows above the picture that no light reaches, or else the columns left of it, where there are some.
+    /// The optical-black rows above the image, or else the columns left of it, if there are any.
     pub optical_black: Option<Plane<DigitalNumber>>,
 }
 
 impl Raw {
-    /// The rows above the picture, or else the columns left of it.
+    /// The rows above the image, or else the columns left of it.
     fn shielded(&self) -> Option<Region> {
         let Region { x, y, width, height } = self.picture;
         let above = Region { x, y: 0, width, height: y };
@@ -52,7 +52,7 @@ impl Raw {
         [above, beside].into_iter().find(|region| region.width > 0 && region.height > 0)
     }
 
-    /// The picture without optical black and without companding.
+    /// The image without optical black and without companding.
     #[must_use]
     pub fn linear(&self) -> LinearRaw<'_> {
         let whole = (self.picture.width, self.picture.height) == (self.plane.width(), self.plane.height());

@@ -1,13 +1,13 @@
-//! What one capture makes of the light of the first one: where it is white, and how noisy it is.
+//! Response of one capture to the light of the first one: its white level and noise.
 
 use crate::capture::{OperatingPoint, Operation};
 use crate::parameters::SensorParameters;
 
-/// One capture and what fraction of the first one's light it has.
+/// One capture and its fraction of the first one's light.
 pub(crate) struct Reading<'a> {
     p: &'a SensorParameters,
     operation: Operation,
-    /// What it has of the light of the described exposure, 1 for all of it.
+    /// Fraction of the light of the described exposure.
     pub(crate) light: f64,
     /// Mean dark electrons of all wells that are read together.
     dark_e: f64,

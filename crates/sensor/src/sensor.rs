@@ -1,7 +1,7 @@
-//! The sensor: its parameters, checked, and its responsivity.
+//! The sensor: its checked parameters, and its responsivity.
 //!
-//! Electrons of a pixel = ∫ E(λ) R(λ) dλ, with R(λ) = A f t η(λ) λ/(hc) in e⁻ per W·m⁻²: area of the pixel, fill factor,
-//! exposure time, quantum efficiency with the colour filter in it, photons a joule (EMVA 1288, equation 2).
+//! Electrons of a pixel = ∫ E(λ) R(λ) dλ, with R(λ) = A f t η(λ) λ/(hc) in e⁻ per W·m⁻²: area of the pixel, fill factor, exposure time, quantum
+//! efficiency including the colour filter, photons per joule (EMVA 1288, equation 2).
 
 use std::borrow::Cow;
 
@@ -11,7 +11,7 @@ use crate::effect::{SensorEffect, SignalLevels};
 use crate::parameters::{Channel, SensorParameters};
 use crate::{capture::OperatingPoint, check::SensorError, photon::photons_per_joule, validity};
 
-/// A sensor that can be.
+/// A sensor with valid parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
     parameters: SensorParameters,
@@ -19,7 +19,7 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// Checks the parameters and works out the responsivities.
+    /// Checks the parameters and computes the responsivities.
     ///
     /// # Errors
     /// All contradictions found, in the order of the parameters.
@@ -38,7 +38,7 @@ impl Sensor {
         &self.parameters
     }
 
-    /// Responsivity of a channel, e⁻ per W·m⁻² during the exposure. Panics where there is no such channel.
+    /// Responsivity of a channel, e⁻ per W·m⁻² during the exposure. Panics if there is no such channel.
     #[must_use]
     pub fn responsivity(&self, channel: usize) -> &Spectrum {
         &self.responsivities[channel]
@@ -50,15 +50,13 @@ impl Sensor {
         &self.responsivities
     }
 
-    /// Electrons a second: responsivities of all channels to one second of light, e⁻·s⁻¹ per W·m⁻². They do not depend on
-    /// the exposure.
+    /// Electrons per second: responsivities of all channels for one second of light, e⁻·s⁻¹ per W·m⁻². They do not depend on the exposure.
     #[must_use]
     pub fn rate_responsivities(&self) -> Vec<Spectrum> {
         responsivities(&self.parameters, 1.0)
     }
 
-    /// Responsivities of all channels for what needs them in any common scale, such as white balance: those of a second
-    /// where the exposure is zero.
+    /// Responsivities of all channels for uses that accept any common scale, such as white balance: those of a second if the exposure is zero.
     #[must_use]
     pub(crate) fn colour_responsivities(&self) -> Cow<'_, [Spectrum]> {
         if self.parameters.exposure.exposure_s > 0.0 {
@@ -67,7 +65,7 @@ impl Sensor {
         Cow::Owned(self.rate_responsivities())
     }
 
-    /// Whether light of a pixel changes the numbers of others: by blooming, smear or crosstalk.
+    /// True if light of a pixel changes the numbers of others: by blooming, smear or crosstalk.
     #[must_use]
     pub fn spills(&self) -> bool {
         let p = &self.parameters;
@@ -80,52 +78,51 @@ impl Sensor {
         self.parameters.cfa.channel_at(x, y)
     }
 
-    /// The narrowest range of wavelengths (nm) outside which no channel responds; `None` where none responds at all.
+    /// The narrowest range of wavelengths (nm) outside which no channel responds; `None` if none responds at all.
     #[must_use]
     pub fn support_nm(&self) -> Option<(f64, f64)> {
         let supports = self.parameters.channels.iter().filter_map(|c| c.quantum_efficiency.support_nm());
         supports.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
-    /// What is wrong with a picture of `width` × `height` pixels: tile, binning, skipping and region have to fit it.
+    /// Errors for an image of `width` × `height` pixels: tile, binning, skipping and region must fit it.
     #[must_use]
     pub fn misfits(&self, width: usize, height: usize) -> Vec<SensorError> {
         self.parameters.read_out.layout.errors(&self.parameters.cfa, width, height)
     }
 
-    /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels: those of its region that are read, binned.
+    /// Columns and rows of the delivered image of a sensor of `width` × `height` pixels: those of its region that are read, binned.
     #[must_use]
     pub fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
         self.parameters.read_out.layout.picture_size(width, height)
     }
 
-    /// Where a point of the sensor lies in the delivered picture; raster coordinates of both, px.
+    /// Maps a point of the sensor to the delivered image; raster coordinates of both, px.
     #[must_use]
     pub fn in_picture(&self, raster_px: [f64; 2]) -> [f64; 2] {
         self.parameters.read_out.layout.in_picture(&self.parameters.cfa, raster_px)
     }
 
-    /// Bits of the numbers that are delivered: the converter's, or those after merging and companding.
+    /// Bits of the delivered numbers: those of the ADC, or those after merging and companding.
     #[must_use]
     pub fn delivered_bits(&self) -> u32 {
         let hdr = &self.parameters.hdr;
         hdr.companding.as_ref().map_or(hdr.bits.unwrap_or(self.parameters.read_out.bits), |c| c.bits)
     }
 
-    /// The delivered digital number of no charge.
+    /// The delivered digital number of zero charge.
     #[must_use]
     pub fn black_level_dn(&self) -> f64 {
         self.delivered(self.parameters.read_out.black_level_dn)
     }
 
-    /// The delivered digital number of a saturated pixel, as described: of a full well, or the converter's largest where
-    /// that comes first.
+    /// The delivered digital number of a saturated pixel as described: of a full well, or the ADC's maximum if that is reached first.
     #[must_use]
     pub fn white_level_dn(&self) -> f64 {
         self.white_level_at(self.parameters.described_point())
     }
 
-    /// The same at the smallest gain that exposure control can come to.
+    /// The same at the smallest gain that exposure control can reach.
     #[must_use]
     pub fn least_white_level_dn(&self) -> f64 {
         self.white_level_at(self.parameters.least_point())
@@ -142,7 +139,7 @@ impl Sensor {
         self.parameters.hdr.companding.as_ref().map_or(linear_dn, |c| c.companded(linear_dn))
     }
 
-    /// Whether a frame depends on the frames before it: by exposure control, lag, or pixels that jump between two levels.
+    /// True if a frame depends on the frames before it: by exposure control, lag, or pixels that jump between two levels.
     #[must_use]
     pub fn remembers(&self) -> bool {
         let p = &self.parameters;
@@ -154,13 +151,13 @@ impl Sensor {
     #[must_use]
     pub fn effects(&self) -> Vec<SensorEffect> {
         let range = self.dynamic_range();
-        // Of the least signal, ½ (1 + √(1 + 4 σ²)).
+        // For the smallest signal, ½ (1 + √(1 + 4 σ²)).
         let dark_variance_e2 = range.least_e * (range.least_e - 1.0);
         self.parameters.effects(SignalLevels { grey_e: GREY * range.most_e, dark_variance_e2 })
     }
 }
 
-/// Reflectance of a grey card: the fraction of the largest signal that it has in a well-exposed image.
+/// Reflectance of a grey card: its fraction of the largest signal in a well-exposed image.
 const GREY: f64 = 0.18;
 
 /// R(λ) of all channels for an exposure, e⁻ per W·m⁻².

@@ -1,8 +1,8 @@
-//! What each pixel's digital number is made of: one layer a component, in electrons at the converter's input.
+//! Signal breakdown of each pixel's digital number: one layer per component, in electrons at the ADC input.
 //!
-//! Every effect's layer is what it added to the pixel (negative where it took). Their sum is the digital number less the black
-//! level, over the gain. The layers are noted beside the raw and never change it. Of several captures they are
-//! those of the one that the pixel's number was taken from, in electrons of the first; companding comes after them.
+//! Every effect's layer is its change of the pixel (negative where it removed charge). Their sum is the digital number less the black level, over the
+//! gain. The layers are recorded with the raw and never change it. For several captures they are those of the capture from which the pixel's number
+//! was taken, in electrons of the first; companding comes after them.
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Quantity, SignalPart};
@@ -20,15 +20,15 @@ pub enum SignalComponent {
     Read,
     /// Photo-response and offset non-uniformity, dead pixels.
     FixedPattern,
-    /// Rounding, digital gain and the converter's end.
+    /// Rounding, digital gain and the ADC's limit.
     Quantisation,
-    /// What the full well took, and what overflow brought.
+    /// Charge removed by the full well or added by overflow.
     Blooming,
-    /// Mean electrons that moving charge collected.
+    /// Mean electrons collected during charge transfer.
     Smear,
     /// Crosstalk, angle response, lag, brighter-fatter, response, capacitance.
     Transfer,
-    /// 1 where the digital number is at the white level, else 0. It is no part of the sum.
+    /// 1 where the digital number is at the white level, else 0. Not part of the sum.
     Saturated,
 }
 
@@ -65,7 +65,7 @@ impl SignalComponent {
     }
 }
 
-/// The layers of a raw picture.
+/// The layers of a raw image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalBreakdown {
     layers: Vec<Plane<SignalPart>>,
@@ -82,7 +82,7 @@ impl SignalBreakdown {
         &self.layers[component as usize]
     }
 
-    /// Adds what a plane became from what it was.
+    /// Adds the difference of a plane after and before an effect.
     pub(crate) fn note<Q: Quantity<Sample = f32>>(
         &mut self,
         component: SignalComponent,
@@ -95,7 +95,7 @@ impl SignalBreakdown {
         }
     }
 
-    /// Puts the layers of another capture, times a factor, in the place of those of some pixels.
+    /// Replaces the layers of some pixels by those of another capture, times a factor.
     pub(crate) fn replace(&mut self, pixels: &[bool], by: &Self, factor: f64) {
         for (component, (own, by)) in SignalComponent::ALL.into_iter().zip(self.layers.iter_mut().zip(&by.layers)) {
             let factor = if component == SignalComponent::Saturated { 1.0 } else { factor };
@@ -130,7 +130,7 @@ pub(crate) struct SignalComponentRow<'a> {
 }
 
 impl SignalComponentRow<'_> {
-    /// Adds what a row became from what it was.
+    /// Adds the difference of a row after and before an effect.
     pub(crate) fn note(&mut self, component: SignalComponent, before: &[f64], after: &[f64]) {
         for (layer, (before, after)) in self.layers[component as usize].iter_mut().zip(before.iter().zip(after)) {
             *layer += (after - before) as f32;
@@ -148,13 +148,13 @@ impl SignalComponentRow<'_> {
 pub struct ChargeAccount {
     /// Charge before the full well.
     pub generated_e: f64,
-    /// Charge that pixels hold afterwards.
+    /// Charge held by pixels afterwards.
     pub collected_e: f64,
-    /// Charge that the overflow drains took.
+    /// Charge removed by the overflow drains.
     pub drained_e: f64,
     /// Charge that left the array at its edge.
     pub spilt_e: f64,
-    /// Charge that had nowhere to go.
+    /// Charge above the well that could not be moved.
     pub clipped_e: f64,
 }
 
@@ -178,7 +178,7 @@ impl ChargeAccount {
         }
     }
 
-    /// What is missing in the balance, e⁻.
+    /// Imbalance, e⁻.
     #[must_use]
     pub fn imbalance_e(&self) -> f64 {
         self.generated_e - self.collected_e - self.drained_e - self.spilt_e - self.clipped_e
@@ -191,7 +191,7 @@ pub(crate) mod tests {
 
     use super::ChargeAccount;
 
-    /// What an effect that moves charge makes of a plane, and the account of it.
+    /// Applies an effect that moves charge to a plane; returns its account.
     pub(crate) fn accounted(
         plane: &Plane<Charge>,
         effect: impl Fn(&mut Plane<Charge>, &mut ChargeAccount),

@@ -1,4 +1,4 @@
-//! Whether a sensor can be: all of its parameters, one by one and together.
+//! Validity of a sensor: all of its parameters, individually and in combination.
 
 use crate::check::{Checks, SensorError};
 use crate::effect::{Effect, SensorFacts, Visitor};
@@ -70,7 +70,7 @@ fn check_hdr(p: &SensorParameters, checks: &mut Checks) {
     }
 }
 
-/// Whether captures can be taken and merged together.
+/// Checks that captures can be taken and merged together.
 fn check_captures(p: &SensorParameters, checks: &mut Checks) {
     let hdr = &p.hdr;
     let linear = p.read_out.response == Response::Linear;
@@ -92,8 +92,8 @@ fn check_captures(p: &SensorParameters, checks: &mut Checks) {
     }
 }
 
-/// The time that the exposures of one photodiode take one after the other, s, the greatest of all photodiodes; those of one
-/// sensitivity are of one photodiode.
+/// The total time of the consecutive exposures of one photodiode, s, the largest of all photodiodes; captures of equal sensitivity share a
+/// photodiode.
 fn longest_s(p: &SensorParameters) -> f64 {
     let exposed =
         p.hdr.captures.iter().filter(|c| !c.dual_conversion_gain).map(|c| (c.sensitivity_ratio, c.exposure_ratio));
@@ -129,8 +129,8 @@ fn check_bits(p: &SensorParameters, checks: &mut Checks) {
     }
 }
 
-/// Each capture has to reach beyond what the one before is used for. At a larger gain, where the converter ends before the
-/// well, it does so all the more.
+/// Each capture must extend beyond the range used of the previous one. At a larger gain, where the ADC saturates before the well, this holds all the
+/// more.
 fn check_ranges(p: &SensorParameters, checks: &mut Checks) {
     let operations = p.hdr.operations(p.operation(p.least_point()));
     let ranges: Vec<f64> = (0..).zip(&operations).map(|(k, operation)| p.merged_range_dn(k, operation)).collect();
@@ -146,7 +146,7 @@ fn check_ranges(p: &SensorParameters, checks: &mut Checks) {
     }
 }
 
-/// Whether light has numbers of its own.
+/// Checks that the range of light spans at least one digital number.
 fn check_range(p: &SensorParameters, checks: &mut Checks) {
     let white = p.merged_white_dn(p.least_point());
     checks.agree("gain_dn_per_e", white > p.read_out.black_level_dn, || {

@@ -1,8 +1,7 @@
 //! Measured spectral sensitivities of cameras.
 //!
-//! Three bodies from the rawtoaces collection, 380–780 nm, zero outside. The figures are **relative**: the channels of
-//! one camera compare with each other, but their scale is not a quantum efficiency. They are responses per unit of
-//! radiant power, lens and filters included.
+//! Three bodies from the rawtoaces collection, 380–780 nm, zero outside. The values are **relative**: the channels of one camera are comparable with
+//! each other, but their scale is not a quantum efficiency. They are responses per unit of radiant power, lens and filters included.
 
 use std::sync::LazyLock;
 
@@ -43,7 +42,7 @@ pub fn named(name: &str) -> Option<&'static Sensitivity> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The names that [`named`] knows: canon-eos-5d-mark-ii, nikon-d5100, sony-ilce-7sm2.
+/// The names accepted by [`named`]: canon-eos-5d-mark-ii, nikon-d5100, sony-ilce-7sm2.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     NAMES

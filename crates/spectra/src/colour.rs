@@ -7,14 +7,14 @@
 //! Linear RGB of other primaries and white.
 //!
 //! With the columns (x, y, 1 − x − y)/y of red, green and blue as P and the white's as w, XYZ = P diag(P⁻¹ w) rgb: rgb = (1, 1, 1) is the white with
-//! Y = 1. A colour stays the colour that it is: the white is not adapted to D65.
+//! Y = 1. Colours are absolute: the white is not adapted to D65.
 //!
 //! sRGB: primaries and transfer curve of IEC 61966-2-1:1999.
 //!
 //! Luminance of linear colours and luma of encoded ones, by the weights of ITU-R BT.709 (those of IEC 61966-2-1 too).
 //!
-//! The standards state four digits. Y of linear sRGB with this crate's own white is the middle row of
-//! [`XYZ_FROM_SRGB`], which differs by less than 1e-4.
+//! The standards state four digits. Y of linear sRGB with this crate's own white is the middle row of [`XYZ_FROM_SRGB`]; the difference is below
+//! 1e-4.
 //!
 //! CIE 1976 L*a*b* (CIE 15:2018).
 //!
@@ -43,24 +43,24 @@ pub struct Primaries {
     pub white: [f64; 2],
 }
 
-/// Those of ITU-R BT.709 and of sRGB.
+/// The primaries of ITU-R BT.709 and of sRGB.
 pub const REC_709: Primaries =
     Primaries { red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329] };
 
 impl Primaries {
-    /// Whether these are the same to `tolerance` in every chromaticity.
+    /// True if these are equal to `tolerance` in every chromaticity.
     #[must_use]
     pub fn is_close_to(&self, other: &Self, tolerance: f64) -> bool {
         let all = |p: &Self| [p.red, p.green, p.blue, p.white].into_iter().flatten().collect::<Vec<_>>();
         all(self).into_iter().zip(all(other)).all(|(a, b)| (a - b).abs() <= tolerance)
     }
 
-    /// From linear RGB of these primaries to linear sRGB, row by row; `None` where the chromaticities make no colour space.
+    /// From linear RGB of these primaries to linear sRGB, row by row; `None` if the chromaticities do not form a colour space.
     #[must_use]
     pub fn to_linear_srgb(&self) -> Option<[[f64; 3]; 3]> {
         let [r, g, b, w] =
             [tristimulus(self.red)?, tristimulus(self.green)?, tristimulus(self.blue)?, self.white_xyz()?];
-        // Columns to rows.
+        // Transposed: columns to rows.
         let primaries: Matrix = core::array::from_fn(|i| [r[i], g[i], b[i]]);
         let inverse = inverse(&primaries)?;
         let scale = times(&inverse, w);
@@ -77,7 +77,7 @@ impl Primaries {
     }
 }
 
-/// (x, y, z) of a primary; its scale is found from the white.
+/// (x, y, z) of a primary; its scale follows from the white.
 fn tristimulus([x, y]: [f64; 2]) -> Option<[f64; 3]> {
     (x.is_finite() && y.is_finite()).then_some([x, y, 1.0 - x - y])
 }
@@ -86,7 +86,7 @@ fn times(matrix: &Matrix, v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
-/// By Cramer's rule; `None` of primaries on one line.
+/// By Cramer's rule; `None` for collinear primaries.
 fn inverse(m: &Matrix) -> Option<Matrix> {
     let cofactor = |i: usize, j: usize| {
         let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
@@ -113,7 +113,7 @@ pub const SRGB_FROM_XYZ: [[f64; 3]; 3] = [
     [0.055_643_450_992_453_14, -0.204_025_986_972_328_13, 1.057_225_568_856_608_3],
 ];
 
-/// Linear sRGB of tristimulus values; outside the gamut a component is negative.
+/// Linear sRGB from tristimulus values; outside the gamut a component is negative.
 #[must_use]
 pub fn linear_srgb_from_xyz(xyz: [f64; 3]) -> [f64; 3] {
     times(&SRGB_FROM_XYZ, xyz)
@@ -125,7 +125,7 @@ pub fn xyz_from_linear_srgb(rgb: [f64; 3]) -> [f64; 3] {
     times(&XYZ_FROM_SRGB, rgb)
 }
 
-/// The sRGB transfer curve: linear to encoded, 0 to 0 and 1 to 1. It does not clip: beyond 0 to 1 the curve goes on.
+/// The sRGB transfer curve: linear to encoded, 0 to 0 and 1 to 1. It does not clip: the curve is extended beyond 0 to 1.
 #[must_use]
 pub fn encode(linear: f32) -> f32 {
     if linear <= 0.003_130_8 {
@@ -167,9 +167,9 @@ pub fn luma(rgb: [f32; 3]) -> f32 {
 pub struct Lab {
     /// Lightness, 0 to 100.
     pub l: f64,
-    /// Red against green.
+    /// Red–green axis.
     pub a: f64,
-    /// Yellow against blue.
+    /// Yellow–blue axis.
     pub b: f64,
 }
 
@@ -241,7 +241,7 @@ fn hue_difference(one: Polar, two: Polar) -> f64 {
     2.0 * (one.chroma * two.chroma).sqrt() * maths_f64::sin(turn / 2.0)
 }
 
-/// The mean hue by the shorter way round; the sum where one colour has no hue.
+/// The mean hue along the shorter arc; the sum if one colour has no hue.
 fn mean_hue_rad(one: Polar, two: Polar) -> f64 {
     let sum = one.hue_rad + two.hue_rad;
     if one.chroma * two.chroma == 0.0 {

@@ -1,9 +1,9 @@
-//! Refractive indices of clear materials, by name: what they bend and, for some, what they absorb.
+//! Refractive indices of clear materials, by name; for some also their absorption.
 //!
-//! Glasses: soda-lime window glass (Rubin 1985), clear and tinted green by iron; water: Hale & Querry (1973); both
-//! from the refractiveindex.info database, end values held (below 310 and 320 nm the glasses absorb more than is held).
-//! Plastics: n² − 1 = B λ²/(λ² − C), λ in µm (Sultanova, Kasarova & Nikolov 2009, 437–1 052 nm, continued beyond), taken
-//! as without absorption. With extinction k light falls to e^(−αd) over a way d, α = 4πk/λ.
+//! Glasses: soda-lime window glass (Rubin 1985), clear and tinted green by iron; water: Hale & Querry (1973); both from the refractiveindex.info
+//! database, end values held (below 310 and 320 nm the glasses absorb more than the held value). Plastics: n² − 1 = B λ²/(λ² − C), λ in µm
+//! (Sultanova, Kasarova & Nikolov 2009, 437–1 052 nm, extrapolated beyond), assumed non-absorbing. With extinction k light decays by e^(−αd) over a
+//! path d, α = 4πk/λ.
 
 use core::f64::consts::PI;
 use std::sync::LazyLock;
@@ -37,7 +37,7 @@ pub fn named(name: &str) -> Option<&'static ComplexIndex> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The names that [`named`] knows: water, glass (clear float glass), glass-green, acrylic, polycarbonate.
+/// The names accepted by [`named`]: water, glass (clear float glass), glass-green, acrylic, polycarbonate.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     NAMES
@@ -74,7 +74,7 @@ mod tests {
         assert!(named("gold").is_none());
     }
 
-    /// Light transmittance of a pane of a thickness in m under D65, both faces reflecting: (1 − R)² e^(−αd).
+    /// Light transmittance of a pane of a thickness in m under D65, with both faces reflecting: (1 − R)² e^(−αd).
     fn pane(name: &str, metres: f64) -> f64 {
         let absorption = named(name).expect("a glass").absorption();
         let face = 4.0 * 1.5233 / (2.5233 * 2.5233);
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn panes_let_through_what_makers_state() {
-        // As makers state: clear float about 0.89–0.90 at 4 mm and 0.87–0.89 at 6 mm, green 0.77–0.81 at 4 mm.
+        // Manufacturers' values: clear float about 0.89–0.90 at 4 mm and 0.87–0.89 at 6 mm, green 0.77–0.81 at 4 mm.
         let panes = [pane("glass", 4e-3), pane("glass", 6e-3), pane("glass-green", 4e-3)];
         assert!((0.885..0.905).contains(&panes[0]) && (0.865..0.895).contains(&panes[1]), "{panes:?}");
         assert!((0.76..0.82).contains(&panes[2]), "{panes:?}");

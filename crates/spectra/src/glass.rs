@@ -1,7 +1,7 @@
 //! Optical glasses: the refractive index as a smooth function of wavelength, in double precision.
 //!
-//! **Relative to air.** Catalogues state n against air at about 20 °C and 1 atm, so a lens in air has index 1 around it and
-//! air's own dispersion (3e-7 over the visible) is left out, as are temperature, pressure and absorption.
+//! **Relative to air.** Catalogues state n relative to air at about 20 °C and 1 atm. A lens in air therefore has index 1 around it. Air's own
+//! dispersion (3e-7 over the visible), temperature, pressure and absorption are left out.
 //!
 //! λ in µm:
 //!
@@ -11,10 +11,9 @@
 //! | [`Dispersion::Cauchy`] | n = A + B/λ² + C/λ⁴ | Cauchy 1836 |
 //! | [`Dispersion::Conrady`] | n = A + B/λ + C/λ³·⁵ | Conrady 1929 |
 //!
-//! A glass known by index and Abbe number alone ([`Dispersion::of_abbe`]) is taken as a Conrady curve through n_d, with
-//! n_F − n_C = (n_d − 1)/V_d and the partial dispersion of Schott's normal line,
-//! (n_g − n_F)/(n_F − n_C) = 0.6438 − 0.001682 V_d (Schott TIE-29): a third condition that ordinary glasses obey to 1 %
-//! and that fluor crowns and short flints, made to depart from it, do not.
+//! A glass given only by index and Abbe number ([`Dispersion::of_abbe`]) is a Conrady curve through n_d, with n_F − n_C = (n_d − 1)/V_d and the
+//! partial dispersion of Schott's normal line, (n_g − n_F)/(n_F − n_C) = 0.6438 − 0.001682 V_d (Schott TIE-29). Ordinary glasses obey this third
+//! condition to 1 %; fluor crowns and short flints deviate from it by design.
 
 use std::sync::LazyLock;
 
@@ -29,7 +28,7 @@ pub const LINE_C_NM: f64 = 656.2725;
 /// The mercury g line, nm.
 pub const LINE_G_NM: f64 = 435.8343;
 
-/// How the refractive index of a clear material depends on wavelength.
+/// Refractive index of a clear material over wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dispersion {
     /// The same index at every wavelength; 1 is air.
@@ -64,18 +63,18 @@ pub enum Dispersion {
     },
 }
 
-/// Why a glass cannot be.
+/// Error of a glass.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GlassError {
-    /// A name that no catalogue of the crate has.
+    /// A name in no catalogue of the crate.
     #[error("no glass is called `{name}`{}; give a name of the Schott or Ohara catalogue, or n_d and V_d", hint(near))]
     Unknown {
         /// The name.
         name: String,
-        /// Names that differ from it little.
+        /// Similar names.
         near: Vec<&'static str>,
     },
-    /// Index or Abbe number of no glass.
+    /// An index or Abbe number outside the range of glasses.
     #[error(
         "a glass with index {index} and Abbe number {abbe}: the index must be above 1 and at most 5, the Abbe number above 5"
     )]
@@ -85,7 +84,7 @@ pub enum GlassError {
         /// V_d.
         abbe: f64,
     },
-    /// A curve that leaves what a clear material can have.
+    /// A curve outside the range of clear materials.
     #[error(
         "the index is {n} at {nm} nm; between 300 and 1100 nm it must stay within 1 and 5: check the coefficients' unit (µm)"
     )]
@@ -102,13 +101,13 @@ fn hint(near: &[&str]) -> String {
 }
 
 impl Dispersion {
-    /// Air, and whatever else does not bend light.
+    /// Air, or any medium of index 1.
     pub const AIR: Self = Self::Constant { n: 1.0 };
 
-    /// The curve of a glass known by n_d and V_d: see the module.
+    /// The curve of a glass given by n_d and V_d: see the module.
     ///
     /// # Errors
-    /// Where no glass has these numbers.
+    /// If no glass has these numbers.
     pub fn of_abbe(index: f64, abbe: f64) -> Result<Self, GlassError> {
         if !(index > 1.0 && index <= 5.0 && abbe > 5.0 && abbe.is_finite()) {
             return Err(GlassError::Abbe { index, abbe });
@@ -118,7 +117,7 @@ impl Dispersion {
         let terms = |nm: f64| [1e3 / nm, conrady_power(nm * 1e-3)];
         let ([d1, d2], [f1, f2], [c1, c2], [g1, g2]) =
             (terms(LINE_D_NM), terms(LINE_F_NM), terms(LINE_C_NM), terms(LINE_G_NM));
-        // Two linear equations: B (F1 − C1) + C (F2 − C2) = n_F − n_C, and the same of g and F.
+        // Two linear equations: B (F1 − C1) + C (F2 − C2) = n_F − n_C, and the same for g and F.
         let (p, q, r, s) = (f1 - c1, f2 - c2, g1 - f1, g2 - f2);
         let determinant = p * s - q * r;
         let b_um = (principal * s - q * partial) / determinant;
@@ -126,10 +125,10 @@ impl Dispersion {
         Self::Conrady { a: index - b_um * d1 - c_um35 * d2, b_um, c_um35 }.checked()
     }
 
-    /// This curve, where it is one of a clear material at every legal wavelength.
+    /// Returns this curve if it is that of a clear material at every legal wavelength.
     ///
     /// # Errors
-    /// Where the index leaves 1 to 5 between 300 and 1 100 nm.
+    /// If the index leaves 1 to 5 between 300 and 1 100 nm.
     pub fn checked(self) -> Result<Self, GlassError> {
         let grid = (SHORTEST_NM as u32..=MAX_NM as u32).map(f64::from);
         let outside = grid.map(|nm| (nm, self.index(nm))).find(|(_, n)| !(1.0..=5.0).contains(n));
@@ -158,7 +157,7 @@ impl Dispersion {
         (self.index(LINE_D_NM) - 1.0) / (self.index(LINE_F_NM) - self.index(LINE_C_NM))
     }
 
-    /// Whether the index depends on wavelength.
+    /// True if the index depends on wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         !matches!(self, Self::Constant { .. })
@@ -170,14 +169,14 @@ fn conrady_power(um: f64) -> f64 {
     1.0 / (um * um * um * um.sqrt())
 }
 
-/// A glass of a maker's catalogue.
+/// A glass of a manufacturer's catalogue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CatalogueGlass {
-    /// The maker.
+    /// Manufacturer.
     pub maker: &'static str,
-    /// The maker's name of it.
+    /// Catalogue name.
     pub name: &'static str,
-    /// Its index.
+    /// Dispersion.
     pub dispersion: Dispersion,
 }
 
@@ -192,22 +191,22 @@ fn row(line: &'static str) -> CatalogueGlass {
     CatalogueGlass { maker, name, dispersion }
 }
 
-/// All catalogue glasses, by maker and name.
+/// All catalogue glasses, by manufacturer and name.
 #[must_use]
 pub fn catalogue() -> &'static [CatalogueGlass] {
     &CATALOGUE
 }
 
-/// A glass by its maker's name; capitals do not matter, as lens files differ in them.
+/// A glass by its catalogue name; case is ignored, as lens files differ in it.
 ///
 /// # Errors
-/// Where no catalogue of the crate has the name: the error names the nearest ones.
+/// If no catalogue of the crate has the name: the error lists the nearest ones.
 pub fn named(name: &str) -> Result<&'static CatalogueGlass, GlassError> {
     let found = CATALOGUE.iter().find(|glass| glass.name.eq_ignore_ascii_case(name.trim()));
     found.ok_or_else(|| GlassError::Unknown { name: name.to_owned(), near: near(name) })
 }
 
-/// Names that hold the letters and digits of `name` (the new N- or S- glass for an old name, say).
+/// Names that contain the letters and digits of `name` (such as the new N- or S- glass for an old name).
 fn near(name: &str) -> Vec<&'static str> {
     let letters =
         |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
@@ -257,8 +256,7 @@ mod tests {
 
     #[test]
     fn the_curve_of_an_abbe_number_follows_the_real_glass() {
-        // What the model is worth over 400–700 nm: the root mean square over the whole catalogue, and the worst glass
-        // on the normal line.
+        // Accuracy of the model over 400–700 nm: the root mean square over the whole catalogue, and the worst glass on the normal line.
         let (mut sum, mut count, mut worst) = (0.0, 0.0, 0.0_f64);
         for glass in catalogue() {
             let real = glass.dispersion;

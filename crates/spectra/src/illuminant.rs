@@ -1,7 +1,7 @@
 //! Illuminants and lamps by name, the Sun, and the black body.
 //!
-//! CIE illuminants and measured lamps are **relative** powers: scale them with
-//! [`observer::with_luminance`](crate::observer::with_luminance). The Sun and the black body are absolute.
+//! CIE illuminants and measured lamps are **relative** powers: scale them with [`observer::with_luminance`](crate::observer::with_luminance). The Sun
+//! and the black body are absolute.
 
 use std::sync::LazyLock;
 
@@ -48,8 +48,8 @@ pub fn named(name: &str) -> Option<&'static Spectrum> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The names that [`named`] knows: CIE illuminants (A, D50, D65, E, FL2, FL11, HP1, LED-B3, LED-B5, LED-RGB1, LED-V1)
-/// and measured lamps (incandescent, led-white-yag, mercury, metal-halide, sodium-high-pressure, sodium-low-pressure).
+/// The names accepted by [`named`]: CIE illuminants (A, D50, D65, E, FL2, FL11, HP1, LED-B3, LED-B5, LED-RGB1, LED-V1) and measured lamps
+/// (incandescent, led-white-yag, mercury, metal-halide, sodium-high-pressure, sodium-low-pressure).
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     NAMES
@@ -68,7 +68,7 @@ pub struct SolarIrradiance {
     pub extraterrestrial: Spectrum,
     /// At the ground through 1.5 air masses, on a plane tilted 37° to the Sun, sky and ground included.
     pub global_tilt: Spectrum,
-    /// At the ground through 1.5 air masses, from the Sun's disc and the 2.5° about it, on a plane facing it.
+    /// At the ground through 1.5 air masses, from the Sun's disc and the 2.5° about it, on a plane facing the Sun.
     pub direct: Spectrum,
 }
 
@@ -90,8 +90,8 @@ const LIGHT_M_S: f64 = 299_792_458.0;
 /// Boltzmann constant, J/K.
 const BOLTZMANN_J_K: f64 = 1.380_649e-23;
 
-/// Spectral radiance of a black body, W·m⁻²·sr⁻¹·nm⁻¹, by Planck's law (constants of the SI of 2019); in vacuum.
-/// At 0 K (and below, which has no meaning) it is zero.
+/// Spectral radiance of a black body, W·m⁻²·sr⁻¹·nm⁻¹, by Planck's law (constants of the SI of 2019); in vacuum. Zero at 0 K and below (which has no
+/// meaning).
 #[must_use]
 pub fn blackbody(kelvin: f64) -> Spectrum {
     Spectrum::from_fn(|nm| planck(nm, kelvin))
@@ -144,7 +144,7 @@ mod tests {
         };
         let exitance = PI * step / 3.0 * (0..=steps).map(|i| weight(i) * term(i)).sum::<f64>();
         let expected = 5.670_374_419e-8 * 3000.0_f64 * 3000.0 * 3000.0 * 3000.0;
-        // Beyond 20 mm the share is 15/π⁴ · x³/3 = 7e-13 for x = hc/λkT = 2.4e-4; σ has ten digits; Simpson's error is less.
+        // Beyond 20 mm the fraction is 15/π⁴ · x³/3 = 7e-13 for x = hc/λkT = 2.4e-4; σ has ten digits; Simpson's error is less.
         assert!((exitance / expected - 1.0).abs() < 1e-9, "{exitance} against {expected}");
     }
 
@@ -163,8 +163,8 @@ mod tests {
     #[test]
     fn the_sun_is_nearly_a_black_body() {
         let sun = solar();
-        // Effective temperature 5 772 K, 6.794e-5 sr from the Earth (IAU 2015). Its lines and the infrared of its deeper
-        // layers move a few parts in a hundred.
+        // Effective temperature 5 772 K, 6.794e-5 sr from the Earth (IAU 2015). Its lines and the infrared of its deeper layers change the result by
+        // a few per cent.
         let disc = blackbody(5772.0).scaled(6.794e-5).integral(300.0, 1100.0);
         let above = sun.extraterrestrial.integral(300.0, 1100.0);
         assert!((above / disc - 1.0).abs() < 0.04, "{above} W/m² against {disc}");

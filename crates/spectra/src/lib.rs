@@ -1,10 +1,10 @@
-//! Spectra: how light, surfaces, glass and sensors depend on wavelength, and what colour they have.
+//! Spectra: wavelength dependence of light, surfaces, glass and sensors, and their colour.
 //!
-//! A [`Spectrum`] is a function of wavelength on a dense grid of 1 nm from 300 to 1 100 nm. Measured and standard
-//! tables come with the crate (`data/SOURCES.md` names their sources and licences) and are parsed once, on first use.
+//! A [`Spectrum`] is a function of wavelength on a dense grid of 1 nm from 300 to 1 100 nm. The crate includes measured and standard tables
+//! (`data/SOURCES.md` lists their sources and licences), parsed once on first use.
 //!
-//! **Outside a table** sensitivities and emissions are zero, and reflectances, transmittances and refractive indices
-//! hold their end value; [`Outside`] names the choice and [`Spectrum::covered_nm`] says how far a table reached.
+//! **Outside a table** sensitivities and emissions are zero, and reflectances, transmittances and refractive indices hold their end value;
+//! [`Outside`] selects the rule and [`Spectrum::covered_nm`] returns the range of the table.
 
 pub mod camera;
 pub mod colour;

@@ -1,7 +1,6 @@
 //! Metals: complex refractive indices n + ik, for light of time dependence exp(−iωt) (k > 0 absorbs).
 //!
-//! Johnson & Christy 1972 (Ag, Au, Cu) and 1974 (Cr, Fe), Rakić 1995 (Al); end values held. Surfaces are taken clean:
-//! oxide layers are left out.
+//! Johnson & Christy 1972 (Ag, Au, Cu) and 1974 (Cr, Fe), Rakić 1995 (Al); end values held. Surfaces are assumed clean: oxide layers are left out.
 
 use std::sync::LazyLock;
 
@@ -37,11 +36,12 @@ pub(crate) fn complex_index(text: &str) -> ComplexIndex {
     ComplexIndex { n, k }
 }
 
-/// The index of a metal that is known by what it reflects at normal incidence, r (0 to 1), alone.
+/// The index of a metal given only by its reflectance at normal incidence, r (0 to 1).
 ///
-/// n lies between the two ends that r allows, (1 − r)/(1 + r) and (1 + √r)/(1 − √r), and k follows from both (Gulbrandsen, "Artist friendly metallic
-/// Fresnel", JCGT 3(4), 2014). How far between, g = 1 − (1 − r)³ of the way to the lower, was fitted so that the reflectance over all directions
-/// is that of Schlick's approximation, by which glTF defines its metals: within 0.02 from r = 0.02 on, and up to 0.05 less below.
+/// n lies between the two bounds set by r, (1 − r)/(1 + r) and (1 + √r)/(1 − √r), and k follows from both (Gulbrandsen, "Artist friendly metallic
+/// Fresnel", JCGT 3(4), 2014). Its position, a fraction g = 1 − (1 − r)³ of the way to the lower bound, was fitted so that the reflectance over all
+/// directions is that of Schlick's approximation, which glTF uses to define its metals: within 0.02 for r of 0.02 and above, and up to 0.05 less
+/// below.
 #[must_use]
 pub fn of_reflectance(normal: &Spectrum) -> ComplexIndex {
     let at = |nm: f64| index_of(f64::from(normal.at(nm as f32)));
@@ -64,7 +64,7 @@ pub fn named(name: &str) -> Option<&'static ComplexIndex> {
     NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
 }
 
-/// The symbols that [`named`] knows: Ag, Al, Au, Cr, Cu, Fe.
+/// The symbols accepted by [`named`]: Ag, Al, Au, Cr, Cu, Fe.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     NAMES
@@ -112,8 +112,8 @@ mod tests {
 
     #[test]
     fn metals_reflect_as_handbooks_say() {
-        // Clean evaporated films, CRC Handbook: Al 0.915 and Ag 0.98 at 550–600 nm; gold and copper are red. Samples
-        // and preparations differ by some parts in a hundred.
+        // Clean evaporated films, CRC Handbook: Al 0.915 and Ag 0.98 at 550–600 nm; gold and copper are red. Samples and preparations differ by a few
+        // per cent.
         assert!((mirror("Al", 550.0) - 0.915).abs() < 0.02);
         assert!((mirror("Ag", 600.0) - 0.98).abs() < 0.02);
         assert!(mirror("Au", 650.0) > 0.9 && mirror("Au", 450.0) < 0.45);

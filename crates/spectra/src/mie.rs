@@ -1,21 +1,21 @@
 //! Scattering by a homogeneous sphere (Mie 1908), by the series of Bohren and Huffman ("Absorption and Scattering of Light by Small
 //! Particles", 1983, ch. 4 and app. A), and by droplets of log-normal sizes.
 //!
-//! A sphere of diameter d and index m = n − i k beside the air's has the size parameter x = π d/λ. Its amplitudes are
+//! A sphere of diameter d and index m = n − i k relative to air has the size parameter x = π d/λ. Its amplitudes are
 //!
 //! S₁ = Σ (2j + 1)/(j(j + 1)) (a_j π_j + b_j τ_j), S₂ the same with π and τ exchanged,
 //!
-//! a and b by the logarithmic derivative D_j(m x), recurred downwards, and the Riccati–Bessel functions ψ and ξ, recurred upwards. Light
-//! without polarisation is scattered in proportion to |S₁|² + |S₂|². Sizes up to x of some thousands hold in f64.
+//! a and b by the logarithmic derivative D_j(m x), by downward recurrence, and the Riccati–Bessel functions ψ and ξ, by upward recurrence.
+//! Unpolarised light is scattered in proportion to |S₁|² + |S₂|². The series holds in f64 for size parameters x up to some thousands.
 //!
-//! Left out: polarisation, drops that are not round, and interference between drops.
+//! Left out: polarisation, non-spherical drops, and interference between drops.
 
 use core::f64::consts::PI;
 use core::ops::{Add, Mul, Sub};
 
 use etendue_core::maths::f64::{cbrt, exp, ln, sin_cos};
 
-/// A complex number; nothing but what the series needs.
+/// A complex number, with the operations that the series needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Complex {
     re: f64,
@@ -71,7 +71,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// A sphere of size parameter `x` = π d/λ (positive) and index `n` − i `k` beside its surroundings'.
+    /// A sphere of size parameter `x` = π d/λ (positive) and index `n` − i `k` relative to its surroundings.
     #[must_use]
     pub fn new(x: f64, n: f64, k: f64) -> Self {
         // Wiscombe (1980).
@@ -102,7 +102,7 @@ impl Sphere {
         2.0 / (self.x * self.x) * self.sum(|(a, b)| a.re + b.re)
     }
 
-    /// Scattering efficiency; the same as that of extinction where k is 0.
+    /// Scattering efficiency; equal to the extinction efficiency if k is 0.
     #[must_use]
     pub fn scattering_efficiency(&self) -> f64 {
         2.0 / (self.x * self.x) * self.sum(|(a, b)| a.norm2() + b.norm2())
@@ -112,7 +112,7 @@ impl Sphere {
         (1_u32..).zip(&self.coefficients).map(|(j, pair)| f64::from(2 * j + 1) * of(*pair)).sum()
     }
 
-    /// (|S₁|² + |S₂|²)/2 at angles of these cosines from straight on; over k² = (2π/λ)² the differential cross section.
+    /// (|S₁|² + |S₂|²)/2 at scattering angles of these cosines; divided by k² = (2π/λ)² it is the differential cross section.
     #[must_use]
     pub fn intensities(&self, cosines: &[f64]) -> Vec<f64> {
         let mut angles: Vec<_> = cosines.iter().map(|cos| Angle::new(*cos)).collect();
@@ -150,7 +150,7 @@ impl Angle {
     }
 }
 
-/// D_j(z), j from 0 to `terms`, downwards from zero far above, where the error dies out.
+/// D_j(z), j from 0 to `terms`, by downward recurrence from zero far above, where the error decays.
 fn logarithmic_derivative(z: Complex, terms: usize) -> Vec<Complex> {
     let first = terms.max(z.norm2().sqrt() as usize) + 16;
     let inverse = z.inverse();
@@ -165,12 +165,12 @@ fn logarithmic_derivative(z: Complex, terms: usize) -> Vec<Complex> {
     of
 }
 
-/// Droplets of log-normal diameters: by number, ln d is normal about the ln of a diameter.
+/// Droplets of log-normal diameters: by number, ln d is normally distributed about the ln of the median.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Droplets {
     /// The median of d by number, µm.
     pub diameter_um: f64,
-    /// The factor of one standard deviation; 1.35 is usual for fog.
+    /// Geometric standard deviation; 1.35 is usual for fog.
     pub spread: f64,
     /// Index n of the droplets.
     pub n: f64,
@@ -178,21 +178,19 @@ pub struct Droplets {
     pub k: f64,
 }
 
-/// Sizes that stand for all. Single spheres have narrow resonances, most of all straight back: 80 sizes leave 10 to 20 % of them, 2000 about
-/// 1 %.
+/// Number of sampled sizes. Single spheres have narrow resonances, strongest in backscattering: 80 sizes leave 10 to 20 % of them, 2000 about 1 %.
 const SIZES: i32 = 2000;
-/// Standard deviations within which they lie.
+/// Range of the sampled sizes, in standard deviations.
 const REACH: f64 = 3.5;
 
 impl Droplets {
-    /// Of water (n = 1.333, k = 2e-9), with the usual spread, 1.35.
+    /// Water droplets (n = 1.333, k = 2e-9), with the usual spread, 1.35.
     #[must_use]
     pub fn of_water(diameter_um: f64) -> Self {
         Self { diameter_um, spread: 1.35, n: 1.333, k: 2e-9 }
     }
 
-    /// The phase function, 1/sr, at angles of these cosines from straight on, at a wavelength: what the droplets scatter of light
-    /// without polarisation, whose integral over all directions is 1.
+    /// The phase function of unpolarised light, 1/sr, at scattering angles of these cosines, at a wavelength; its integral over all directions is 1.
     #[must_use]
     pub fn phase(&self, nm: f64, cosines: &[f64]) -> Vec<f64> {
         let (mut of, mut whole) = (vec![0.0; cosines.len()], 0.0);
@@ -215,8 +213,8 @@ mod tests {
     use super::*;
     use etendue_core::maths::f64::{cos, pow};
 
-    /// Bohren and Huffman, app. A: x = 3 of a vacuum wavelength of 0.6328 µm, a = 0.525 µm, index 1.55 in a medium of 1:
-    /// x = 5.213, Q_sca = 3.105 43, Q_ext the same, Q_back 2.925 34.
+    /// Bohren and Huffman, app. A: x = 3 for a vacuum wavelength of 0.6328 µm, a = 0.525 µm, index 1.55 in a medium of 1: x = 5.213, Q_sca = 3.105
+    /// 43, Q_ext the same, Q_back 2.925 34.
     #[test]
     fn the_sphere_of_bohren_and_huffman() {
         let x = 2.0 * PI * 0.525 / 0.6328;
@@ -227,7 +225,7 @@ mod tests {
         assert!((back - 2.925_34).abs() < 1e-4, "{back}");
     }
 
-    /// Small spheres scatter as Rayleigh says: Q = 8/3 x⁴ |(m² − 1)/(m² + 2)|², to the order of x².
+    /// Small spheres follow Rayleigh's law: Q = 8/3 x⁴ |(m² − 1)/(m² + 2)|², to the order of x².
     #[test]
     fn small_spheres_scatter_as_rayleigh_says() {
         let (x, n) = (0.01_f64, 1.333_f64);
@@ -246,7 +244,8 @@ mod tests {
         assert!((sphere.extinction_efficiency() - 2.0).abs() < 0.3, "{}", sphere.extinction_efficiency());
     }
 
-    /// The optical theorem: Q_ext = 4/x² Re S(0), and for a sphere without absorption |S(0)|² of it and the integral of all light.
+    /// The integral of the scattered light over all directions is the scattering efficiency; without absorption it equals the extinction
+    /// efficiency, by the optical theorem Q_ext = 4/x² Re S(0).
     #[test]
     fn light_scattered_in_all_directions_is_all_that_is_scattered() {
         let sphere = Sphere::new(25.0, 1.333, 0.0);
@@ -257,8 +256,8 @@ mod tests {
         assert!((q / sphere.scattering_efficiency() - 1.0).abs() < 1e-4, "{q}");
     }
 
-    /// Figures of the package miepython 3.3.0 (tests/oracles/mie.py): water at 550 nm, n = 1.333 − 2e-9 i, 20 001 sizes within four standard
-    /// deviations. The tolerance is that of the resonances, which are left.
+    /// Reference values of the package miepython 3.3.0 (tests/oracles/mie.py): water at 550 nm, n = 1.333 − 2e-9 i, 20 001 sizes within four standard
+    /// deviations. The tolerance is that of the remaining resonances.
     #[test]
     fn water_fog_agrees_with_an_independent_program() {
         let degrees = [0.0, 5.0, 30.0, 90.0, 140.0, 170.0, 180.0_f64];

@@ -56,15 +56,14 @@ pub fn luminance(radiance: &Spectrum) -> f64 {
     LUMINOUS_EFFICACY_LM_W * node_sum(&[radiance, y_bar()])
 }
 
-/// A relative spectrum scaled to a luminance in cd·m⁻² (or an illuminance in lx). `None` where it has none: no scale
-/// makes infrared bright.
+/// A relative spectrum scaled to a luminance in cd·m⁻² (or an illuminance in lx). `None` if it has none: infrared cannot be scaled to a luminance.
 #[must_use]
 pub fn with_luminance(relative: &Spectrum, luminance_cd_m2: f64) -> Option<Spectrum> {
     let own = luminance(relative);
     (own > 0.0).then(|| relative.scaled(luminance_cd_m2 / own))
 }
 
-/// What each band adds to X, Y and Z for a mean spectral radiance of 1 W·m⁻²·sr⁻¹·nm⁻¹ in it.
+/// Contributions of each band to X, Y and Z for a mean spectral radiance of 1 W·m⁻²·sr⁻¹·nm⁻¹ in it.
 #[must_use]
 pub fn xyz_weights(bands: Bands) -> Vec<[f64; 3]> {
     let weight = LUMINOUS_EFFICACY_LM_W * bands.width_nm();
@@ -72,7 +71,7 @@ pub fn xyz_weights(bands: Bands) -> Vec<[f64; 3]> {
     (0..bands.count()).map(|i| [x[i] * weight, y[i] * weight, z[i] * weight]).collect()
 }
 
-/// Tristimulus values of band means of a spectral radiance, Y in cd·m⁻²; `means` holds one value a band.
+/// Tristimulus values of band means of a spectral radiance, Y in cd·m⁻²; `means` holds one value per band.
 #[must_use]
 pub fn xyz_of_bands(means: &[f32], bands: Bands) -> [f64; 3] {
     xyz_weights(bands)
@@ -81,7 +80,7 @@ pub fn xyz_of_bands(means: &[f32], bands: Bands) -> [f64; 3] {
         .fold([0.0; 3], |sum, (weight, mean)| core::array::from_fn(|c| sum[c] + weight[c] * f64::from(*mean)))
 }
 
-/// Sum over the nodes of the product of spectra: the integral by trapezia, as the functions vanish at the ends.
+/// Sum over the nodes of the product of spectra: the trapezoidal integral, as the functions vanish at the ends.
 fn node_sum(factors: &[&Spectrum]) -> f64 {
     (0..crate::spectrum::NODES).map(|i| factors.iter().map(|s| f64::from(s.nodes()[i])).product::<f64>()).sum()
 }
@@ -97,7 +96,7 @@ mod tests {
         let line = [(554.0, 0.0), (555.0, 1.0 / 683.0), (556.0, 0.0)];
         let line = Spectrum::from_points(&line, Outside::Zero).expect("a table");
         assert!((luminance(&line) - 1.0).abs() < 1e-7);
-        // In a band the neighbours of the peak count: ȳ(554) = 0.9998, ȳ(556) = 0.99983 (CIE table).
+        // In a band the neighbours of the peak contribute: ȳ(554) = 0.9998, ȳ(556) = 0.99983 (CIE table).
         let bands = Bands::new(554.0, 2.0, 1).expect("a band");
         let mean = line.band_means(bands)[0] as f32;
         assert!((xyz_of_bands(&[mean], bands)[1] - 1.0).abs() < 2e-4);
@@ -107,7 +106,7 @@ mod tests {
     fn bands_approach_the_sum_over_nodes() {
         let light = illuminant::named("A").expect("A");
         let exact = xyz(light);
-        // Means of width h err by about h²/12 S″/S, over nodes of 1 nm by 1/4 S″/S; S″/S of A is 1e-4 in the blue.
+        // The error of means of width h is about h²/12 S″/S, over nodes of 1 nm 1/4 S″/S; S″/S of A is 1e-4 in the blue.
         for (width, tolerance) in [(5.0, 3e-4), (1.0, 3e-5)] {
             let bands = Bands::covering(360.0, 830.0, width).expect("bands");
             let means: Vec<f32> = light.band_means(bands).into_iter().map(|v| v as f32).collect();

@@ -2,13 +2,13 @@
 //!
 //! Typical spectra of the materials of roads and streets, by name.
 //!
-//! Values are typical of a material class and set down by hand: level and form follow what the works that [`source`]
-//! names report, to some tens of per cent, but no figure was read off them and none is the measurement of a sample. (Leaves
-//! are computed.) Where a spectrum matters, give a measured one. They are reflectances (one, `leaf-green-transmittance`, a transmittance) in [0, 1], for
-//! light that is scattered: the gloss of a surface is its material's affair. End values are held from 300 to 1 100 nm.
+//! Values are typical of a material class and set by hand. Level and form follow the works that [`source`] names, to some tens of per cent, but no
+//! value was read from them and none is the measurement of a sample. (Leaves are computed.) Where a spectrum matters, use a measured one. They are
+//! reflectances (one, `leaf-green-transmittance`, a transmittance) in [0, 1], for scattered light: the gloss of a surface is part of its material.
+//! End values are held from 300 to 1 100 nm.
 //!
-//! **Left out:** spread within a class, dirt, weathering, fluorescence (so no daylight-fluorescent sheeting, no
-//! brightener in cloth), dependence on direction.
+//! **Left out:** spread within a class, dirt, weathering, fluorescence (hence no daylight-fluorescent sheeting, no optical brightener in cloth),
+//! dependence on direction.
 //!
 //! The ColorChecker of 24 patches: BabelColor's average of measured reflectances, 380–730 nm, end values held.
 
@@ -55,13 +55,13 @@ pub fn named(name: &str) -> Option<&'static Spectrum> {
     find(name).map(|entry| &entry.spectrum)
 }
 
-/// What the values of a name are, and whose reports they follow.
+/// The nature of a name's values, and the works they follow.
 #[must_use]
 pub fn source(name: &str) -> Option<&'static str> {
     find(name).map(|entry| entry.source)
 }
 
-/// The names that [`named`] knows: leaves, asphalt, concrete, soil, skin, rubber, paints, road markings, sheeting, cotton.
+/// The names accepted by [`named`]: leaves, asphalt, concrete, soil, skin, rubber, paints, road markings, sheeting, cotton.
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     &NAMES
@@ -70,9 +70,9 @@ pub fn names() -> &'static [&'static str] {
 /// A patch of the chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
-    /// The patch's name, as the table gives it: `dark_skin`, … `black_2_(1.5_D)`.
+    /// The patch's name in the table: `dark_skin`, … `black_2_(1.5_D)`.
     pub name: &'static str,
-    /// Its reflectance.
+    /// Reflectance.
     pub reflectance: Spectrum,
 }
 

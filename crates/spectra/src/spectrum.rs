@@ -8,11 +8,11 @@ use crate::table::{self, Outside, Place, SpectrumError, rows};
 /// Nodes of the grid: 300, 301, … 1 100 nm.
 pub(crate) const NODES: usize = 801;
 
-/// A function of wavelength: values at every nanometre from 300 to 1 100 nm, linear between; the unit is its owner's.
+/// A function of wavelength: values at every nanometre from 300 to 1 100 nm, linear between; the owner defines the unit.
 ///
-/// A table of whole nanometres is kept as it is. A node with a point of the table beside it, closer than 1 nm, takes
-/// the mean over its neighbourhood (weights falling linearly to zero at 1 nm), so that tables finer than the grid and
-/// narrow lines keep their power. A table that is zero outside falls to zero within 1 nm of its end.
+/// A table at integer nanometres is stored unchanged. A node with a table point closer than 1 nm takes the mean over its neighbourhood (weights
+/// falling linearly to zero at 1 nm), so that tables finer than the grid and narrow lines keep their power. A table that is zero outside falls to
+/// zero within 1 nm of its end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     values: Box<[f32; NODES]>,
@@ -33,10 +33,10 @@ impl Spectrum {
         Self { values: boxed(values), covered_nm: (SHORTEST_NM, MAX_NM) }
     }
 
-    /// A spectrum through points (wavelength in nm, value), wavelengths rising; linear between points.
+    /// Creates a spectrum from points (wavelength in nm, value), wavelengths rising; linear between points.
     ///
     /// # Errors
-    /// Where there are no points, or a single one of what is zero outside of it, a number is not finite, wavelengths do not rise, or the table does not
+    /// If there are no points, a single one in a table that is zero outside, a number is not finite, wavelengths do not rise, or the table does not
     /// reach into 300 to 1 100 nm.
     pub fn from_points(points: &[(f64, f64)], outside: Outside) -> Result<Self, SpectrumError> {
         table::check(points, Place::Point)?;
@@ -44,11 +44,11 @@ impl Spectrum {
         Ok(Self::from_checked(points, outside))
     }
 
-    /// A spectrum from the text of a CSV table: two columns `wavelength_nm,value`, an optional header line, empty lines
-    /// and `#` comments allowed.
+    /// Parses a spectrum from the text of a CSV table: two columns `wavelength_nm,value`, an optional header line, empty lines and `#` comments
+    /// allowed.
     ///
     /// # Errors
-    /// As [`Spectrum::from_points`], and where a line is not two numbers; the error names the line.
+    /// As [`Spectrum::from_points`], and if a line is not two numbers; the error names the line.
     pub fn from_csv(text: &str, outside: Outside) -> Result<Self, SpectrumError> {
         let points = table::points(text)?;
         table::check_width(&points, outside)?;
@@ -76,8 +76,7 @@ impl Spectrum {
         Spectral(wavelengths.nm.map(|nm| self.at(nm)))
     }
 
-    /// Integral over `[low_nm, high_nm]`, exact for the broken line; nothing is added beyond 300–1 100 nm.
-    /// The unit is the value's × nm.
+    /// Integral over `[low_nm, high_nm]`, exact for the piecewise linear function; zero beyond 300–1 100 nm. The unit is the value's × nm.
     #[must_use]
     pub fn integral(&self, low_nm: f64, high_nm: f64) -> f64 {
         let (low, high) = (low_nm.max(SHORTEST_NM) - SHORTEST_NM, high_nm.min(MAX_NM) - SHORTEST_NM);
@@ -96,7 +95,7 @@ impl Spectrum {
         (high - low) * (a + middle * (b - a))
     }
 
-    /// Mean over `[low_nm, high_nm]`, which must not be empty and lie within 300–1 100 nm.
+    /// Mean over `[low_nm, high_nm]`, which must be non-empty and within 300–1 100 nm.
     #[must_use]
     pub fn band_mean(&self, low_nm: f64, high_nm: f64) -> f64 {
         self.integral(low_nm, high_nm) / (high_nm - low_nm)
@@ -116,7 +115,7 @@ impl Spectrum {
         self.mapped(|_, v| v * factor)
     }
 
-    /// The product with another spectrum, node by node; it covers what both cover.
+    /// The product with another spectrum, node by node; it covers the intersection of both ranges.
     #[must_use]
     pub fn product(&self, other: &Self) -> Self {
         let covered_nm = (self.covered_nm.0.max(other.covered_nm.0), self.covered_nm.1.min(other.covered_nm.1));
@@ -128,26 +127,25 @@ impl Spectrum {
         Self { values: boxed(values), covered_nm: self.covered_nm }
     }
 
-    /// The largest value of 300 to 1 100 nm.
+    /// The largest value within 300 to 1 100 nm.
     #[must_use]
     pub fn max_value(&self) -> f32 {
         self.values.iter().copied().fold(f32::NEG_INFINITY, f32::max)
     }
 
-    /// The smallest value of 300 to 1 100 nm.
+    /// The smallest value within 300 to 1 100 nm.
     #[must_use]
     pub fn min_value(&self) -> f32 {
         self.values.iter().copied().fold(f32::INFINITY, f32::min)
     }
 
-    /// First and last wavelength (nm, within 300–1 100) that the table or function behind the spectrum gave a value
-    /// for; beyond, its [`Outside`] rule holds.
+    /// First and last wavelength (nm, within 300–1 100) covered by the table or function of the spectrum; beyond, its [`Outside`] rule holds.
     #[must_use]
     pub fn covered_nm(&self) -> (f64, f64) {
         self.covered_nm
     }
 
-    /// The first and last wavelength (nm) between which the spectrum is not zero; `None` where it is zero everywhere.
+    /// The first and last wavelength (nm) between which the spectrum is not zero; `None` if it is zero everywhere.
     #[must_use]
     pub fn support_nm(&self) -> Option<(f64, f64)> {
         let first = self.values.iter().position(|v| *v != 0.0)?;
@@ -167,11 +165,11 @@ pub(crate) fn node_nm(i: usize) -> f64 {
     SHORTEST_NM + i as f64
 }
 
-/// The node at or below a wavelength, never the last, and how far on the wavelength lies, in [0, 1].
+/// The node at or below a wavelength, never the last, and the fraction towards the next, in [0, 1].
 #[inline]
 pub(crate) fn node_below(nm: f32) -> (usize, f32) {
     let x = (nm - SHORTEST_NM as f32).clamp(0.0, (NODES - 1) as f32);
-    // By way of i32, which the processor converts to at once.
+    // Converts through i32, for which the processor has a direct instruction.
     let i = (x as i32 as usize).min(NODES - 2);
     (i, x - i as f32)
 }
@@ -180,14 +178,14 @@ fn boxed(values: Vec<f32>) -> Box<[f32; NODES]> {
     values.try_into().expect("one value a node")
 }
 
-/// The spectra of a table that comes with the crate: `C` columns, the first the wavelength in nm.
+/// The spectra of an embedded table: `C` columns, the first the wavelength in nm.
 pub(crate) fn embedded<const C: usize>(text: &str, outside: Outside) -> Vec<Spectrum> {
     let rows = rows::<C>(text).expect("a table of the crate has numbers in every column");
     let column = |c: usize| rows.iter().map(|(_, row)| (row[0], row[c])).collect::<Vec<_>>();
     (1..C).map(|c| Spectrum::from_points(&column(c), outside).expect("a table of the crate is in order")).collect()
 }
 
-/// The column names of a table that comes with the crate, without the wavelength's.
+/// The column names of an embedded table, without the wavelength's.
 pub(crate) fn embedded_names(text: &'static str) -> impl Iterator<Item = &'static str> {
     text.lines().next().unwrap_or("").split(',').skip(1)
 }

@@ -2,7 +2,7 @@
 
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 
-/// What a table means beyond its first and last wavelength.
+/// Meaning of a table beyond its first and last wavelength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outside {
     /// Zero: for emissions and sensitivities.
@@ -11,7 +11,7 @@ pub enum Outside {
     Hold,
 }
 
-/// Where in a table something is wrong.
+/// Location of an error in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A point, counted from 0.
@@ -29,10 +29,10 @@ impl core::fmt::Display for Place {
     }
 }
 
-/// Why a table is not a spectrum.
+/// Error of a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
-    /// A line is not the numbers expected.
+    /// A line without the expected numbers.
     #[error(
         "line {line}: found `{found}`, expected {columns} numbers separated by commas, the first a wavelength in nm"
     )]
@@ -41,13 +41,13 @@ pub enum SpectrumError {
         line: usize,
         /// The line's text.
         found: String,
-        /// How many numbers were expected.
+        /// Expected count of numbers.
         columns: usize,
     },
     /// No points.
     #[error("the table has no points: give a value at the shortest and the longest wavelength")]
     Empty,
-    /// A single point of what is zero outside of its table, and so has no width.
+    /// A single point in a table that is zero outside: it has no width.
     #[error(
         "the table has one point, {nm} nm, and light and sensitivities are zero outside of their tables: give a value at the shortest \
          and the longest wavelength"
@@ -59,13 +59,13 @@ pub enum SpectrumError {
     /// A number is infinite or not a number.
     #[error("{place}: a wavelength or value is not finite: give ordinary numbers")]
     NotFinite {
-        /// Where.
+        /// Location.
         place: Place,
     },
     /// A wavelength is not longer than the one before.
     #[error("{place}: wavelength {nm} nm follows {before} nm: sort the table by rising wavelength, each once")]
     NotRising {
-        /// Where.
+        /// Location.
         place: Place,
         /// The wavelength there, nm.
         nm: f64,
@@ -82,7 +82,7 @@ pub enum SpectrumError {
     },
 }
 
-/// Checks that points are enough for what is outside of them: a single one is a constant, or no spectrum at all.
+/// Checks that there are enough points for the outside rule: a single one is a constant, or no spectrum at all.
 pub(crate) fn check_width(points: &[(f64, f64)], outside: Outside) -> Result<(), SpectrumError> {
     match (points, outside) {
         ([(nm, _)], Outside::Zero) => Err(SpectrumError::NoWidth { nm: *nm }),
@@ -90,7 +90,7 @@ pub(crate) fn check_width(points: &[(f64, f64)], outside: Outside) -> Result<(),
     }
 }
 
-/// Checks that points make a spectrum; `place` names a point by its index.
+/// Checks that points form a spectrum; `place` names a point by its index.
 pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> Place) -> Result<(), SpectrumError> {
     if let Some(i) = points.iter().position(|(nm, v)| !nm.is_finite() || !(*v as f32).is_finite()) {
         return Err(SpectrumError::NotFinite { place: place(i) });
@@ -115,8 +115,8 @@ pub(crate) fn points(text: &str) -> Result<Vec<(f64, f64)>, SpectrumError> {
 /// A row: its line, counted from 1, and its numbers.
 pub(crate) type Row<const C: usize> = (usize, [f64; C]);
 
-/// The rows of a text of `C` columns: numbers separated by commas. Empty lines and `#` comments are passed over, and a
-/// first line without any number is a header.
+/// The rows of a text of `C` columns: numbers separated by commas. Empty lines and `#` comments are skipped; a first line without any number is a
+/// header.
 pub(crate) fn rows<const C: usize>(text: &str) -> Result<Vec<Row<C>>, SpectrumError> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, line)| (i + 1, content(line)));
     let mut lines = lines.filter(|(_, line)| !line.is_empty()).peekable();
@@ -139,8 +139,8 @@ fn numbers<const C: usize>(line: usize, text: &str) -> Result<[f64; C], Spectrum
     array.ok_or_else(|| SpectrumError::Malformed { line, found: text.to_owned(), columns: C })
 }
 
-/// A node's value: the broken line itself, or, where a point lies closer than 1 nm beside it, the line's mean under the
-/// hat that falls to zero at the neighbouring nodes.
+/// A node's value: the piecewise linear function itself or, if a table point lies closer than 1 nm, the mean of the function with a triangular weight
+/// that falls to zero at the neighbouring nodes.
 pub(crate) fn node_value(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
     let inner = &points[points.partition_point(|p| p.0 <= nm - 1.0)..points.partition_point(|p| p.0 < nm + 1.0)];
     if inner.iter().all(|p| p.0 == nm) {
@@ -158,8 +158,8 @@ fn knots_between(inner: &[(f64, f64)], nm: f64) -> impl Iterator<Item = f64> {
     below.iter().map(|p| p.0).chain([nm]).chain(above.map(|p| p.0))
 }
 
-/// Integral of the broken line times the hat about `nm`, between two neighbouring knots: a parabola, so Simpson's rule
-/// is exact.
+/// Integral of the piecewise linear function times the triangular weight about `nm`, between two neighbouring knots: a parabola, so Simpson's rule is
+/// exact.
 fn hat_integral(points: &[(f64, f64)], outside: Outside, nm: f64, low: f64, high: f64) -> f64 {
     let middle = (low + high) / 2.0;
     let value = line_at(points, outside, middle);
@@ -168,14 +168,14 @@ fn hat_integral(points: &[(f64, f64)], outside: Outside, nm: f64, low: f64, high
     (high - low) / 6.0 * (a * hat(low) + 4.0 * value * hat(middle) + b * hat(high))
 }
 
-/// The broken line's limit at a knot from the side of `inside`, where its value is `value`: the line may jump at the
+/// The one-sided limit of the piecewise linear function at a knot from the side of `inside`, where its value is `value`: the function may jump at the
 /// table's ends.
 fn side_limit(points: &[(f64, f64)], outside: Outside, knot: f64, inside: f64, value: f64) -> f64 {
     let (first, last) = (points[0].0, points[points.len() - 1].0);
     if inside < first || inside > last { value } else { line_at(points, outside, knot) }
 }
 
-/// The broken line at a wavelength.
+/// The piecewise linear function at a wavelength.
 fn line_at(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
     let (first, last) = (points[0], points[points.len() - 1]);
     let end = |value: f64| if outside == Outside::Zero { 0.0 } else { value };

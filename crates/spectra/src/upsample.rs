@@ -1,13 +1,12 @@
 //! Spectra for linear sRGB colours: mixtures of three fixed basis reflectances.
 //!
-//! Mallett & Yuksel 2019, "Spectral primary decomposition for rendering with sRGB reflectance": three reflectances
-//! that are nowhere negative, sum to 1 at every wavelength, have exactly the colours of the sRGB primaries under D65,
-//! and are as smooth as that allows (squared first differences over 380–780 nm in steps of 5 nm). They are solved for
-//! this crate's observer and D65 by `tests/oracles/upsample_basis.py` and held beyond their ends.
+//! Mallett & Yuksel 2019, "Spectral primary decomposition for rendering with sRGB reflectance": three non-negative reflectances that sum to 1 at
+//! every wavelength, have exactly the colours of the sRGB primaries under D65, and are as smooth as these conditions allow (squared first differences
+//! over 380–780 nm in steps of 5 nm). They are solved for this crate's observer and D65 by `tests/oracles/upsample_basis.py` and held beyond their
+//! ends.
 //!
-//! A mixture with components in 0 to 1 is therefore a reflectance, and its colour under D65 is the one asked for. The
-//! model says nothing true about infrared or ultraviolet. Components outside 0 to 1 are mixed all the same; whether
-//! they are legal is for the description to say.
+//! A mixture with components in 0 to 1 is therefore a reflectance, and its colour under D65 is the requested one. Infrared and ultraviolet values
+//! have no physical basis. Components outside 0 to 1 are mixed as well; the description decides whether they are legal.
 
 use std::sync::LazyLock;
 
@@ -25,7 +24,7 @@ static BASIS: LazyLock<[Spectrum; 3]> = LazyLock::new(|| {
 static WHITE_LIGHT: LazyLock<Spectrum> =
     LazyLock::new(|| observer::with_luminance(illuminant::d65(), 1.0).expect("D65 has a luminance"));
 
-/// The three weights of a node side by side, so that a look-up touches one place in memory.
+/// The three weights of a node are adjacent, so that a look-up touches one location in memory.
 type Nodes = Box<[[f32; 3]; NODES]>;
 
 static REFLECTANCE: LazyLock<Nodes> = LazyLock::new(|| nodes(BASIS.each_ref()));
@@ -53,8 +52,8 @@ pub fn reflectance<const N: usize>(rgb: [f32; 3], wavelengths: &Wavelengths<N>) 
     mix(&REFLECTANCE, rgb, wavelengths)
 }
 
-/// The spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) of a linear sRGB colour of which (1, 1, 1) is D65 of 1 cd·m⁻², at a path's
-/// wavelengths. Zero beyond 780 nm, where the table of D65 ends.
+/// The spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) of a linear sRGB colour, scaled so that (1, 1, 1) is D65 of 1 cd·m⁻², at a path's wavelengths. Zero beyond
+/// 780 nm, where the table of D65 ends.
 #[must_use]
 #[inline]
 pub fn emission<const N: usize>(rgb: [f32; 3], wavelengths: &Wavelengths<N>) -> Spectral<N> {
@@ -115,7 +114,7 @@ mod tests {
             let xyz = observer::xyz_of_reflectance(&reflectance_spectrum([r, g, b]), illuminant::d65());
             let asked = xyz_from_linear_srgb([r, g, b].map(f64::from));
             let difference = ciede2000(lab(xyz, D65_WHITE), lab(asked, D65_WHITE));
-            // Rounding to f32 moves XYZ by 1e-7; L*a*b* has slopes up to 1 000, and 4 500 for a* near black.
+            // Rounding to f32 changes XYZ by 1e-7; L*a*b* has slopes up to 1 000, and 4 500 for a* near black.
             assert!(difference < 1e-3, "{r} {g} {b}: {difference}");
         }
     }

@@ -23,7 +23,7 @@ fn a_ramp_is_exact_inside_and_flat_colours_everywhere() {
     for (mosaic, method) in phases().iter().flat_map(|m| METHODS.map(|method| (m, method))) {
         let plane = interpolated(method, &ramp, width, mosaic);
         for (x, y) in (3..height - 3).flat_map(|y| (3..width - 3).map(move |x| (x, y))) {
-            // Sums of small whole numbers over powers of two: no rounding at all.
+            // Sums of small integers over powers of two: no rounding.
             assert_eq!(plane[y * width + x], [(x * 8 + y * 4) as f32; 3], "{method:?} {x} {y}");
         }
         let colour = [0.5, 0.25, 0.75];
@@ -45,7 +45,7 @@ fn square(x: f64) -> f64 {
     x * x
 }
 
-/// Root of the mean squared error of a grey disc of soft rim (2 px), away from the edge.
+/// Root-mean-square error of a grey disc with a soft edge (2 px), away from the edge.
 fn disc_error(method: Demosaic, mosaic: &Mosaic) -> f64 {
     let n = 48;
     let truth = |i: usize| {
@@ -132,7 +132,7 @@ fn an_impulse_shows_the_filters_of_the_paper() {
         samples[at[1] * 9 + at[0]] = 8.0;
         interpolate_malvar(&samples, 9, &tile)
     };
-    // A red pixel at (4, 4): green and blue there, what it adds to others.
+    // A red pixel at (4, 4): its own green and blue, and its contributions to others.
     let red = impulse([4, 4]);
     let at = |plane: &[[f32; 3]], x: usize, y: usize| plane[y * 9 + x];
     assert_eq!(at(&red, 4, 4), [8.0, 4.0, 6.0]);
@@ -155,7 +155,7 @@ fn a_grey_edge_along_the_pixels_is_exact() {
     let level: Vec<f32> = (0..144).map(|i| if i / 12 < 7 { 0.25 } else { 0.75 }).collect();
     for edge in [upright, level] {
         let plane = interpolate_hamilton_adams(&edge, 12, &tile);
-        // Green is interpolated along the edge, so it is exact. Red and blue follow it at half their places.
+        // Green is interpolated along the edge, so it is exact. Red and blue follow it at half of their positions.
         assert!((0..144).all(|i| plane[i][GREEN] == edge[i]));
         let exact = (0..144).filter(|i| plane[*i] == [edge[*i]; 3]).count();
         assert!(exact == 144, "{exact} of 144");

@@ -1,4 +1,4 @@
-//! The whole way from a raw picture to a display.
+//! The complete development from a raw image to a display image.
 
 mod processing;
 
@@ -13,40 +13,38 @@ use crate::{colour_matrix::ColourMatrix, correction};
 
 pub use processing::{Colour, DevelopError, Processing};
 
-/// A developed picture.
+/// A developed image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Developed {
-    /// Linear sRGB, neither clipped below 0 nor above 1; channels of the camera end at white, unless filters of linear light
-    /// use what is above it.
+    /// Linear sRGB, neither clipped below 0 nor above 1; camera channels end at white unless filters of linear light use values above it.
     pub linear: Plane<LinearRgb>,
     /// The same, clipped and encoded.
     pub display: Plane<Display>,
-    /// What was found on the way.
+    /// Measured values of the development.
     pub facts: Facts,
 }
 
-/// What development found in the picture.
+/// Values that development measured in the image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
-    /// The black level taken off, DN.
+    /// The subtracted black level, DN.
     pub black_level_dn: f64,
-    /// The gains of the channels; empty for a mono picture.
+    /// The gains of the channels; empty for a mono image.
     pub white_balance: Vec<f64>,
-    /// How many pixels were corrected as defective.
+    /// Number of corrected defective pixels.
     pub corrected_pixels: usize,
 }
 
 impl Processing {
-    /// The largest sample behind white balance: what is shown as white, but all that there is where filters of linear light
-    /// have a use for it. Interpolated next to a lamp a hundred times white, a wall ten times white would get the lamp's light
-    /// in some channels and not in others, and a rim of pure colours where all is white.
+    /// The maximum sample after white balance: the value displayed as white, or the full range if filters of linear light use it. Without the limit,
+    /// interpolation next to a light a hundred times white would give a wall of ten times white the light of the lamp in some channels only, a fringe
+    /// of pure colours where everything is white.
     fn ceiling(&self) -> f32 {
         let headroom = self.image_filters.iter().any(|filter| filter.stage() == Stage::Linear);
         if headroom { 1.0 } else { (1.0 / self.exposure_gain).min(1.0) as f32 }
     }
 
-    /// A picture in linear light as a display takes it: tone curve, sharpening, the paper's filters of encoded pictures with
-    /// the random numbers of `address`.
+    /// A display image from linear light: tone curve, sharpening, the paper's filters of encoded images with the random numbers of `address`.
     #[must_use]
     pub fn displayed(&self, linear: &Plane<LinearRgb>, address: FrameAddress) -> Plane<Display> {
         let mut display = self.tone.encode_plane(linear);
@@ -58,11 +56,11 @@ impl Processing {
     }
 }
 
-/// Develops a raw picture; `address` is that of the random numbers of the paper's noises and drops. Runs in the rayon pool of the
-/// caller; the bits do not depend on it.
+/// Develops a raw image; `address` selects the random numbers of the paper's noises and drops. Runs in the rayon pool of the caller; the bits do not
+/// depend on it.
 ///
 /// # Errors
-/// Where picture and processing contradict each other or a number is out of range.
+/// If image and processing contradict each other or a number is out of range.
 pub fn develop(
     raw: &RawPicture<'_>,
     processing: &Processing,
@@ -96,7 +94,7 @@ fn shade(samples: &mut [f32], raw: &RawPicture<'_>, processing: &Processing) {
     });
 }
 
-/// The gains of the channels; none of a mono picture.
+/// The gains of the channels; empty for a mono image.
 fn gains(samples: &[f32], raw: &RawPicture<'_>, colour: Option<&Colour>) -> Vec<f64> {
     match colour.map(|c| &c.white_balance) {
         None => Vec::new(),
@@ -140,7 +138,7 @@ fn interpolated<const N: usize>(
 ) -> Vec<[f32; 3]> {
     let colour = processing.colour.as_ref().expect("checked: a tile has colour settings");
     let picture = processing.demosaic.apply::<N>(&samples, width, tile);
-    // A large picture's samples are no longer needed where its colours take three times their memory.
+    // The samples of a large image are dropped here, because its colours take three times their memory.
     drop(samples);
     finished(picture, width, &colour.matrix, processing)
 }
@@ -189,7 +187,7 @@ mod tests {
         Mosaic::tile(2, 2, vec![Red, Green, Green, Blue]).expect("Bayer")
     }
 
-    /// A raw picture of black 100 DN and white 1 100 DN.
+    /// A raw image of black 100 DN and white 1 100 DN.
     fn raw<'a>(plane: &'a Plane<DigitalNumber>, mosaic: &'a Mosaic) -> RawPicture<'a> {
         RawPicture { plane, black_level_dn: 100.0, white_level_dn: 1100.0, mosaic, optical_black: None }
     }
@@ -206,7 +204,7 @@ mod tests {
 
     #[test]
     fn neutral_stays_neutral() {
-        // 0.2 of the range in green, and as much after balance in red and blue.
+        // 0.2 of the range in green, and the same after balance in red and blue.
         let picture = developed([200, 300, 300, 233], &Processing { exposure_gain: 2.0, ..processing() });
         for rgb in picture.linear.samples() {
             // Blue is off by a third of a digital number: 0.0005 · 1.5 · 2, times up to 1.5 by the matrix.
@@ -227,7 +225,7 @@ mod tests {
 
     #[test]
     fn what_is_shown_as_white_has_no_coloured_rims() {
-        // A lamp of white beside a wall of an eighth of it, in a picture of gain 64: both are white, and so is their border.
+        // A white light next to a wall of an eighth of white, in an image of gain 64: both are white, and so is their border.
         let lamp = |x: usize, y: usize| if (x / 3 + y / 3).is_multiple_of(2) { 1100 } else { 225 };
         let plane = plane(18, 18, lamp);
         let bright = |filters| {
@@ -237,7 +235,7 @@ mod tests {
         let whole = bright(Vec::new());
         assert!(to_8_bit(&whole.display).iter().all(|rgb| *rgb == [255; 3]));
         assert!(whole.linear.samples().iter().flatten().all(|v| (v - 1.0).abs() < 1e-5));
-        // A filter of linear light has all that the raw holds: 64 times white.
+        // A filter of linear light receives the full range of the raw: 64 times white.
         let halved = paper::ColourChange { stage: Stage::Linear, operations: vec![paper::Operation::Brightness(0.5)] };
         let largest =
             bright(vec![paper::Filter::Colour(halved)]).linear.samples().iter().fold(0.0, |m: f32, v| m.max(v[1]));
@@ -273,7 +271,7 @@ mod tests {
     #[test]
     fn black_level_defects_and_shading_come_first() {
         let dark = plane(4, 4, |_, _| 200);
-        // Half the light at the left edge of a flat picture of 0.5, and one dead pixel.
+        // Half the light at the left edge of a flat image of 0.5, and one dead pixel.
         let fall = |x: usize| 0.5 + 0.5 * (x as f64 + 0.5) / 8.0;
         let shaded = plane(8, 6, |x, y| if (x, y) == (5, 2) { 0 } else { (200.0 + 450.0 * fall(x)) as Dn });
         let gains: Vec<f64> = [0.5, 1.0, 0.5, 1.0].map(|light| 1.0 / light).to_vec();
@@ -288,7 +286,7 @@ mod tests {
         assert_eq!((picture.facts.black_level_dn, picture.facts.corrected_pixels), (200.0, 1));
         let grey = |x: usize| f64::from(picture.linear.at(x, 2)[0]);
         let want = |x: usize| 0.5 * fall(x) * (2.0 - (x as f64 + 0.5) / 8.0);
-        // 1/900 by the converter; the dead pixel takes the median of its neighbours, between which light differs by 0.03.
+        // 1/900 from the ADC; the dead pixel takes the median of its neighbours, between which light differs by 0.03.
         assert!((0..8).all(|x| (grey(x) - want(x)).abs() < if x == 5 { 0.04 } else { 2.5e-3 }));
     }
 
@@ -302,10 +300,10 @@ mod tests {
             let settings = Processing::plain(Some(Colour { white_balance, matrix }));
             develop(&raw(&plane, mosaic), &settings, FrameAddress::default()).expect("legal").linear.at(3, 3)
         };
-        // Red as it is, grey of clear.
+        // Red unchanged, grey from clear.
         assert_eq!(of(&rccc, [vec![1.0, 0.0], vec![0.0, 1.0], vec![0.0, 1.0]], [350, 600, 600, 600]), [0.25, 0.5, 0.5]);
         let rgbi = Mosaic::tile(2, 2, vec![Red, Green, Infrared, Blue]).expect("legal");
-        // Infrared is taken off all three.
+        // Infrared is subtracted from all three.
         let rows = [0, 1, 2].map(|c| {
             (0..4)
                 .map(|k| {

@@ -6,42 +6,42 @@ use crate::paper::{self, FilterError};
 use crate::raw::{BlackLevel, Mosaic, Tile};
 use crate::{colour_matrix::ColourMatrix, demosaic::Demosaic, tone::ToneCurve, white_balance::WhiteBalance};
 
-/// How colours of a camera become those of a display.
+/// Conversion of camera colours to display colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Colour {
-    /// What makes grey grey.
+    /// White balance.
     pub white_balance: WhiteBalance,
     /// From white-balanced camera colours to linear sRGB.
     pub matrix: ColourMatrix,
 }
 
-/// How a raw picture is developed, step by step in their order.
+/// Steps of the development of a raw image, in their order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Processing {
-    /// What counts as no light.
+    /// Source of the black level.
     pub black_level: BlackLevel,
-    /// Which pixels do not measure.
+    /// Defective pixels.
     pub defects: Defects,
-    /// What makes an even light even.
+    /// Shading correction.
     pub shading: Option<Shading>,
-    /// How the colours between are found.
+    /// Colour interpolation.
     pub demosaic: Demosaic,
-    /// How noise is reduced.
+    /// Noise reduction.
     pub noise_reduction: Option<NoiseReduction>,
-    /// Colour; `None` for a mono picture, and only for one.
+    /// Colour; `None` for a mono image, and only for one.
     pub colour: Option<Colour>,
     /// Digital gain after colour, above 0; 1 shows the white level as white.
     pub exposure_gain: f64,
-    /// How linear light is encoded.
+    /// Encoding of linear light.
     pub tone: ToneCurve,
-    /// How the encoded picture is sharpened.
+    /// Sharpening of the encoded image.
     pub sharpening: Option<Unsharp>,
     /// The paper's filters, those of linear light first.
     pub image_filters: Vec<paper::Filter>,
 }
 
 impl Processing {
-    /// Nothing but what a picture needs: the stated black level, bilinear demosaic, colour, the sRGB curve.
+    /// The minimum: the stated black level, bilinear demosaic, colour, the sRGB curve.
     #[must_use]
     pub fn plain(colour: Option<Colour>) -> Self {
         Self {
@@ -58,10 +58,10 @@ impl Processing {
         }
     }
 
-    /// Whether the settings are legal and fit pictures of this mosaic and size.
+    /// Checks that the settings are legal and fit images of this mosaic and size.
     ///
     /// # Errors
-    /// Where a number is out of range or settings and mosaic contradict each other.
+    /// If a number is out of range or settings and mosaic contradict each other.
     pub fn check(&self, mosaic: &Mosaic, width: usize, height: usize) -> Result<(), DevelopError> {
         if !(self.exposure_gain.is_finite() && self.exposure_gain > 0.0) {
             return Err(DevelopError::ExposureGain(self.exposure_gain));
@@ -116,10 +116,10 @@ fn check_colour(tile: &Tile, colour: &Colour) -> Result<(), DevelopError> {
     if legal { Ok(()) } else { Err(DevelopError::WhiteBalance(gains.clone())) }
 }
 
-/// Why a picture cannot be developed.
+/// Error of development.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DevelopError {
-    /// There is no range between black and white.
+    /// No range between black and white.
     #[error("the white level is {white} DN and the black level {black} DN: white must be above black")]
     Levels {
         /// Black level, DN.
@@ -127,30 +127,30 @@ pub enum DevelopError {
         /// White level, DN.
         white: f64,
     },
-    /// Shielded pixels are asked for, and there are none.
+    /// Optical-black pixels requested, but there are none.
     #[error(
         "the black level shall come from shielded pixels, but the picture has none: use the stated level, or a sensor with optical-black rows"
     )]
     NoOpticalBlack,
-    /// A mapped defect beside the picture.
+    /// A mapped defect outside the image.
     #[error("the defective pixel at column {x}, row {y} lies outside the picture of {width} × {height} pixels")]
     DefectOutside {
         /// Column.
         x: u32,
         /// Row.
         y: u32,
-        /// Columns of the picture.
+        /// Columns of the image.
         width: usize,
-        /// Rows of the picture.
+        /// Rows of the image.
         height: usize,
     },
-    /// A threshold that is none.
+    /// An invalid threshold.
     #[error("the outlier threshold of defect correction is {0}, but a share of the range above 0 is needed")]
     OutlierThreshold(f64),
-    /// A shading table that is none.
+    /// An invalid shading table.
     #[error(transparent)]
     Shading(#[from] ShadingError),
-    /// Gains that are no gains.
+    /// Invalid gains.
     #[error("white balance is {0:?}, but finite gains of at least 1 are needed: divide them by the smallest")]
     WhiteBalance(Vec<f64>),
     /// Settings for another number of channels.
@@ -161,10 +161,10 @@ pub enum DevelopError {
         /// Channels of the settings.
         settings: usize,
     },
-    /// A demosaic for Bayer tiles on another one.
+    /// A demosaic method for Bayer tiles used with another tile.
     #[error("this demosaic is made for Bayer tiles, and the mosaic is none: use the bilinear one")]
     NotBayer,
-    /// An exposure gain that is none.
+    /// An invalid exposure gain.
     #[error("exposure_gain is {0}, but a finite number above 0 is needed")]
     ExposureGain(f64),
     /// Noise reduction or sharpening with a number out of range.
@@ -173,10 +173,10 @@ pub enum DevelopError {
     /// A filter of the paper that cannot be applied.
     #[error(transparent)]
     Paper(#[from] FilterError),
-    /// Colour settings for a picture without colour.
+    /// Colour settings for an image without colour.
     #[error("a mono picture has no colour to balance: leave white balance and colour matrix out")]
     ColourOfMono,
-    /// No colour settings for a picture with colour.
+    /// No colour settings for an image with colour.
     #[error("a colour mosaic needs white balance and a colour matrix, but neither is given")]
     NoColour,
     /// Too few pixels to interpolate.
@@ -191,7 +191,7 @@ pub enum DevelopError {
     },
 }
 
-/// Black below white.
+/// Checks that black is below white.
 pub(super) fn check_levels(black: f64, white: f64) -> Result<(), DevelopError> {
     let legal = black.is_finite() && white.is_finite() && white > black;
     if legal { Ok(()) } else { Err(DevelopError::Levels { black, white }) }

@@ -1,20 +1,19 @@
 //! Colour management: "a homogeneous transformation matrix on the colours of the rendered image", 4 × 4 and affine, on
 //! the vector (R, G, B, 1).
 //!
-//! A change is a list of operations, which become **one** matrix (the first operation is applied first) and one clip to
-//! 0 … 1 at the end (encoded pictures only), so that going to another space, changing something there, and coming back
-//! loses nothing on the way.
+//! A change is a list of operations, combined into **one** matrix (the first operation is applied first) with one clip to 0 … 1 at the end (encoded
+//! images only), so a conversion to another space, a change there and the conversion back lose nothing in between.
 //!
 //! | operation | matrix |
 //! | --- | --- |
-//! | scale, offset | by channel; offset in shares of white |
+//! | scale, offset | by channel; offset in fractions of white |
 //! | brightness b | b on all channels |
 //! | saturation s | s 1 + (1 − s) e wᵀ: 0 is grey, 1 as it was |
 //! | hue rotation θ | e wᵀ + (1 − e wᵀ) R(θ) (1 − e eᵀ/3): luminance and greys stay (after Haeberli 1993) |
 //! | to, from a colour space | see [`ColourSpace`] |
 //! | matrix | the upper three rows |
 //!
-//! e = (1, 1, 1); R(θ) turns about e, red towards green; w are the weights of luminance: of encoded pictures 0.299, 0.587,
+//! e = (1, 1, 1); R(θ) turns about e, red towards green; w are the weights of luminance: of encoded images 0.299, 0.587,
 //! 0.114 (ITU-R BT.601), of linear light 0.2126, 0.7152, 0.0722 (BT.709).
 
 use etendue_core::quantity::{Display, LinearRgb, Quantity};
@@ -27,9 +26,9 @@ pub use super::colour_space::{Affine, ColourSpace};
 /// An affine matrix on colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourChange {
-    /// What it works on.
+    /// The stage it applies to.
     pub stage: Stage,
-    /// What is done, in this order.
+    /// Operations, in this order.
     pub operations: Vec<Operation>,
 }
 
@@ -38,7 +37,7 @@ impl ColourChange {
         self.operations.iter().try_for_each(|operation| operation.check(self.stage))
     }
 
-    /// All operations in one.
+    /// All operations as one matrix.
     #[must_use]
     pub fn matrix(&self) -> Affine {
         self.operations.iter().fold(Affine::IDENTITY, |all, next| all.then(&next.matrix(self.stage)))
@@ -63,24 +62,24 @@ impl ColourChange {
 pub enum Operation {
     /// Factors on red, green and blue.
     Scale([f64; 3]),
-    /// Shares of white added to red, green and blue.
+    /// Fractions of white added to red, green and blue.
     Offset([f64; 3]),
     /// A factor on all channels, 0 or more.
     Brightness(f64),
-    /// 0 is grey, 1 as it was, more is more colourful; 0 or more.
+    /// 0 is grey, 1 unchanged, above 1 more colourful; 0 or more.
     Saturation(f64),
     /// Degrees, red towards green.
     HueRotationDeg(f64),
-    /// To a colour space: its components take the places of red, green and blue.
+    /// Conversion to a colour space: its components replace red, green and blue.
     To(ColourSpace),
-    /// From a colour space.
+    /// Conversion from a colour space.
     From(ColourSpace),
     /// Any affine map.
     Matrix(Affine),
 }
 
 impl Operation {
-    /// Whether its numbers are in range and it is made for the stage.
+    /// Checks the ranges and the stage.
     fn check(&self, stage: Stage) -> Result<(), FilterError> {
         let finite = |name, values: &[f64]| {
             let fault = values.iter().find(|v| !v.is_finite());
@@ -134,8 +133,8 @@ fn saturation(s: f64, w: [f64; 3]) -> Affine {
     Affine::new([0, 1, 2].map(|i| [0, 1, 2].map(|j| s * one(i, j) + (1.0 - s) * w[j])), [0.0; 3])
 }
 
-/// Column by column: the part of a primary across the grey axis is turned, then greyed to leave no luminance, and the
-/// primary's own luminance is added.
+/// Column by column: the part of a primary perpendicular to the grey axis is rotated, then shifted along grey to zero luminance, and the primary's
+/// own luminance is added.
 fn hue_rotation(angle: f64, w: [f64; 3]) -> Affine {
     let columns = [0, 1, 2].map(|j| {
         let across: [f64; 3] = core::array::from_fn(|i| f64::from(u8::from(i == j)) - 1.0 / 3.0);
@@ -146,7 +145,7 @@ fn hue_rotation(angle: f64, w: [f64; 3]) -> Affine {
     Affine::new([0, 1, 2].map(|i| [0, 1, 2].map(|j| columns[j][i])), [0.0; 3])
 }
 
-/// A vector across (1, 1, 1), turned about it (Rodrigues), red towards green.
+/// A vector perpendicular to (1, 1, 1), rotated about it (Rodrigues), red towards green.
 fn turned_about_grey(v: [f64; 3], angle: f64) -> [f64; 3] {
     let (sin, cos) = sin_cos(angle);
     let k = sin / 3.0_f64.sqrt();
@@ -228,7 +227,7 @@ mod tests {
             assert!(near(turn(40.0).then(&turn(-40.0)).apply(colour), colour));
             assert!(near(turn(120.0).then(&turn(240.0)).apply(colour), colour));
         }
-        // A third of a turn takes red to where green is, but for luminance.
+        // A third of a turn maps red to green, except for luminance.
         let green = turn(120.0).apply([1.0, 0.0, 0.0]);
         assert!((green[0] - green[2]).abs() < 1e-12 && (green[1] - green[0] - 1.0).abs() < 1e-12, "{green:?}");
     }

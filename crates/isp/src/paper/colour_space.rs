@@ -1,4 +1,4 @@
-//! Colour spaces that the paper's filter changes to.
+//! Colour spaces of the paper's colour filter.
 //!
 //! | space | components | of | source |
 //! | --- | --- | --- | --- |
@@ -9,9 +9,8 @@
 //! | YCbCr | Y; Cb = (B − Y)/1.772 + 1/2; Cr = (R − Y)/1.402 + 1/2 | encoded | ITU-R BT.601, full range |
 //! | CMY | 1 − R, 1 − G, 1 − B | either | |
 //!
-//! Y = 0.299 R + 0.587 G + 0.114 B. A half is added to differences of colour so that a picture can hold them (U and V of
-//! saturated colours still leave 0 … 1 and are clipped at the end). Between white points colours are adapted by
-//! Bradford's transform (Lam 1985), so that white stays white.
+//! Y = 0.299 R + 0.587 G + 0.114 B. A half is added to colour differences so that an image can hold them (U and V of saturated colours still leave 0
+//! … 1 and are clipped at the end). Between white points colours are adapted by Bradford's transform (Lam 1985), so that white stays white.
 //!
 //! Affine maps of colours: 4 × 4 matrices whose last row is 0 0 0 1.
 
@@ -62,7 +61,7 @@ impl ColourSpace {
         Err(FilterError::Space { space: self.name(), wanted })
     }
 
-    /// From sRGB, linear or encoded as the space is made for.
+    /// From sRGB, linear or encoded as defined for the space.
     #[must_use]
     pub fn from_rgb(self) -> Affine {
         const HALVES: [f64; 3] = [0.0, 0.5, 0.5];
@@ -76,7 +75,7 @@ impl ColourSpace {
         }
     }
 
-    /// To sRGB, linear or encoded as the space is made for.
+    /// To sRGB, linear or encoded as defined for the space.
     #[must_use]
     pub fn to_rgb(self) -> Affine {
         self.from_rgb().inverse().expect("every space has three independent components")
@@ -120,27 +119,27 @@ fn adaptation(from: [f64; 3], to: [f64; 3]) -> Affine {
     cones.then(&gains).then(&cones.inverse().expect("Bradford's matrix has an inverse"))
 }
 
-/// The upper three rows; the fourth column is what is added.
+/// The upper three rows; the fourth column is the offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine(pub [[f64; 4]; 3]);
 
 impl Affine {
-    /// Changes nothing.
+    /// The identity.
     pub const IDENTITY: Self = Self([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
 
-    /// A matrix and what is added.
+    /// Creates the map from a matrix and an offset.
     #[must_use]
     pub fn new(rows: [[f64; 3]; 3], offset: [f64; 3]) -> Self {
         Self([0, 1, 2].map(|i| [rows[i][0], rows[i][1], rows[i][2], offset[i]]))
     }
 
-    /// The colour's image.
+    /// Applies the map to a colour.
     #[must_use]
     pub fn apply(&self, v: [f64; 3]) -> [f64; 3] {
         self.0.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3])
     }
 
-    /// This map, then `next`.
+    /// This map followed by `next`.
     #[must_use]
     pub fn then(&self, next: &Self) -> Self {
         Self(next.0.map(|row| {
@@ -151,7 +150,7 @@ impl Affine {
         }))
     }
 
-    /// The map back; `None` where there is none.
+    /// The inverse map; `None` if there is none.
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
         let m = &self.0;
@@ -202,7 +201,7 @@ mod tests {
                 assert!((xyz[0] / sum - x).abs() < 1e-12 && (xyz[1] / sum - y).abs() < 1e-12, "{space:?} {i}: {xyz:?}");
             }
         }
-        // sRGB has PAL's red and blue, nearly its green: red and blue keep their hue, and white is white.
+        // sRGB has PAL's red and blue, and nearly its green: red and blue keep their hue, and white is white.
         let red = ColourSpace::RgbPal.from_rgb().apply([1.0, 0.0, 0.0]);
         assert!(red[1].abs() < 1e-3 && red[2].abs() < 1e-3 && (0.95..1.05).contains(&red[0]), "{red:?}");
     }

@@ -1,17 +1,17 @@
-//! Drops of rain on the picture. The paper (its second rain filter) computes "a new texture from the initial camera rendering. For each drop,
-//! the original image is inverted in order to simulate the real effect of a rain drop", with a count of drops, a least and a greatest size and
-//! "fades parameters (speed at which the drops flow and disappear)". How, it does not say; this is **our reading**, on linear light:
+//! Drops of rain on the image. The paper (its second rain filter) computes "a new texture from the initial camera rendering. For each drop, the
+//! original image is inverted in order to simulate the real effect of a rain drop", with a count of drops, a smallest and a largest size and "fades
+//! parameters (speed at which the drops flow and disappear)". It gives no formulas; this is **our interpretation**, on linear light:
 //!
 //! ```text
-//! y = (1 − w) x + w b(c − s (p − c))      b: the picture, blurred by a Gaussian of σ = s · blur
+//! y = (1 − w) x + w b(c − s (p − c))      b: the image, blurred by a Gaussian of σ = s · blur
 //! w = (1 − age/fade) min(1, (r − |p − c|)/blur)
 //! ```
 //!
-//! for a pixel p in a drop of radius r about c: the disc shows what lies around it upside down and s times smaller, held at the picture's edge. Drops
-//! are independent and even over the picture, radii even between their ends; later drops lie over earlier ones. With a fade each drop lives that
-//! many frames, flows downwards meanwhile, and is born anew elsewhere; drops begin at different ages.
+//! for a pixel p in a drop of radius r about c: the disc shows its surroundings upside down and s times smaller, clamped at the image's edge. Drops
+//! are independent and uniform over the image, radii uniform between their ends; later drops cover earlier ones. With a fade each drop lives for that
+//! number of frames, flows downwards meanwhile, and reappears elsewhere; drops begin at different ages.
 //!
-//! What is not in the picture a drop cannot show, and sizes, blur and brightness are nobody's optics: the traced drops of a wind-screen
+//! A drop cannot show points outside the image, and sizes, blur and brightness are not derived from optics: use the traced drops of a windscreen to
 //! predict a camera.
 
 use etendue_core::random::{FrameAddress, philox4x32};
@@ -20,20 +20,20 @@ use etendue_core::{Plane, quantity::LinearRgb};
 use super::{FilterError, demand};
 use crate::detail;
 
-/// Drops on the picture.
+/// Drops on the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drops {
-    /// How many, 1 to 100 000.
+    /// Number of drops, 1 to 100 000.
     pub count: u32,
-    /// Least and greatest radius, px, above 0.
+    /// Smallest and largest radius, px, above 0.
     pub radius_px: [f64; 2],
-    /// How many times smaller the picture is in a drop, above 0.
+    /// Reduction factor of the image in a drop, above 0.
     pub scale: f64,
-    /// σ of its blur, and width of its soft rim, px, above 0; times `scale` at most 500.
+    /// σ of its blur, and width of its soft edge, px, above 0; times `scale` at most 500.
     pub blur_px: f64,
-    /// How far a drop flows downwards from frame to frame, px, 0 or more.
+    /// Downward flow of a drop from frame to frame, px, 0 or more.
     pub flow_px_per_frame: f64,
-    /// How many frames a drop lives, fading; `None` for drops that stay as they are.
+    /// Lifetime of a drop in frames, fading; `None` for static drops.
     pub fade_frames: Option<u32>,
 }
 
@@ -45,7 +45,7 @@ struct Disc {
     opacity: f64,
 }
 
-/// Tells these words from others of the same seed.
+/// Separates these random numbers from others of the same seed.
 const DOMAIN: u32 = 0x7261_696e;
 
 impl Drops {
@@ -84,7 +84,7 @@ impl Drops {
         let (life, age, left) = match self.fade_frames {
             None => (0, 0.0, 1.0),
             Some(frames) => {
-                // The first words are of no life but of the age in frame 0.
+                // The first random numbers give no life but the age in frame 0.
                 let first = (words(u32::MAX)[0] * f64::from(frames)) as u64;
                 let since = first + u64::from(address.frame);
                 let age = (since % u64::from(frames)) as f64;
@@ -100,7 +100,7 @@ impl Drops {
         }
     }
 
-    /// Draws a drop that shows the blurred picture.
+    /// Draws a drop that shows the blurred image.
     fn draw(&self, drop: Disc, picture: &mut Plane<LinearRgb>, blurred: &[[f32; 3]]) {
         let (width, height) = (picture.width(), picture.height());
         let Disc { centre_px: [cx, cy], radius_px: r, opacity } = drop;
@@ -143,11 +143,11 @@ mod tests {
         FrameAddress { seed: 3, camera: 0, frame, capture: 0 }
     }
 
-    /// A ramp upwards is one downwards, twice as steep.
+    /// An upward ramp appears as a downward one, twice as steep.
     #[test]
     fn a_drop_shows_the_picture_upside_down_and_smaller() {
         let still = Drops { fade_frames: None, ..DROPS };
-        // The first seed whose drop lies well within the picture.
+        // The first seed whose drop lies well inside the image.
         let of = |seed| FrameAddress { seed, ..frame(5) };
         let centre = |seed| still.drop(0, SIZE, of(seed)).centre_px;
         let is_inside = |seed: &u64| {

@@ -1,29 +1,27 @@
 //! Filters of linear light: glow with its gain control, and tone mapping.
 //!
-//! Glow: gain control by the histogram, and blooming. The paper (its mgGlowFilter) says only that it "manages simulation of
-//! gain control and sensor blooming, based on image histogram balance"; this is **our reading** of it, on linear light:
+//! Glow: gain control by the histogram, and blooming. The paper (its mgGlowFilter) states only that it "manages simulation of gain control and sensor
+//! blooming, based on image histogram balance"; this is **our interpretation** of it, on linear light:
 //!
 //! ```text
-//! g = target / L_p                    L_p: the percentile p of the luminances of the picture (nearest rank)
-//! e = max(g x − threshold, 0)         what exceeds the threshold after the gain, by channel
+//! g = target / L_p                    L_p: the percentile p of the luminances of the image (nearest rank)
+//! e = max(g x − threshold, 0)         excess over the threshold after the gain, by channel
 //! y = g x + strength · (k ∗ e)        k: a Gaussian of σ = radius, cut at 5 σ, normalised
 //! ```
 //!
-//! Luminance is 0.2126 R + 0.7152 G + 0.0722 B. Of a picture whose L_p is 0 or less the gain is 1. Light is added, not
-//! moved: unlike the sensor's own blooming, this does not conserve charge. The result is not clipped. A raw ends at its white level, so
-//! in a developed picture no x exceeds the exposure gain by much, and lamps exceed a threshold near white only where g lifts
-//! them there; pictures of a sensor of high dynamic range hold more.
+//! Luminance is 0.2126 R + 0.7152 G + 0.0722 B. For an image whose L_p is 0 or less the gain is 1. Light is added, not moved: unlike the sensor's own
+//! blooming, this does not conserve charge. The result is not clipped. A raw ends at its white level, so in a developed image no x exceeds the
+//! exposure gain by much, and lamps exceed a threshold near white only if g lifts them there; images of a sensor of high dynamic range hold more.
 //!
-//! Tone mapping: from the scene's range to the sensor's. The paper says that "a tone mapping filter simulates the
-//! sensitivity curve of the sensor" and shows an "original factor" of 0.4 and 1.0; this is **our reading** of it, on
-//! linear light, channel by channel:
+//! Tone mapping: from the scene's range to the sensor's. The paper states that "a tone mapping filter simulates the sensitivity curve of the sensor"
+//! and shows an "original factor" of 0.4 and 1.0; this is **our interpretation** of it, on linear light, channel by channel:
 //!
 //! ```text
 //! y = f · curve(g x) + (1 − f) · x,   f = 1 − original_factor,   clipped to 0 … 1
 //! ```
 //!
-//! So an original factor of 1 leaves the picture as it was, clipped to the sensor's range, and 0 maps it wholly. The curve
-//! is the sensor's: one of film and of a saturating pixel, 1 − exp(−g x), or any [`ToneCurve`] (a measured OECF).
+//! An original factor of 1 leaves the image unchanged, clipped to the sensor's range, and 0 maps it fully. The curve is the sensor's: that of film
+//! and of a saturating pixel, 1 − exp(−g x), or any [`ToneCurve`] (a measured OECF).
 
 use etendue_core::{Plane, maths::f32::exp_m1, quantity::LinearRgb};
 use etendue_spectra::colour::luma;
@@ -35,15 +33,15 @@ use crate::{detail, tone::ToneCurve};
 /// Gain control and blooming.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glow {
-    /// Percentile of the luminances that the gain looks at, above 0 and at most 100.
+    /// Percentile of the luminances used for the gain, above 0 and at most 100.
     pub percentile: f64,
-    /// The luminance that this percentile gets, share of white, above 0.
+    /// Target luminance of this percentile, fraction of white, above 0.
     pub target: f64,
-    /// What exceeds this glows, share of white, 0 or more.
+    /// Values above this glow, fraction of white, 0 or more.
     pub threshold: f64,
     /// σ of the glow, px, above 0 and at most 500.
     pub radius_px: f64,
-    /// Share of the excess that is added, 0 or more.
+    /// Fraction of the excess that is added, 0 or more.
     pub strength: f64,
 }
 
@@ -67,7 +65,7 @@ impl Glow {
         for_each(picture, |i, rgb| core::array::from_fn(|c| rgb[c] + strength * glow[i][c]));
     }
 
-    /// What brings the percentile to the target.
+    /// The gain that brings the percentile to the target.
     fn gain(&self, picture: &Plane<LinearRgb>) -> f64 {
         let mut luminances: Vec<f32> = picture.samples().par_iter().map(|rgb| luma(*rgb)).collect();
         let Some(last) = luminances.len().checked_sub(1) else { return 1.0 };
@@ -89,7 +87,7 @@ pub enum Sensitivity {
 /// From the scene's range to the sensor's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToneMap {
-    /// Share of the unmapped picture, 0 to 1.
+    /// Fraction of the unmapped image, 0 to 1.
     pub original_factor: f64,
     /// g, above 0.
     pub gain: f64,
@@ -120,7 +118,7 @@ mod tests {
 
     const GLOW: Glow = Glow { percentile: 50.0, target: 0.2, threshold: 1.0, radius_px: 2.0, strength: 0.5 };
 
-    /// Mostly 0.1, with a lamp of 10 in the middle.
+    /// Mostly 0.1, with a light of 10 at the centre.
     fn night() -> Plane<LinearRgb> {
         let mut picture = Plane::filled(41, 41, [0.1; 3]);
         picture.set(20, 20, [10.0, 5.0, 0.0]);
@@ -131,7 +129,7 @@ mod tests {
     fn the_median_is_brought_to_the_target_and_the_lamp_glows() {
         let mut picture = night();
         GLOW.apply(&mut picture);
-        // Far from the lamp only the gain of 2 works; the excess of 19, 9 and 0 comes back by half.
+        // Far from the light only the gain of 2 acts; half of the excess of 19, 9 and 0 is added.
         assert!(picture.at(0, 0).iter().all(|v| (v - 0.2).abs() < 1e-6));
         let added = |c: usize| -> f32 {
             let lit: f32 = picture.samples().iter().map(|rgb| rgb[c]).sum();

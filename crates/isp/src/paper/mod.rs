@@ -1,21 +1,20 @@
-//! The filters of the paper (Gruyer, Grapinet & De Souza 2012), beside the physical camera, for reproduction.
+//! The filters of the paper (Gruyer, Grapinet & De Souza 2012), separate from the physical camera, for reproduction.
 //!
-//! They change a finished picture, as the paper's plug-ins change a rendered one, and know nothing of light and electrons:
-//! noise by them is not the noise of a sensor. The paper gives formulas for the noises and for the affine colour matrix,
-//! and only words for glow, tone mapping and drops: what stands here for these is **an interpretation**, said at the head of each file.
+//! They change a finished image, as the paper's plug-ins change a rendered one, without physical quantities: their noise is not the noise of a
+//! sensor. The paper gives formulas for the noises and for the affine colour matrix, and only descriptions of glow, tone mapping and drops: those
+//! implemented here are **an interpretation**, stated at the head of each file.
 //!
 //! | filter | works on | paper |
 //! | --- | --- | --- |
 //! | [`Glow`]: gain control by the histogram, blooming | linear light | in words |
-//! | [`ToneMap`]: the sensor's sensitivity curve, blended with the unmapped picture | linear light | in words |
-//! | [`Drops`]: inverted pictures in discs, which flow and fade | linear light | in words |
+//! | [`ToneMap`]: the sensor's sensitivity curve, blended with the unmapped image | linear light | in words |
+//! | [`Drops`]: inverted images in discs, which flow and fade | linear light | in words |
 //! | [`ColourChange`]: a 4 × 4 affine matrix | either | formula |
-//! | [`PulseNoise`], [`GaussianNoise`], [`UniformNoise`] | the encoded picture | formula |
+//! | [`PulseNoise`], [`GaussianNoise`], [`UniformNoise`] | the encoded image | formula |
 //!
-//! Filters are applied in the order given, those of linear light before the tone curve, the others after sharpening.
-//! "Brightness" of a pixel is read as: all three channels alike, so each noise draws one number a pixel. Amplitudes of
-//! noise are digital numbers of an 8-bit picture (white is 255), whatever bits are written; every result of an encoded
-//! picture is clipped to 0 … 255.
+//! Filters are applied in the order given, those of linear light before the tone curve, the others after sharpening. "Brightness" of a pixel is
+//! interpreted as all three channels equally, so each noise uses one random number per pixel. Amplitudes of noise are digital numbers of an 8-bit
+//! image (white is 255), for any output bit depth; every result of an encoded image is clipped to 0 … 255.
 
 mod colour;
 mod colour_space;
@@ -42,7 +41,7 @@ pub enum Filter {
     Glow(Glow),
     /// From the scene's range to the sensor's.
     ToneMap(ToneMap),
-    /// Drops of rain on the picture.
+    /// Drops of rain on the image.
     Drops(Drops),
     /// An affine matrix on colours.
     Colour(ColourChange),
@@ -55,7 +54,7 @@ pub enum Filter {
 }
 
 impl Filter {
-    /// What it works on.
+    /// The stage it applies to.
     #[must_use]
     pub fn stage(&self) -> Stage {
         match self {
@@ -65,10 +64,10 @@ impl Filter {
         }
     }
 
-    /// Whether its numbers are in range.
+    /// Checks the ranges of the parameters.
     ///
     /// # Errors
-    /// Where one is not.
+    /// If one is out of range.
     pub fn check(&self) -> Result<(), FilterError> {
         match self {
             Self::Glow(filter) => filter.check(),
@@ -102,10 +101,10 @@ impl Filter {
     }
 }
 
-/// Whether a list of filters can be applied.
+/// Checks that a list of filters can be applied.
 ///
 /// # Errors
-/// Where a number is out of range or the order mixes the stages.
+/// If a number is out of range or the order mixes the stages.
 pub fn check(filters: &[Filter]) -> Result<(), FilterError> {
     filters.iter().try_for_each(Filter::check)?;
     let fault = filters.windows(2).position(|pair| pair[1].stage() < pair[0].stage());
@@ -117,7 +116,7 @@ pub(crate) fn apply_linear(filters: &[Filter], picture: &mut Plane<LinearRgb>, a
     filters.iter().filter(|f| f.stage() == Stage::Linear).for_each(|f| f.apply_linear(picture, address));
 }
 
-/// Applies the filters of the encoded picture.
+/// Applies the filters of the encoded image.
 pub(crate) fn apply_display(filters: &[Filter], picture: &mut Plane<Display>, address: FrameAddress) {
     for (place, filter) in filters.iter().filter(|f| f.stage() == Stage::Display).enumerate() {
         filter.apply_display(picture, FilterAddress { picture: address, place: place as u32 });
@@ -146,7 +145,7 @@ mod tests {
         let noise = Filter::GaussianNoise(GaussianNoise { sigma_dn: 6.0 });
         let mut picture = Plane::filled(200, 200, [0.5; 3]);
         apply_display(&[noise.clone(), noise], &mut picture, FrameAddress::default());
-        // √2 · 6 DN; of 40 000 numbers 4.5 standard errors are 1.6 %. The same numbers twice would give 12 DN.
+        // √2 · 6 DN; of 40 000 numbers 4.5 standard errors are 1.6 %. Equal numbers in both would give 12 DN.
         assert!((spread(&picture) / 72.0_f64.sqrt() - 1.0).abs() < 0.016, "{}", spread(&picture));
     }
 
@@ -155,7 +154,7 @@ mod tests {
         let (pulse, seed) = (PulseNoise { amplitude_dn: 51.0, probability: 0.5 }, FrameAddress::default());
         let mut picture = Plane::filled(64, 64, [0.1, 0.5, 0.9]);
         apply_display(&[Filter::PulseNoise(pulse)], &mut picture, seed);
-        // 51 of 255 are 0.2; black and white are the ends.
+        // 51 of 255 is 0.2; black and white are the ends.
         let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-6);
         assert!(picture.samples().iter().all(|rgb| near(*rgb, [0.3, 0.7, 1.0]) || near(*rgb, [0.0, 0.3, 0.7])));
     }

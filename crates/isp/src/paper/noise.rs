@@ -6,7 +6,7 @@
 //! x + p₁ n
 //! ```
 //!
-//! One n a pixel, all channels alike; p₁ in DN of an 8-bit picture, clipped to 0 … 255. n by Box & Muller 1958.
+//! One n per pixel for all channels; p₁ in DN of an 8-bit image, clipped to 0 … 255. n by Box & Muller 1958.
 //!
 //! Pulse noise, by the paper's formula on the brightness x of each pixel, u uniform on 0 … 1:
 //!
@@ -14,8 +14,8 @@
 //! u ≤ p₂: x + p₁    p₂ < u < 1 − p₂: x    u ≥ 1 − p₂: x − p₁
 //! ```
 //!
-//! One u a pixel, all channels alike; p₁ in DN of an 8-bit picture, clipped to 0 … 255; p₂ at most 1/2, beyond which the
-//! two cases overlap (at 1/2 itself the first holds).
+//! One u per pixel for all channels; p₁ in DN of an 8-bit image, clipped to 0 … 255; p₂ at most 1/2, beyond which the two cases overlap (at 1/2
+//! itself the first holds).
 //!
 //! Multiplicative uniform noise, by the paper's formula on the brightness x of each pixel, u uniform on 0 … 1:
 //!
@@ -23,7 +23,7 @@
 //! (1 + p₁ (u − 1/2)) x
 //! ```
 //!
-//! One u a pixel, all channels alike; p₁ has no unit (the factor is the same at any scale of DN); clipped to 0 … 255.
+//! One u per pixel for all channels; p₁ has no unit (the factor is the same at any scale of DN); clipped to 0 … 255.
 
 use core::f64::consts::TAU;
 
@@ -36,7 +36,7 @@ use super::{Change, FilterAddress, FilterError, change_brightness, demand};
 /// A normal number added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussianNoise {
-    /// p₁, the standard deviation, DN of an 8-bit picture, 0 to 255.
+    /// p₁, the standard deviation, DN of an 8-bit image, 0 to 255.
     pub sigma_dn: f64,
 }
 
@@ -61,9 +61,9 @@ fn standard_normal(stream: &mut NoiseStream) -> f64 {
 /// Some pixels brighter, some darker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PulseNoise {
-    /// p₁, DN of an 8-bit picture, 0 to 255.
+    /// p₁, DN of an 8-bit image, 0 to 255.
     pub amplitude_dn: f64,
-    /// p₂, the share of pixels that get brighter, and of those that get darker, 0 to 0.5.
+    /// p₂, the fraction of pixels made brighter, and of those made darker, 0 to 0.5.
     pub probability: f64,
 }
 
@@ -148,7 +148,7 @@ mod tests {
             up += usize::from((change - 0.2).abs() < 1e-6);
             down += usize::from((change + 0.2).abs() < 1e-6);
         }
-        // 40 000 pixels of probability 0.2: σ = 80, so 4.5 σ.
+        // 40 000 pixels of probability 0.2: σ = 80; tolerance 4.5 σ.
         assert!(up.abs_diff(8000) < 360 && down.abs_diff(8000) < 360, "{up} {down}");
     }
 

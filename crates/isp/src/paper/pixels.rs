@@ -1,33 +1,33 @@
-//! What a filter of the paper works on, why it cannot be applied, and how it changes pixels one by one.
+//! Stages and errors of the paper's filters, and changes of individual pixels.
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Display, Quantity};
 use etendue_core::random::{FrameAddress, NoiseDraw, NoiseKey, NoiseStream, Pixel};
 use rayon::prelude::*;
 
-/// What a filter works on.
+/// Stage to which a filter applies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
-    /// Linear light, before the tone curve; white is 1 and more is possible.
+    /// Linear light, before the tone curve; white is 1 and larger values are possible.
     Linear,
-    /// The encoded picture, 0 to 1.
+    /// The encoded image, 0 to 1.
     Display,
 }
 
-/// Why a filter cannot be applied.
+/// Error of a filter.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FilterError {
     /// A number out of its range.
     #[error("{name} is {value}, but a number {range} is needed")]
     Range {
-        /// Which number.
+        /// Name of the number.
         name: &'static str,
-        /// What it is.
+        /// Its value.
         value: f64,
-        /// What it should be.
+        /// The legal range.
         range: &'static str,
     },
-    /// A filter of linear light after one of the encoded picture.
+    /// A filter of linear light after one of the encoded image.
     #[error(
         "filter {0} (from 1) works on linear light, but one before it on the encoded picture: give glow, tone map, drops and linear colour first"
     )]
@@ -37,7 +37,7 @@ pub enum FilterError {
     Space {
         /// The colour space.
         space: &'static str,
-        /// The stage it is made for.
+        /// The stage it is defined for.
         wanted: &'static str,
     },
 }
@@ -47,18 +47,18 @@ pub(super) fn demand(legal: bool, name: &'static str, value: f64, range: &'stati
     if legal && value.is_finite() { Ok(()) } else { Err(FilterError::Range { name, value, range }) }
 }
 
-/// Which filter of a picture the random numbers are for: two of a kind have their own.
+/// Address of a filter's random numbers: two filters of a kind have different ones.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FilterAddress {
     pub(super) picture: FrameAddress,
-    /// Its place among the filters of the encoded picture.
+    /// Its index among the filters of the encoded image.
     pub(super) place: u32,
 }
 
 /// DN of white.
 pub(super) const WHITE_DN: f64 = 255.0;
 
-/// Gives each pixel's channels the same change of brightness in DN, from a random number of its own, and clips.
+/// Changes the brightness of each pixel by the same amount in all channels, in DN, from its own random number, and clips.
 pub(super) fn change_brightness(
     picture: &mut Plane<Display>,
     FilterAddress { picture: address, place }: FilterAddress,
@@ -74,7 +74,7 @@ pub(super) fn change_brightness(
     });
 }
 
-/// What happens to a pixel's brightness.
+/// Change of a pixel's brightness.
 pub(super) struct Change {
     pub(super) factor: f64,
     pub(super) offset_dn: f64,

@@ -1,13 +1,12 @@
-//! A look of depth of field: a blend with one blurred copy by distance.
+//! Approximate depth of field: a blend with one blurred copy by distance.
 //!
-//! L' = (1 − t) L + t B(L), with B a normalised bell of three running means, as wide as a disc of the diameter `blur_px`
-//! (standard deviation: a quarter of it), and t by the distance d along the ray: 0 from `sharp_near_m` to `sharp_far_m`, rising
-//! linearly to 1 at `blurred_near_m` before and `blurred_far_m` behind, 1 beyond. This is the method of D. Gruyer, M. Grapinet
-//! and P. De Souza (2012), "Modeling and validation of a new generic virtual optical sensor for ADAS prototyping".
+//! L' = (1 − t) L + t B(L), with B a normalised bell of three running means, as wide as a disc of the diameter `blur_px` (standard deviation: a
+//! quarter of it), and t a function of the distance d along the ray: 0 from `sharp_near_m` to `sharp_far_m`, rising linearly to 1 at `blurred_near_m`
+//! in front and `blurred_far_m` behind, 1 beyond. This is the method of D. Gruyer, M. Grapinet and P. De Souza (2012), "Modeling and validation of a
+//! new generic virtual optical sensor for ADAS prototyping".
 //!
-//! Running means have fractional ends so that any width is met exactly (P. Gwosdek et al., 2011). It takes a time that does
-//! not depend on the width. Near things bleed onto far ones and the other way round, and every blur has one size: it fits
-//! a lens at one distance at most.
+//! Running means have fractional ends so that any width is met exactly (P. Gwosdek et al., 2011). The cost does not depend on the width. Near objects
+//! bleed onto far ones and vice versa, and the blur has a single size: it fits a lens at one distance at most.
 
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::Radiance;
@@ -18,16 +17,16 @@ use crate::{error::OpticsError, overlap::positive};
 /// Running means in each direction.
 const PASSES: usize = 3;
 
-/// What a blend is made of.
+/// Parameters of a blend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FastParameters {
-    /// Where the sharp range begins, m; 0: nothing near is blurred.
+    /// Start of the sharp range, m; 0: nothing near is blurred.
     pub sharp_near_m: f64,
-    /// Where it ends, m; infinity: nothing far is blurred.
+    /// End of the sharp range, m; infinity: nothing far is blurred.
     pub sharp_far_m: f64,
-    /// From where to the camera everything is blurred wholly, m.
+    /// Fully blurred from this distance to the camera, m.
     pub blurred_near_m: f64,
-    /// From where on everything is blurred wholly, m.
+    /// Fully blurred from this distance on, m.
     pub blurred_far_m: f64,
     /// Diameter of the largest blur, px.
     pub blur_px: f64,
@@ -40,10 +39,10 @@ pub struct FastBlend {
 }
 
 impl FastBlend {
-    /// A blend.
+    /// Creates a blend.
     ///
     /// # Errors
-    /// Where the distances are not in the order blurred, sharp, sharp, blurred, or the blur is not positive.
+    /// If the distances are not in the order blurred, sharp, sharp, blurred, or the blur is not positive.
     pub fn new(parameters: FastParameters) -> Result<Self, OpticsError> {
         let FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px } = parameters;
         positive("blur_px", blur_px)?;
@@ -56,18 +55,18 @@ impl FastBlend {
         Err(OpticsError::SharpRange { blurred_near_m, sharp_near_m, sharp_far_m, blurred_far_m })
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &FastParameters {
         &self.parameters
     }
 
-    /// Pixels that the blur reaches.
+    /// Reach of the blur, px.
     pub(super) fn reach_px(&self) -> usize {
         PASSES * (Mean::new(self.parameters.blur_px).radius + 1)
     }
 
-    /// The share of the blurred copy at a distance.
+    /// The fraction of the blurred copy at a distance.
     fn share(&self, distance_m: f64) -> f64 {
         let p = &self.parameters;
         if distance_m < p.sharp_near_m {
@@ -110,14 +109,14 @@ impl FastBlend {
 /// A running mean with fractional ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Mean {
-    /// Whole pixels to each side.
+    /// Whole pixels on each side.
     radius: usize,
-    /// Weight of the next.
+    /// Weight of the next pixel.
     end: f64,
 }
 
 impl Mean {
-    /// The mean of which three in a row have the variance of a disc, a sixteenth of its diameter squared.
+    /// The mean for which three passes have the variance of a disc, a sixteenth of its diameter squared.
     fn new(diameter_px: f64) -> Self {
         let variance = diameter_px * diameter_px / 16.0 / PASSES as f64;
         let radius = (((12.0 * variance + 1.0).sqrt() - 1.0) / 2.0).floor();
@@ -126,7 +125,7 @@ impl Mean {
         Self { radius: radius as usize, end }
     }
 
-    /// A picture after all passes along rows and columns; beyond its edges there is nothing.
+    /// An image after all passes along rows and columns; zero beyond its edges.
     fn blurred(&self, mut picture: Vec<f64>, [width, height]: [usize; 2]) -> Vec<f64> {
         let mut line = Vec::new();
         for _ in 0..PASSES {
@@ -170,7 +169,7 @@ mod tests {
             let mut line = vec![0.0; 101];
             line[50] = 1.0;
             let blurred = Mean::new(diameter).blurred(line, [101, 1]);
-            // One row high: columns lose light to nothing, alike for all.
+            // One row high: columns lose light beyond the edges, equally for all.
             let sum: f64 = blurred.iter().sum();
             let variance: f64 =
                 blurred.iter().enumerate().map(|(x, v)| (x as f64 - 50.0) * (x as f64 - 50.0) * v / sum).sum();

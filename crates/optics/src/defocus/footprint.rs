@@ -1,15 +1,14 @@
-//! Where the light of a pixel comes from: the real pupil's outline, in pixels, by field point and distance.
+//! The footprint of a pixel's defocus blur: the outline of the real pupil, in pixels, by field point and distance.
 //!
-//! A ray of the sensor point s leaves the front of the lens at o in the direction ω. What it meets in the plane at the
-//! distance d (across the axis; across the chief ray beyond 78°) is seen from the centre of the pupil in the direction
-//! ω (n − o/d)/ω_z + o/d, hence at another pixel than s. The step from s to that pixel is linear in 1/d up to (o/d)², so two
-//! distances fix it: that in focus and the one of the scene that is most out of focus. Rays through the edge of the open
-//! pupil, found between an open and a closed pupil sample by bisection, give the outline; their light is spread evenly
-//! inside. This holds for every lens: a disc for the thin one, a cat's eye behind rims or real apertures, a shift where
-//! the pupil wanders.
+//! A ray of the sensor point s leaves the front of the lens at o in the direction ω. It meets the plane at the distance d (perpendicular to the axis;
+//! to the chief ray beyond 78°). From the centre of the pupil that point is seen in the direction ω (n − o/d)/ω_z + o/d, hence at another pixel than
+//! s. The offset from s to that pixel is linear in 1/d up to (o/d)², so two distances determine it: the distance in focus and the most defocused
+//! distance of the scene. Bisection between an open and a closed pupil sample finds rays through the edge of the open pupil; they form the outline.
+//! Their light is spread uniformly inside. This holds for every lens: a disc for the thin lens, a cat's eye with clipping apertures, a shift where
+//! the pupil moves over the field.
 //!
-//! Outlines are traced on a lattice over the picture at 587.56 nm and interpolated. Left out: caustics within the blur
-//! (spherical aberration's rings, coma), colours' own outlines, the pupil's cos⁴ within itself.
+//! Outlines are traced on a lattice over the image at 587.56 nm and interpolated. Left out: caustics within the blur (rings of spherical aberration,
+//! coma), separate outlines per colour, the pupil's own cos⁴ variation.
 
 use core::f64::consts::PI;
 
@@ -23,44 +22,44 @@ use crate::{lens::Lens, overlap::PRINCIPAL_NM};
 pub(super) const VERTICES: usize = 48;
 /// Nodes of the lattice along each axis.
 const NODES: usize = 9;
-/// Side of the grid of pupil samples in which the open part is looked for.
+/// Side of the grid of pupil samples used to locate the open part.
 const GRID: usize = 16;
-/// Halvings of the way between an open and a closed sample.
+/// Bisection steps between an open and a closed sample.
 const HALVINGS: usize = 20;
-/// Planes tried, each half as far out of focus as the one before.
+/// Number of planes tried, each at half the defocus of the one before.
 const LEVERS: usize = 16;
-/// Directions with a smaller cosine to the axis are cut by a plane across themselves.
+/// Cosine to the axis below which a direction uses a plane perpendicular to itself.
 const ACROSS_AXIS: f64 = 0.2;
-/// Shifts below this count as none, px.
+/// Shifts below this count as zero, px.
 const STILL_PX: f64 = 0.02;
 
 /// The vertices of a footprint, px.
 pub(super) type Polygon = [DVec2; VERTICES];
 
-/// Steps from a field point to where its rays meet the scene: `anchor` in focus, and what each 1/m adds.
+/// Offsets from a field point to where its rays meet the scene: `anchor` in focus, and the change per 1/m of defocus.
 #[derive(Clone, Debug)]
 struct Outline {
     anchor: Polygon,
     slope: Polygon,
 }
 
-/// The footprints of a picture.
+/// The footprints of an image.
 #[derive(Clone, Debug)]
 pub(super) struct Footprints {
     /// Inverse distance in focus, 1/m.
     focus_per_m: f64,
     step_px: DVec2,
     nodes: Vec<Outline>,
-    /// Greatest length of an anchor and of a slope.
+    /// Maximum length of an anchor and of a slope.
     longest: [f64; 2],
-    /// Greatest diameter that 1/m of defocus adds, px.
+    /// Maximum diameter added by 1/m of defocus, px.
     spread_px: f64,
-    /// Whether all outlines lie about their field points.
+    /// True if all outlines are centred on their field points.
     centred: bool,
 }
 
 impl Footprints {
-    /// The footprints of a view of things between two inverse distances; `None` where everything is sharp.
+    /// The footprints of objects in a view between two inverse distances; `None` if everything is sharp.
     pub(super) fn new(view: &PinholeView<'_>, inverse_range_per_m: [f64; 2]) -> Option<Self> {
         if view.lens.entrance_pupil_radius_m() == 0.0 {
             return None;
@@ -97,22 +96,22 @@ impl Footprints {
         }
     }
 
-    /// No footprint at this inverse distance reaches farther, px.
+    /// The maximum reach of a footprint at this inverse distance, px.
     pub(super) fn reach_px(&self, inverse_per_m: f64) -> f64 {
         self.longest[0] + (inverse_per_m - self.focus_per_m).abs() * self.longest[1]
     }
 
-    /// Greatest diameter that 1/m of defocus adds, px.
+    /// Maximum diameter added by 1/m of defocus, px.
     pub(super) fn spread_px(&self) -> f64 {
         self.spread_px
     }
 
-    /// Whether the light of everything at this inverse distance stays within its pixel.
+    /// True if the light of everything at this inverse distance stays within its pixel.
     pub(super) fn within_pixel(&self, inverse_per_m: f64) -> bool {
         self.centred && self.reach_px(inverse_per_m) < 0.5
     }
 
-    /// The pixels' steps from a scene point seen at `px` to where its light lands.
+    /// The pixel offsets from a scene point seen at `px` to where its light lands.
     pub(super) fn landing(&self, px: DVec2, inverse_per_m: f64) -> Polygon {
         let place = (px / self.step_px).clamp(DVec2::ZERO, DVec2::splat((NODES - 1) as f64 - 1e-9));
         let cell = place.floor();
@@ -141,14 +140,14 @@ pub(super) fn area(polygon: &Polygon) -> f64 {
     (0..VERTICES).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % VERTICES])).sum::<f64>().abs()
 }
 
-/// The middle of a polygon's bounding box.
+/// The centre of a polygon's bounding box.
 pub(super) fn middle(polygon: &Polygon) -> DVec2 {
     let low = polygon.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = polygon.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     0.5 * (low + high)
 }
 
-/// Nodes without light take the outline of the nearest that has some; `None` where none has.
+/// Fills nodes without light with the outline of the nearest lit node; `None` if no node is lit.
 fn filled(nodes: &[Option<Outline>]) -> Option<Vec<Outline>> {
     let apart = |i: usize, j: usize| (i % NODES).abs_diff(j % NODES).pow(2) + (i / NODES).abs_diff(j / NODES).pow(2);
     let nearest = |i: usize| {
@@ -177,8 +176,8 @@ impl Tracer<'_> {
         Some(Outline { anchor: whole(anchor), slope: whole(slope) })
     }
 
-    /// The step in focus of the ray of a pupil sample, and what each 1/m adds. Steps are linear in 1/d, so where the lens does
-    /// not see as far aside as the most defocused distance leads, a nearer plane does as well.
+    /// The in-focus offset of the ray of a pupil sample, and the change per 1/m. Offsets are linear in 1/d, so a nearer plane serves where the most
+    /// defocused distance leads beyond the field of the lens.
     fn line(&self, sensor_mm: DVec2, pupil: DVec2) -> Option<(DVec2, DVec2)> {
         let mut lever_per_m = self.other_per_m - self.focus_per_m;
         for _ in 0..LEVERS {
@@ -213,8 +212,8 @@ impl Tracer<'_> {
         }))
     }
 
-    /// Turns by which the pupil samples of a field point are turned against the picture, whose directions the vertices keep so
-    /// that those of neighbouring nodes belong together: a prescription samples its pupil in the meridian's frame.
+    /// Rotation, in turns, of the pupil samples of a field point against the image. A prescription samples its pupil in the meridian's frame; the
+    /// vertices keep the directions of the image, so that those of neighbouring nodes correspond.
     fn turn(&self, sensor_mm: DVec2) -> f64 {
         match self.view.lens {
             Lens::Prescription(_) | Lens::RayTransfer(_) => {
@@ -225,7 +224,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Steps (px) to where the ray of a pupil sample meets the planes at the distance in focus and at another.
+    /// Offsets (px) to where the ray of a pupil sample meets the planes at the focus distance and at another distance.
     fn steps_px(&self, sensor_mm: DVec2, pupil: DVec2, other_per_m: f64) -> Option<[DVec2; 2]> {
         let lens = self.view.lens;
         let ahead = lens.direction(sensor_mm)?.normalize();
@@ -240,8 +239,7 @@ impl Tracer<'_> {
     }
 }
 
-/// A point of the unit square's border, `turn` in [0, 1) of the way around it; half a turn on is the point opposite. Kept
-/// inside by rounding's width.
+/// A point of the unit square's border, at `turn` in [0, 1) around it; half a turn on is the opposite point. It lies inside by the width of rounding.
 fn around(turn: f64) -> DVec2 {
     let t = 4.0 * turn;
     let along = t - t.floor();
@@ -254,7 +252,7 @@ fn around(turn: f64) -> DVec2 {
     p.clamp(DVec2::splat(1e-9), DVec2::splat(1.0 - 1e-9))
 }
 
-/// The polygon that has the area of the round outline whose points the vertices are.
+/// Scales the polygon to the area of the round outline whose points are its vertices.
 fn whole(polygon: Polygon) -> Polygon {
     let turn = 2.0 * PI / VERTICES as f64;
     let growth = (turn / sin(turn)).sqrt();
@@ -271,8 +269,8 @@ mod tests {
     use etendue_core::wavelength::Bands;
     use etendue_projection::Raster;
 
-    /// Areas of the footprints of a lens at f/8, focused at 2 m, of things at `distance_m`, over the middle of the picture and
-    /// beside it, by that of the circle of confusion.
+    /// Areas of the footprints of a lens at f/8, focused at 2 m, of objects at `distance_m`, at the centre of the image and off it, divided by the
+    /// area of the circle of confusion.
     fn areas(name: &str, radius_mm: f64, distance_m: f32) -> Vec<f64> {
         let surfaces = published::named(name).expect("published").surfaces();
         let focus = Focus::Sensor { distance_m: 2.0 };
@@ -300,7 +298,7 @@ mod tests {
         assert!(found.iter().all(|a| (a - 1.0).abs() < 0.1 && (a / found[10] - 1.0).abs() < 0.03), "{found:?}");
     }
 
-    /// Rays to something very near lead beyond the field that the lens sees; its blur is as large as that.
+    /// Rays to a very near object lead beyond the field of the lens; the blur is limited to that.
     #[test]
     fn a_near_thing_does_not_switch_the_blur_off() {
         let found = areas("telephoto", 6.3, 0.12);

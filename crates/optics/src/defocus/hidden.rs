@@ -1,27 +1,26 @@
-//! What the centre of the pupil does not see but its rim does: guessed from visible neighbours.
+//! Points hidden from the centre of the pupil but visible from its edge, estimated from visible neighbours.
 //!
-//! Where the distance jumps, the farther surface goes on behind the nearer one. From each pixel the nearest jumps to something
-//! farther are looked for in eight directions, as far as blurs reach; what lies there, a pixel beyond the jump (whose own pixel
-//! may be mixed), fills the place behind the pixel with its mean light and distance, weighted by the inverse square of the
-//! way.
+//! At a jump of the distance the farther surface continues behind the nearer one. From each pixel the nearest jumps to a farther surface are searched
+//! in eight directions, within the reach of blurs. The pixel beyond each jump's own (possibly mixed) pixel provides light and distance. Their mean,
+//! weighted by the inverse square of the path length, fills the position behind the pixel.
 
 use super::{PinholeView, footprint::Footprints};
 
 const DIRECTIONS: [[i64; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
-/// Change of the blur's diameter from a pixel to its neighbour that counts as a jump, px. Along a surface it changes by the
-/// pupil's diameter over the distance to the surface's vanishing line at most: a few hundredths.
+/// Change of the blur diameter from a pixel to its neighbour that counts as a jump, px. Along a surface it changes at most by the pupil's diameter
+/// over the distance to the surface's vanishing line: a few hundredths.
 const JUMP_PX: f32 = 0.75;
 
-/// What lies behind a pixel.
+/// Estimate of the surface hidden behind a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fill {
     pub(super) pixel: u32,
     pub(super) inverse_per_m: f32,
-    /// Pixels whose light it has, and their shares, which sum to one; unused ones have none.
+    /// Pixels that contribute its light, and their weights, which sum to one; unused ones have weight 0.
     pub(super) taps: [(u32, f32); DIRECTIONS.len()],
 }
 
-/// What lies behind pixels, where something does that rays from the rim of the pupil can meet.
+/// Estimates of hidden surfaces, where rays from the edge of the pupil can reach them.
 pub(super) fn fills(view: &PinholeView<'_>, footprints: &Footprints) -> Vec<Fill> {
     let inverse: Vec<f32> =
         (0..view.width() * view.height()).map(|i| view.inverse_per_m(i).unwrap_or(f32::NAN)).collect();
@@ -41,7 +40,7 @@ pub(super) fn fills(view: &PinholeView<'_>, footprints: &Footprints) -> Vec<Fill
 struct Search<'a> {
     size: [i64; 2],
     jump_per_m: f32,
-    /// Steps that are looked at in each direction.
+    /// Number of steps searched in each direction.
     steps: i64,
     inverse: &'a [f32],
     radii: &'a [f32],
@@ -64,7 +63,7 @@ impl Search<'_> {
         Some(Fill { pixel: pixel as u32, inverse_per_m, taps })
     }
 
-    /// The pixel beyond the first jump to something farther, and how many steps away it is.
+    /// The pixel beyond the first jump to a farther surface, and its distance in steps.
     fn jump(&self, pixel: usize, direction: [i64; 2]) -> Option<(usize, i64)> {
         let mut last = self.inverse[pixel];
         for way in 1..=self.steps {
@@ -79,7 +78,7 @@ impl Search<'_> {
         None
     }
 
-    /// The next pixel on the way where it belongs to the same surface.
+    /// The next pixel along the direction if it belongs to the same surface.
     fn beyond(&self, pixel: usize, direction: [i64; 2], way: i64, found: usize) -> (usize, i64) {
         let same = |next: &usize| (self.inverse[*next] - self.inverse[found]).abs() <= self.jump_per_m;
         self.at(pixel, direction, way + 1).filter(same).map_or((found, way), |next| (next, way + 1))

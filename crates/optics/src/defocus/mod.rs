@@ -2,20 +2,20 @@
 //!
 //! # Contract
 //!
-//! - Input ([`PinholeView`]): radiance as seen from the centre of the entrance pupil, in the raster of the picture with a margin
+//! - Input ([`PinholeView`]): radiance as seen from the centre of the entrance pupil, in the raster of the image with a margin
 //!   of pixels around it, and the distance (m, along each pixel's ray from the pupil's centre; +∞ the sky, NaN no ray).
-//! - Output: radiance in the raster of the picture, each pixel the mean over its pupil, which [`crate::irradiance()`]
+//! - Output: radiance in the raster of the image, each pixel the mean over its pupil, which [`crate::irradiance()`]
 //!   then multiplies by the étendue.
-//! - A uniform radiance stays uniform to rounding. Blurs smaller than a pixel leave the picture as it is.
-//! - The same bits at any number of threads: rows are made independently of each other.
+//! - A uniform radiance stays uniform to rounding. Blurs smaller than a pixel leave the image as it is.
+//! - The result has the same bits at any number of threads: rows are computed independently of each other.
 //!
-//! | method | what it does | left out |
+//! | method | operation | left out |
 //! | --- | --- | --- |
 //! | [`DepthOfField::None`] | crops the margin | defocus |
-//! | [`DepthOfField::Physical`] | `physical.rs`: the pupil's outline of each field point, spread in the order of depth | what no pixel sees is guessed from its neighbours; radiance that changes with the direction |
-//! | [`DepthOfField::Fast`] | `fast.rs`: blend with one blurred copy by distance | everything but the look |
+//! | [`DepthOfField::Physical`] | `physical.rs`: the pupil's outline of each field point, spread in the order of depth | hidden points (estimated from their neighbours); radiance that changes with the direction |
+//! | [`DepthOfField::Fast`] | `fast.rs`: blend with one blurred copy by distance | physical accuracy |
 //!
-//! A pixel has one distance, that of what its centre sees: what is finer than a pixel moves with it.
+//! A pixel has one distance, that of the point at its centre: details finer than a pixel move with it.
 
 mod fast;
 mod footprint;
@@ -47,7 +47,7 @@ pub enum DepthOfField {
 }
 
 impl DepthOfField {
-    /// The picture of a view, on the caller's thread. ([`Physical`] makes rows on several.)
+    /// The image of a view, on the caller's thread. ([`Physical`] computes rows on several.)
     #[must_use]
     pub fn apply(&self, view: &PinholeView<'_>) -> SpectralCube<Radiance> {
         match self {
@@ -57,8 +57,7 @@ impl DepthOfField {
         }
     }
 
-    /// Pixels around the picture that its blurs reach beyond it, of things at `nearest_m` and farther: the margin that a
-    /// view needs so that nothing is missing at the picture's edges.
+    /// Maximum reach of blurs, px, for objects at `nearest_m` and beyond: the margin of a view so that no light is missing at the image's edges.
     #[must_use]
     pub fn reach_px(&self, lens: &Lens, raster: &Raster, nearest_m: f64) -> usize {
         match self {

@@ -1,19 +1,17 @@
 //! Defocus by the circles of confusion of the real pupil.
 //!
-//! 1. `footprint.rs`: the outline that the pupil makes of a scene point, by field point and distance, traced through the
-//!    lens. It turns over from before the plane in focus to behind it.
-//! 2. `hidden.rs`: what lies behind the edges of near things is guessed from what is seen beside them.
-//! 3. `layers.rs`: pixels, and what was guessed, sorted by distance.
-//! 4. `scan.rs`, `strip.rs`: each spreads its light over its outline; the layers are laid over each other from the nearest on,
-//!    with what they cover of each pixel's pupil. A blurred near thing lets what is behind it through, a sharp one is not
-//!    lit by the blur behind it.
+//! 1. `footprint.rs`: the outline of the pupil for a scene point, by field point and distance, traced through the lens. It is inverted between the
+//!    front and the back of the plane in focus.
+//! 2. `hidden.rs`: surfaces behind the edges of near objects are estimated from their visible neighbours.
+//! 3. `layers.rs`: pixels and estimates, sorted by distance.
+//! 4. `scan.rs`, `strip.rs`: each spreads its light over its outline; the layers are composited from the nearest on, with their coverage of each
+//!    pixel's pupil. A blurred near object lets the background through; a sharp one receives no light from the blur behind it.
 //!
-//! Weights are found once for all bands. The effort is a pixel's outline (48 vertices) and, for each row that it
-//! spreads over, a few steps a band.
+//! Weights are computed once for all bands. The cost is a pixel's outline (48 vertices) and, for each row that it spreads over, a few steps per band.
 //!
-//! Left out: what is hidden from the pupil's centre by a whole surface and seen by its rim (it is guessed), reflections
-//! and glass (they are blurred with the surface that shows them), and which part of the pupil a thing in front of two others
-//! covers (it covers an even share of both).
+//! Left out: regions hidden from the pupil's centre by a whole surface but visible from its edge (they are estimated), reflections and glass (they
+//! are blurred with the surface that shows them), and the part of the pupil that an object in front of two others covers (it covers a uniform
+//! fraction of both).
 
 use core::ops::Range;
 
@@ -24,17 +22,17 @@ use super::scan::{Scan, Step, Window};
 use super::strip::{Layer, Layers, Strip};
 use super::{PinholeView, footprint::Footprints, hidden::Fill};
 
-/// Rows that are made at a time.
+/// Rows per strip.
 const ROWS: usize = 32;
 
 /// The steps of a pixel that keeps its light.
 const KEPT: [Step; 2] = [Step { column: 0, share: 1.0 }, Step { column: 1, share: -1.0 }];
 
-/// A view whose footprints and layers are known: rows of its picture can be made, on any number of threads.
+/// A view with known footprints and layers: rows of its image can be computed on any number of threads.
 #[derive(Clone, Debug)]
 pub struct Physical<'a> {
     view: PinholeView<'a>,
-    /// `None` where everything is sharp.
+    /// `None` if everything is sharp.
     blurs: Option<(Footprints, Layers)>,
 }
 
@@ -51,13 +49,13 @@ impl<'a> Physical<'a> {
         Self { view, blurs }
     }
 
-    /// The rows in which the picture is best made, one range after the other.
+    /// The preferred ranges of rows for computing the image, one after the other.
     pub fn strips(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let height = self.view.raster.height();
         (0..height).step_by(ROWS).map(move |first| first..(first + ROWS).min(height))
     }
 
-    /// Some rows of the picture, as a cube of as many rows.
+    /// Some rows of the image, as a cube of that number of rows.
     #[must_use]
     pub fn rows(&self, rows: Range<usize>) -> SpectralCube<Radiance> {
         let (width, bands) = (self.view.raster.width(), self.view.radiance.bands());
@@ -80,14 +78,14 @@ impl<'a> Physical<'a> {
         cube
     }
 
-    /// The picture, on the caller's thread.
+    /// The image, on the caller's thread.
     #[must_use]
     pub fn picture(&self) -> SpectralCube<Radiance> {
         let strips: Vec<_> = self.strips().map(|rows| self.rows(rows)).collect();
         self.joined(&strips)
     }
 
-    /// The picture of the cubes of all strips, in their order.
+    /// The image assembled from the cubes of all strips, in their order.
     #[must_use]
     pub fn joined(&self, strips: &[SpectralCube<Radiance>]) -> SpectralCube<Radiance> {
         let (width, height) = (self.view.raster.width(), self.view.raster.height());
@@ -111,7 +109,7 @@ impl<'a> Physical<'a> {
     }
 }
 
-/// The least and the greatest inverse distance of a view, 1/m; `None` where no pixel has a ray.
+/// The smallest and the largest inverse distance of a view, 1/m; `None` if no pixel has a ray.
 fn inverse_range_per_m(view: &PinholeView<'_>) -> Option<[f64; 2]> {
     let all = (0..view.width() * view.height()).filter_map(|pixel| view.inverse_per_m(pixel));
     let range = all.fold([f32::INFINITY, 0.0], |[far, near], w| [far.min(w), near.max(w)]);
@@ -127,7 +125,7 @@ struct Splat<'a> {
 }
 
 impl Splat<'_> {
-    /// Spreads the sources of a layer that reach some rows of the picture.
+    /// Spreads the sources of a layer that reach some rows of the image.
     fn layer(&mut self, layer: &Layer, rows: &Range<usize>, light: &mut [f64], strip: &mut Strip) {
         let (margin, width) = (self.view.margin_px, self.view.width());
         let reach = layer.reach_px.ceil() as usize + 1;

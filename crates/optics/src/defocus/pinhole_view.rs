@@ -1,4 +1,4 @@
-//! What a lens looks at, as seen from the centre of its entrance pupil.
+//! The view of a lens from the centre of its entrance pupil.
 
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Length, Radiance};
@@ -6,7 +6,7 @@ use etendue_projection::Raster;
 
 use crate::{error::OpticsError, lens::Lens};
 
-/// What a lens looks at, as seen from the centre of its entrance pupil.
+/// The view of a lens from the centre of its entrance pupil.
 #[derive(Clone, Copy, Debug)]
 pub struct PinholeView<'a> {
     pub(super) lens: &'a Lens,
@@ -17,10 +17,10 @@ pub struct PinholeView<'a> {
 }
 
 impl<'a> PinholeView<'a> {
-    /// A view of a picture: `radiance` and `distance` have `margin_px` more pixels than `raster` on each side.
+    /// Creates a view of an image: `radiance` and `distance` have `margin_px` more pixels than `raster` on each side.
     ///
     /// # Errors
-    /// Where the images are not of that size, or the radiance of a pixel with a distance is no finite number.
+    /// If the images are not of that size, or the radiance of a pixel with a distance is not finite.
     pub fn new(
         lens: &'a Lens,
         raster: &'a Raster,
@@ -39,7 +39,7 @@ impl<'a> PinholeView<'a> {
         Ok(view)
     }
 
-    /// Pixels a row, margin included.
+    /// Pixels per row, margin included.
     pub(super) fn width(&self) -> usize {
         self.distance.width()
     }
@@ -49,7 +49,7 @@ impl<'a> PinholeView<'a> {
         self.distance.height()
     }
 
-    /// Inverse distance of a pixel, 1/m: 0 for the sky; `None` where it has no ray.
+    /// Inverse distance of a pixel, 1/m: 0 for the sky; `None` if it has no ray.
     pub(super) fn inverse_per_m(&self, pixel: usize) -> Option<f32> {
         let distance = self.distance.samples()[pixel];
         (distance > 0.0).then(|| 1.0 / distance)
@@ -66,7 +66,7 @@ impl<'a> PinholeView<'a> {
         Ok(())
     }
 
-    /// The picture without its margin, as it is.
+    /// The unblurred image without its margin.
     pub(super) fn cropped(&self) -> SpectralCube<Radiance> {
         let mut picture = SpectralCube::new(self.raster.width(), self.raster.height(), self.radiance.bands());
         for (from, to) in self.radiance.planes().iter().zip(picture.planes_mut()) {

@@ -1,9 +1,8 @@
-//! How much of each pixel a polygon covers, row by row, as steps between neighbours.
+//! Coverage of each pixel by a polygon, row by row, as differences between neighbours.
 //!
-//! A row's coverage is kept as differences: running sums of them are the coverage. A wide blur then costs its rim and not its
-//! area. Rows are cut into lines, more of them for small polygons; along a line coverage is exact. A polygon smaller than a
-//! pixel is a pixel's square about its middle, which in its own pixel changes nothing and elsewhere interpolates. Of large
-//! polygons only the rows that are asked for are looked at.
+//! A row's coverage is stored as differences: their running sum is the coverage. The cost of a wide blur then depends on its perimeter and not on its
+//! area. Rows are cut into lines, more of them for small polygons; along a line coverage is exact. A polygon smaller than a pixel becomes a pixel's
+//! square about its centre, which changes nothing in its own pixel and elsewhere interpolates. Of large polygons only the requested rows are scanned.
 
 use core::ops::Range;
 
@@ -11,27 +10,26 @@ use glam::DVec2;
 
 use super::footprint::{Polygon, VERTICES, area};
 
-/// Lines that a polygon is cut into at least, where a row has several.
+/// Minimum number of lines across a polygon, where a row has several.
 const LINES: f64 = 48.0;
-/// Lines of a row at most.
+/// Maximum number of lines per row.
 const LINES_A_ROW: f64 = 16.0;
-/// Lines from which on the sum of their lengths is taken to be the polygon's area: the two differ by less than
-/// LINES^−1.5, 3e-4.
+/// Number of lines above which the sum of their lengths is taken as the polygon's area; the two differ by less than LINES^−1.5, 3e-4.
 const MANY_LINES: i64 = 256;
 /// Shifts below this leave a small footprint on its pixel, px.
 const STILL_PX: f64 = 0.02;
-/// The least side of a polygon, px, before it is widened to a pixel.
+/// The minimum side of a polygon, px, before it is widened to a pixel.
 const MIN_PX: f64 = 1e-3;
 
-/// Where the coverage of a row changes, and by what share of the whole.
+/// A change of the coverage in a row, as a fraction of the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
-    /// Columns from the pixel.
+    /// Column relative to the pixel.
     pub(super) column: i64,
     pub(super) share: f64,
 }
 
-/// The pixels that are asked for, counted from the pixel that spreads its light.
+/// The requested pixels, relative to the pixel that spreads its light.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
     pub(super) columns: Range<i64>,
@@ -39,7 +37,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Whether light between two corners (px) can reach it: coverage in a row changes what lies to its right.
+    /// True if light between two corners (px) can reach the window; a coverage change in a row affects everything to its right.
     fn is_reached(&self, low: DVec2, high: DVec2) -> bool {
         let before = |limit: i64, value: f64| value < limit as f64 + 2.0;
         let after = |limit: i64, value: f64| value > limit as f64 - 2.0;
@@ -50,7 +48,7 @@ impl Window {
     }
 }
 
-/// Room for scanning, used again and again.
+/// Reusable buffers for scanning.
 #[derive(Debug, Default)]
 pub(super) struct Scan {
     /// Left and right end of each line.
@@ -61,8 +59,8 @@ pub(super) struct Scan {
 }
 
 impl Scan {
-    /// Calls `emit` with each row (counted from the pixel's) of a window and the steps in it of what a pixel spreads over
-    /// `polygon` (px, from the pixel's centre). Shares of all rows sum to one.
+    /// Calls `emit` with each row (relative to the pixel's) of a window and the coverage steps of a pixel spread over `polygon` (px, from the pixel's
+    /// centre). Fractions over all rows sum to one.
     pub(super) fn spread(&mut self, polygon: &Polygon, window: &Window, mut emit: impl FnMut(i64, &[Step])) {
         let low = polygon.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = polygon.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
@@ -89,7 +87,7 @@ impl Scan {
         }
     }
 
-    /// A pixel's square moved by less than a footprint.
+    /// Emits a pixel's square shifted by less than a footprint.
     fn shift(&mut self, by: DVec2, mut emit: impl FnMut(i64, &[Step])) {
         let top = by.y.floor();
         for (row, share) in [(top, 1.0 - (by.y - top)), (top + 1.0, by.y - top)] {
@@ -101,7 +99,7 @@ impl Scan {
         }
     }
 
-    /// Ends of the lines `first` to `last`, `a_row` of them a row, between the sides of a polygon; the sum of their lengths.
+    /// Cuts the lines `first` to `last`, `a_row` of them per row, between the sides of a polygon; returns the sum of their lengths.
     fn cut(&mut self, polygon: &Polygon, a_row: f64, first: i64, last: i64) -> f64 {
         self.lines.clear();
         self.lines.resize((last - first + 1).max(0) as usize, [f64::INFINITY, f64::NEG_INFINITY]);
@@ -121,7 +119,7 @@ impl Scan {
         self.lines.iter().map(|[left, right]| (right - left).max(0.0)).sum()
     }
 
-    /// Emits the rows of a window from the lines that were cut.
+    /// Emits the rows of a window from the cut lines.
     fn rows(&mut self, a_row: i64, first: i64, whole: f64, window: &Window, emit: &mut impl FnMut(i64, &[Step])) {
         let last = first + self.lines.len() as i64 - 1;
         let (top, bottom) = (first.div_euclid(a_row), last.div_euclid(a_row));
@@ -150,7 +148,7 @@ impl Scan {
         }
     }
 
-    /// Makes room for a row between two columns; the first of them.
+    /// Makes room for a row between two columns; returns the first of them.
     fn clear(&mut self, left: f64, right: f64) -> i64 {
         let first = left.floor() as i64;
         self.row.clear();
@@ -158,14 +156,14 @@ impl Scan {
         first
     }
 
-    /// Adds an interval with `share` a pixel's length.
+    /// Adds an interval with `share` per unit of pixel length.
     fn add(&mut self, first: i64, line: [f64; 2], share: f64) {
         for step in ends(line, share) {
             self.row[(step.column - first) as usize] += step.share;
         }
     }
 
-    /// The steps of the row that was added up.
+    /// The steps of the accumulated row.
     fn stepped(&mut self, first: i64) -> &[Step] {
         let steps = self.row.iter().enumerate().filter(|(_, share)| **share != 0.0);
         self.steps.clear();
@@ -174,7 +172,7 @@ impl Scan {
     }
 }
 
-/// The steps of an interval with `share` a pixel's length.
+/// The steps of an interval with `share` per unit of pixel length.
 fn ends(line: [f64; 2], share: f64) -> [Step; 4] {
     let end = |at: f64, share: f64| {
         let (column, part) = (at.floor() as i64, at - at.floor());
@@ -231,7 +229,7 @@ mod tests {
             let c = coverage(&disc(DVec2::new(x, y), DVec2::new(rx, ry)), 12);
             let (sum, mean, _) = moments(&c, 12);
             assert!((sum - 1.0).abs() < 1e-12, "{sum}");
-            // Lines are placed within a 48th of the height, and pixels count at their centres.
+            // Lines are placed to within a 48th of the height, and pixels count at their centres.
             assert!((mean - DVec2::new(x, y)).length() < 0.05, "{mean}");
             assert!(c.iter().all(|share| *share > -1e-15));
         }
@@ -239,8 +237,8 @@ mod tests {
 
     #[test]
     fn a_disc_has_the_variance_of_a_disc() {
-        // A quarter of the radius squared, and a twelfth for the pixels' square; its rim meets few pixels and lines, which
-        // leaves an error of the order of that twelfth.
+        // A quarter of the radius squared, and a twelfth for the pixels' square. The rim of a small disc meets few pixels and lines, which leaves an
+        // error of the order of that twelfth.
         for radius in [1.5, 4.0, 9.5] {
             let (_, _, variance) = moments(&coverage(&disc(DVec2::ZERO, DVec2::splat(radius)), 12), 12);
             let expected = radius * radius / 4.0 + 1.0 / 12.0;
@@ -258,7 +256,7 @@ mod tests {
         assert_eq!(seen, [(0, vec![one(0, 1.0), one(1, -1.0)])]);
     }
 
-    /// The middle of a disc of thousands of pixels, cut out of the whole: even, by the polygon's own area.
+    /// The centre of a disc of thousands of pixels, cut out of the whole: uniform, by the polygon's own area.
     #[test]
     fn a_window_into_a_large_disc_is_even() {
         for radius in [60.0, 700.0, 5000.0] {

@@ -1,14 +1,14 @@
-//! A few rows of the picture while layers are laid over each other, the nearest first.
+//! A few rows of the image while layers are composited, the nearest first.
 //!
-//! Each pixel holds three sums of a coverage and of light times coverage: of the layer at hand (as differences along the
-//! row), of the surface at hand, and of everything in front of it. Within a surface, layers that follow each other without
-//! a gap, coverages add, for its parts cover different parts of the pupil, up to one: what is more is behind. Between surfaces
-//! they multiply: what is left of the pupil by those in front is spread evenly. At the end light is divided by coverage.
+//! Each pixel holds three sums of a coverage and of light times coverage: of the current layer (as differences along the row), of the current
+//! surface, and of everything in front of it. Within a surface (layers that follow each other without a gap) coverages add, because its parts cover
+//! different parts of the pupil, up to one; any excess is hidden. Between surfaces they multiply: the part of the pupil left by those in front counts
+//! as uniform. At the end light is divided by coverage.
 //!
 //! Pixels as sources of light, sorted into layers by distance, the nearest first.
 //!
-//! Layers are equally thick in inverse distance, in which rays through the pupil are straight lines of the picture: a layer is
-//! as thick as the distance over which the blur grows by a pixel. Each source keeps its own distance; layers give the order.
+//! Layers are equally thick in inverse distance, in which rays through the pupil are straight lines of the image: over the thickness of a layer the
+//! blur grows by a pixel. Each source keeps its own distance; layers give the order.
 
 use core::ops::Range;
 
@@ -17,24 +17,24 @@ use super::{PinholeView, footprint::Footprints, scan::Step};
 
 /// Coverage below this is rounding.
 const NOTHING: f64 = 1e-9;
-/// Layers between two surfaces.
+/// Empty layers that separate two surfaces.
 const GAP: usize = 2;
 
-/// Rows of the picture.
+/// Rows of the image.
 #[derive(Debug)]
 pub(super) struct Strip {
     rows: Range<usize>,
     width: usize,
-    /// Numbers a pixel: coverage, then light of each band.
+    /// Values per pixel: coverage, then light of each band.
     depth: usize,
     layer: Vec<f64>,
     surface: Vec<f64>,
     front: Vec<f64>,
-    /// What the surfaces in front leave of the pupil.
+    /// Fraction of the pupil left by the surfaces in front.
     left: Vec<f64>,
-    /// The layer that last touched the surface at hand.
+    /// The layer that last touched the current surface.
     last: Vec<usize>,
-    /// Columns of each row that the layer at hand touches: the first, and one beyond the last.
+    /// Columns of each row touched by the current layer: the first, and one beyond the last.
     touched: Vec<[usize; 2]>,
     running: Vec<f64>,
 }
@@ -76,7 +76,7 @@ impl Strip {
         }
     }
 
-    /// Lays the layer at hand behind what is there.
+    /// Composites the current layer behind the existing ones.
     pub(super) fn lay(&mut self, number: usize) {
         for row in 0..self.rows.len() {
             let [first, end] = core::mem::replace(&mut self.touched[row], UNTOUCHED);
@@ -113,7 +113,7 @@ impl Strip {
         }
     }
 
-    /// Puts the surface at hand behind those in front.
+    /// Composites the current surface behind those in front.
     fn close(&mut self, pixel: usize) {
         let range = pixel * self.depth..(pixel + 1) * self.depth;
         let left = self.left[pixel];
@@ -123,7 +123,7 @@ impl Strip {
         }
     }
 
-    /// The light of a pixel, a number a band; `None` where nothing shines.
+    /// The light of a pixel, a value per band; `None` if it received none.
     pub(super) fn light(&mut self, x: usize, y: usize) -> Option<impl Iterator<Item = f64>> {
         let pixel = (y - self.rows.start) * self.width + x;
         self.close(pixel);
@@ -133,16 +133,16 @@ impl Strip {
     }
 }
 
-/// Layers at most; thicker ones where more would be needed.
+/// Maximum number of layers; layers become thicker where more would be needed.
 const MOST: f64 = 1024.0;
 
-/// Something that shines into the picture.
+/// A source of light in the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Source {
-    /// The pixel of the view where it is seen.
+    /// The pixel of the view in which it is seen.
     pub(super) pixel: u32,
     pub(super) inverse_per_m: f32,
-    /// The place in the list of fills of its light; its pixel's own where there is none.
+    /// Index of its light in the list of fills; `None`: its pixel's own light.
     pub(super) fill: Option<u32>,
 }
 
@@ -150,14 +150,14 @@ pub(super) struct Source {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layer {
     pub(super) sources: Vec<Source>,
-    /// Pixels that no light of the layer reaches beyond.
+    /// Maximum reach of the layer's light, px.
     pub(super) reach_px: f64,
 }
 
 /// All sources of a view.
 #[derive(Clone, Debug)]
 pub(super) struct Layers {
-    /// The nearest first.
+    /// Layers, the nearest first.
     pub(super) layers: Vec<Layer>,
     pub(super) fills: Vec<Fill>,
 }

@@ -1,18 +1,17 @@
-//! A spread function on the lattice of pixels, without widening it.
+//! Distributes a spread function over the pixel lattice without widening it.
 //!
-//! What a lattice of taps k makes of the film has the modulation K(f) = Σ kₙ exp(−2πi f·n). It should be that of the spread,
-//! H(f), for all frequencies that the pixels can hold, up to half a cycle a pixel: then kₙ = ∫ P(t) sinc(t/p − n) dt. The
-//! sinc is cut off by Hann's window after [`LOBES`] of them; mass is gathered on a
-//! lattice of eighths of a pixel before, by cubic shares. Mass beyond [`NEAR_PX`] is shared bilinearly (`kernel.rs`), which
-//! for what is that wide and smooth is the same.
+//! A lattice of taps k has the modulation K(f) = Σ kₙ exp(−2πi f·n). It should equal that of the spread, H(f), for all frequencies that the pixels
+//! can represent, up to half a cycle per pixel: then kₙ = ∫ P(t) sinc(t/p − n) dt. Hann's window cuts off the sinc after [`LOBES`] lobes; before
+//! that, mass is gathered on a lattice of eighths of a pixel with cubic weights. Mass beyond [`NEAR_PX`] is distributed bilinearly (`kernel.rs`),
+//! which is equivalent for so wide and smooth a spread.
 //!
-//! Light is not negative, and next to a lamp a tap of −1 % would be a hole. Where taps come out negative, they are set to 0, and
-//! rows and columns are scaled by turns until their sums are again those of the band-limited kernel (iterative proportional
-//! fitting, Deming & Stephan 1940). Sums that are negative are 0, and the others less in proportion, about the same centroid. Diffraction, whose modulation
-//! falls from the start, keeps it along both axes of the picture to 0.004 and loses up to 0.06 along the diagonals (at half a cycle a
-//! pixel, for patterns about as wide as a pixel). A Gaussian of 0.7 pixels keeps it to 0.02, of 0.4 pixels to 0.08: no film
-//! of whole pixels can do better without negative light. Where samples come through the lens, such spreads displace these (`sample_spread.rs`). Of a spread that is narrow and beside the middle of a pixel
-//! even more is negative; it is shared bilinearly as a whole.
+//! Light is not negative, and next to a light source a tap of −1 % would be a hole. Negative taps are set to 0, and rows and columns are scaled in
+//! turn until their sums are again those of the band-limited kernel (iterative proportional fitting, Deming & Stephan 1940). Negative sums become 0,
+//! and the others are lowered in proportion, about the same centroid. Diffraction, whose modulation falls from the start, keeps its modulation along
+//! both image axes to 0.004 and loses up to 0.06 along the diagonals (at half a cycle per pixel, for patterns about as wide as a pixel). A Gaussian
+//! of 0.7 pixels keeps it to 0.02, of 0.4 pixels to 0.08: no film of whole pixels can do better without negative light. Where samples come through
+//! the lens, such spreads displace these (`sample_spread.rs`). A narrow spread off the centre of a pixel has even more negative taps; it is
+//! distributed bilinearly as a whole.
 
 use core::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
@@ -23,18 +22,18 @@ use super::kernel::Kernel;
 
 /// Lobes of the sinc to either side.
 const LOBES: usize = 16;
-/// How far from the middle, along rows or columns, mass is shared by the sinc, px.
+/// Distance from the centre, along rows or columns, within which mass is distributed by the sinc, px.
 const NEAR_PX: usize = 12;
-/// Cells a pixel of the lattice on which it is gathered first.
+/// Cells per pixel of the lattice on which mass is gathered first.
 const FINE: usize = 8;
-/// Cells along its side: a pixel more at each end, for the cubic's.
+/// Cells along its side: one pixel more at each end, for the cubic weights.
 const SIDE: usize = 2 * (NEAR_PX + 1) * FINE + 1;
-/// Rounds of scaling; each takes an order of magnitude off what is missing.
+/// Rounds of scaling; each reduces the remaining error by an order of magnitude.
 const ROUNDS: usize = 8;
-/// Negative mass in the sums of rows or columns from which on a spread is shared bilinearly.
+/// Negative mass in the sums of rows or columns above which a spread is distributed bilinearly.
 const TOO_NARROW: f64 = 0.1;
 
-/// Mass on a lattice finer than pixels about the middle, and bilinear taps: of what is farther, and of all.
+/// Mass on a lattice finer than pixels about the centre, and bilinear taps: of the far mass, and of all.
 #[derive(Debug)]
 pub(crate) struct BandLimited {
     fine: Vec<f64>,
@@ -47,7 +46,7 @@ impl BandLimited {
         Self { fine: vec![0.0; SIDE * SIDE], far: Kernel::zeros(reach), bilinear: Kernel::zeros(reach) }
     }
 
-    /// Adds a mass at `offset_px` from the middle.
+    /// Adds a mass at `offset_px` from the centre.
     pub(crate) fn deposit(&mut self, offset_px: DVec2, mass: f64) {
         self.bilinear.deposit(offset_px, mass);
         if offset_px.abs().max_element() > NEAR_PX as f64 {
@@ -85,7 +84,7 @@ impl BandLimited {
         kernel
     }
 
-    /// Modulation that the kernel lacks or adds, at most: over frequencies up to half a cycle a pixel along rows, columns and both diagonals.
+    /// Maximum modulation error of the kernel, over frequencies up to half a cycle per pixel along rows, columns and both diagonals.
     pub(crate) fn worst_error(self) -> f64 {
         let frequencies = [0.125, 0.25, 0.375, 0.5].into_iter().flat_map(|f| {
             [DVec2::X, DVec2::Y, DVec2::splat(FRAC_1_SQRT_2), DVec2::new(FRAC_1_SQRT_2, -FRAC_1_SQRT_2)]
@@ -112,7 +111,7 @@ impl BandLimited {
         frequencies.iter().zip(exact).map(|(f, exact)| (found(*f) - exact).length()).fold(0.0, f64::max)
     }
 
-    /// The kernel; its sum is one, its centroid that of the mass, and none of its taps negative.
+    /// The kernel: its sum is one, its centroid that of the mass, and no tap is negative.
     pub(crate) fn kernel(self) -> Kernel {
         let unit = |kernel: Kernel| {
             let sum = kernel.sum();
@@ -142,13 +141,13 @@ fn negative(sums: &[f64]) -> f64 {
     sums.iter().map(|s| (-s).max(0.0)).sum()
 }
 
-/// Of lines' sums that are one together, in lines from the first.
+/// The centroid of line sums that total one, in lines from the first.
 fn centroid(sums: &[f64]) -> f64 {
     sums.iter().enumerate().map(|(i, s)| i as f64 * s).sum()
 }
 
-/// Sums of lines, of sum one, without negative ones and about a centroid: what is on one side of it is scaled up, on the
-/// other down, in proportion to the distance as far as two lines.
+/// Line sums of total one without negative values, about a centroid: sums on one side of it are scaled up, on the other down, in proportion to the
+/// distance up to two lines.
 fn wanted(sums: &[f64], centroid: f64) -> Vec<f64> {
     let positive: Vec<f64> = sums.iter().map(|s| s.max(0.0)).collect();
     let tilt = |i: usize| (i as f64 - centroid).clamp(-2.0, 2.0);
@@ -161,7 +160,7 @@ fn wanted(sums: &[f64], centroid: f64) -> Vec<f64> {
     tilted.iter().map(|s| s / sum).collect()
 }
 
-/// A kernel with other sums of its columns and rows.
+/// Scales a kernel to other sums of its columns and rows.
 fn fitted(mut kernel: Kernel, columns: &[f64], rows: &[f64]) -> Kernel {
     let ratios = |wanted: &[f64], found: &[f64]| -> Vec<f64> {
         wanted.iter().zip(found).map(|(w, f)| if *f > 0.0 { w / f } else { 0.0 }).collect()
@@ -175,13 +174,13 @@ fn fitted(mut kernel: Kernel, columns: &[f64], rows: &[f64]) -> Kernel {
     kernel
 }
 
-/// Shares among four cells of a lattice, the second and third beside the place (Keys 1981: to the third order in the cell).
+/// Weights of four cells of a lattice, the second and third adjacent to the position (Keys 1981: third order in the cell).
 fn cubic(t: f64) -> [f64; 4] {
     let (t2, t3) = (t * t, t * t * t);
     [0.5 * (-t3 + 2.0 * t2 - t), 0.5 * (3.0 * t3 - 5.0 * t2 + 2.0), 0.5 * (-3.0 * t3 + 4.0 * t2 + t), 0.5 * (t3 - t2)]
 }
 
-/// Shares of a cell's mass among pixels along one axis; their sum is one.
+/// Fractions of a cell's mass per pixel along one axis; they sum to one.
 struct Shares {
     first: isize,
     weights: [f64; 2 * LOBES],
@@ -232,7 +231,7 @@ mod tests {
 
     #[test]
     fn gaussians_keep_their_modulation() {
-        // Within a sixteenth of a cycle about 0.5 the window mixes f and 1 − f; and what is negative, most at 0.4 px, is left out.
+        // Within a sixteenth of a cycle about 0.5 the window mixes f and 1 − f; the negative part, largest at 0.4 px, is left out.
         for (sigma_px, lost) in [(0.4, 0.08), (0.7, 0.02), (1.0, 0.004)] {
             let kernel = gaussian(sigma_px, DVec2::ZERO);
             for f in [0.1, 0.2, 0.3, 0.4, 0.5] {
@@ -263,7 +262,7 @@ mod tests {
     fn centroids_are_kept() {
         let middle = DVec2::new(0.3, -0.2);
         let found: DVec2 = gaussian(0.6, middle).taps().map(|(x, y, tap)| DVec2::new(x as f64, y as f64) * tap).sum();
-        // What the window cuts off the sinc.
+        // The error of the sinc's window.
         assert!((found - middle).length() < 2e-3, "{found}");
     }
 }

@@ -1,4 +1,4 @@
-//! The film and the picture in it, and a kernel that spreads means and, squared, variances.
+//! The film and the image in it, and a kernel that spreads means and, squared, variances.
 
 use etendue_projection::Raster;
 use glam::DVec2;
@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::convolve::{Convolver, Field, Region};
 use super::kernel::Kernel;
 
-/// The film and the picture in it.
+/// The film and the image in it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Canvas {
     pub(super) film: Raster,
@@ -28,7 +28,7 @@ impl Canvas {
         self.film.sensor_mm(film_px)
     }
 
-    /// How far from the axis the film goes.
+    /// Maximum distance from the axis to the film's edge.
     pub(super) fn max_radius_mm(&self) -> f64 {
         self.film.max_radius_mm()
     }
@@ -37,12 +37,12 @@ impl Canvas {
         self.film.pitch_mm()
     }
 
-    /// All of the film.
+    /// The whole film.
     pub(super) fn whole(&self) -> Region {
         Region { x: 0..self.film.width(), y: 0..self.film.height() }
     }
 
-    /// The picture in the film.
+    /// The image in the film.
     pub(super) fn picture(&self) -> Region {
         let [x, y] = self.margin_px;
         Region { x: x..self.film.width() - x, y: y..self.film.height() - y }

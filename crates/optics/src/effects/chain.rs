@@ -1,4 +1,4 @@
-//! The effects of a camera, one behind the other, and the margin that they need.
+//! The chain of effects of a camera, and the margin it needs.
 
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_core::{Bands, EffectStatus, Plane, WavelengthRange};
@@ -11,7 +11,7 @@ use super::point_spread::{PointSpread, ReadySpread};
 use super::{Effect, error::EffectsError, glare::Glare, sample_spread::SampleSpread};
 use crate::ghosts::GhostSettings;
 
-/// The widest margin that is chosen without being asked for, as a share of the picture's width and height.
+/// The largest default margin, as a fraction of the image's width and height.
 pub const MARGIN_CAP: f64 = 0.25;
 
 /// The effects of a camera.
@@ -24,27 +24,26 @@ pub struct Effects {
     margin_px: [usize; 2],
 }
 
-/// The members that a camera can have, and its margin.
+/// Parameters of a camera's effects and its margin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EffectsParameters {
-    /// Diffraction and wavefront error, or a picture.
+    /// Diffraction and wavefront error, or an image.
     pub psf: Option<PointSpread>,
-    /// By what the point-spread function spreads light where samples come through the lens; `None` for what keeps its modulation.
+    /// Method of applying the point-spread function where samples come through the lens; `None`: the one that preserves modulation.
     pub spread_by: Option<SpreadBy>,
     /// Light scattered in the lens.
     pub glare: Option<Glare>,
-    /// Light that two surfaces reflect.
+    /// Light reflected by two surfaces.
     pub ghosts: Option<GhostSettings>,
-    /// Width of the margin on every side as a share of the picture's width and height, 0 to 1; `None` for as far as the
-    /// effects reach, at most a quarter.
+    /// Width of the margin on every side as a fraction of the image's width and height, 0 to 1; `None`: the reach of the effects, at most a quarter.
     pub margin: Option<f64>,
 }
 
 impl Effects {
-    /// The effects behind a picture.
+    /// Prepares the effects of an image.
     ///
     /// # Errors
-    /// Where the margin is out of range or serves nothing, or samples are asked for and the function is wide.
+    /// If the margin is out of range or has no purpose, or sample displacement is requested and the function is wide.
     pub fn new(parameters: EffectsParameters, picture: &Raster) -> Result<Self, EffectsError> {
         let EffectsParameters { psf, spread_by: asked, glare, ghosts, margin } = parameters;
         let mut effects = Self { psf, spread_by: None, glare, ghosts, margin_px: [0, 0] };
@@ -61,18 +60,18 @@ impl Effects {
         Ok(effects)
     }
 
-    /// How far the effects reach, at most a quarter of the picture.
+    /// The reach of the effects, at most a quarter of the image.
     fn reach_px(&self, picture: &Raster) -> [usize; 2] {
         let cap = share(MARGIN_CAP, picture);
         let glare = self.needs_glare().map(|glare| glare.reach_px(picture.pitch_mm()).unwrap_or(cap));
         let psf = self.psf.as_ref().map(|psf| psf.reach_px(picture.pitch_mm()));
-        // Ghosts of sources beside the picture fall anywhere in it.
+        // Ghosts of sources outside the image fall anywhere in it.
         let ghosts = self.ghosts.map(|_| cap);
         let reach = [psf, glare, ghosts].into_iter().flatten().fold([0, 0], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
         [reach[0].min(cap[0]), reach[1].min(cap[1])]
     }
 
-    /// Whether an effect is modelled, and why.
+    /// Status of an effect (modelled or not) with the reason.
     #[must_use]
     pub fn status(&self, effect: Effect) -> EffectStatus {
         match effect {
@@ -82,19 +81,19 @@ impl Effects {
         }
     }
 
-    /// Whether nothing is to be done.
+    /// True if there is no effect to apply.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         !Effect::ALL.into_iter().any(|effect| self.status(effect).is_modelled())
     }
 
-    /// Columns and rows that the film needs beyond the picture, on every side.
+    /// Columns and rows that the film needs beyond the image, on every side.
     #[must_use]
     pub fn margin_px(&self) -> [usize; 2] {
         self.margin_px
     }
 
-    /// The pixels of the film: the picture's with the margin.
+    /// The pixels of the film: the image's with the margin.
     #[must_use]
     pub fn film(&self, picture: &Raster) -> Raster {
         picture.widened(self.margin_px)
@@ -106,25 +105,25 @@ impl Effects {
         self.psf.as_ref()
     }
 
-    /// By what the point-spread function spreads light where samples come through the lens, and how narrow it is; `None` where there is none.
+    /// The method of applying the point-spread function where samples come through the lens, and the width of the function; `None` if there is none.
     #[must_use]
     pub fn spread_by(&self) -> Option<(SpreadBy, SpreadWidth)> {
         self.spread_by
     }
 
-    /// By what samples are displaced that come through the lens to the film of a picture; `None` where the film spreads all light.
+    /// The sample displacement for rays through the lens to the film of an image; `None` if the film spreads all light.
     #[must_use]
     pub fn sample_spread(&self, picture: &Raster, range: WavelengthRange) -> Option<SampleSpread> {
         self.displacing()?.sample_spread(&Canvas::new(picture, self.margin_px), range)
     }
 
-    /// The function that samples through the lens are displaced by, where they are.
+    /// The function that displaces samples through the lens, if any.
     #[must_use]
     pub fn displacing(&self) -> Option<&PointSpread> {
         self.psf.as_ref().filter(|_| self.spread_by.is_some_and(|(by, _)| by == SpreadBy::Samples))
     }
 
-    /// What of the point-spread function is left to a film, whose samples came through the lens or did not.
+    /// The part of the point-spread function left to the film, for samples through the lens or not.
     #[must_use]
     pub fn film_part(&self, through_lens: bool) -> FilmPart {
         match self.spread_by {
@@ -139,7 +138,7 @@ impl Effects {
         self.glare.as_ref()
     }
 
-    /// Ghosts, where they are made.
+    /// Ghosts, if enabled.
     #[must_use]
     pub fn ghosts(&self) -> Option<GhostSettings> {
         self.ghosts
@@ -149,8 +148,8 @@ impl Effects {
         self.glare.as_ref().filter(|glare| Glare::status(Some(glare)).is_modelled())
     }
 
-    /// What the point spread and the veiling glare of a picture have to do, of its bands and, if asked for, their variances.
-    /// (Ghosts: [`crate::ghosts::operation_counts`].)
+    /// Operation counts of the point spread and the veiling glare of an image: its bands and, if requested, their variances. (Ghosts:
+    /// [`crate::ghosts::operation_counts`].)
     #[must_use]
     pub fn operation_counts(
         &self,
@@ -165,8 +164,8 @@ impl Effects {
         [(Effect::PointSpread, psf.unwrap_or_default()), (Effect::Glare, glare.unwrap_or_default())]
     }
 
-    /// The effects made ready for a picture and a range of wavelengths (nm), with this part of the point-spread function: what does not depend
-    /// on the band.
+    /// The effects prepared for an image, a range of wavelengths (nm) and this part of the point-spread function: everything that does not depend on
+    /// the band.
     #[must_use]
     pub fn prepared(&self, picture: &Raster, range: WavelengthRange, part: FilmPart) -> Prepared {
         let canvas = Canvas::new(picture, self.margin_px);
@@ -180,7 +179,7 @@ pub(super) fn share(margin: f64, picture: &Raster) -> [usize; 2] {
     [(margin * picture.width() as f64).ceil() as usize, (margin * picture.height() as f64).ceil() as usize]
 }
 
-/// Effects that are ready to be applied.
+/// Prepared effects.
 #[derive(Debug)]
 pub struct Prepared {
     canvas: Canvas,
@@ -189,9 +188,9 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// The picture's irradiance in the band from `band.low_nm` to `band.high_nm`, of the film's; and its variance, of the film's.
+    /// The image's irradiance in the band from `band.low_nm` to `band.high_nm`, from that of the film, with the variance.
     ///
-    /// A pixel of the film that is not finite makes others so: none that holds a number has met it.
+    /// A non-finite pixel of the film affects others: every pixel with a finite number is free of it.
     #[must_use]
     pub fn apply(
         &self,
@@ -199,7 +198,7 @@ impl Prepared {
         film: &Plane<Irradiance>,
         variance: Option<&Plane<Variance>>,
     ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
-        // One replicate knows no variance.
+        // A single replicate has no variance.
         let known = variance.filter(|plane| plane.samples().iter().all(|v| !v.is_nan())).map(field);
         let (mean, spread) = self.spread(band, field(film), known);
         let variance = variance.map(|_| spread.map_or_else(|| self.unknown(), |v| self.cut(&v)));
@@ -216,7 +215,7 @@ impl Prepared {
         (light, variance)
     }
 
-    /// The picture of a film. Rounding of the transforms below zero is no light.
+    /// The image cut from a film. Values below zero are rounding of the transforms and become 0.
     fn cut<Q: Quantity<Sample = f32>>(&self, film: &Field) -> Plane<Q> {
         let Region { x, y } = self.canvas.picture();
         let (width, height) = (x.len(), y.len());

@@ -1,7 +1,7 @@
-//! Convolution of a picture with a kernel, and its cost: nothing comes from outside the picture.
+//! Convolution of an image with a kernel, and its cost. Light from outside the image is zero.
 //!
-//! Few taps are summed directly. Many go through the Fourier transform, by blocks of the result, two blocks at once as real
-//! and imaginary part; the number of blocks is the one that costs least.
+//! Few taps are summed directly. Many use the Fourier transform by blocks of the result, two blocks at once as real and imaginary part; the number of
+//! blocks is the cheapest one.
 
 use core::iter::Sum;
 use core::ops::{Add, Mul, Range};
@@ -9,9 +9,9 @@ use core::ops::{Add, Mul, Range};
 use super::fourier::{Grid, Plan, fast_length};
 use super::kernel::Kernel;
 
-/// Taps up to which the sum is taken directly.
+/// Maximum number of taps for direct summation.
 const DIRECT_TAPS: usize = 49;
-/// Most blocks along an axis that are tried.
+/// Maximum number of blocks along an axis.
 const MAX_BLOCKS: usize = 24;
 
 /// Numbers in a rectangle, row by row.
@@ -46,7 +46,7 @@ pub(crate) struct Region {
     pub(crate) y: Range<usize>,
 }
 
-/// A kernel made ready for pictures of one size and a region of them.
+/// A kernel prepared for images of one size and a region of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Convolver {
     region: Region,
@@ -59,7 +59,7 @@ enum Method {
     Fourier { plan: Box<Plan>, spectrum: Box<Grid>, blocks: Vec<Block> },
 }
 
-/// A block of the result, and the part of the picture that it needs.
+/// A block of the result, and the part of the image that it needs.
 #[derive(Clone, Debug)]
 struct Block {
     out: Region,
@@ -67,14 +67,14 @@ struct Block {
 }
 
 impl Convolver {
-    /// `kernel` on pictures of `size`, of whose result `region` is wanted.
+    /// Prepares `kernel` for images of `size`, of which `region` of the result is needed.
     pub(crate) fn new(kernel: &Kernel, size: [usize; 2], region: Region) -> Self {
         let taps: Vec<_> = kernel.taps().collect();
         let method = if taps.len() <= DIRECT_TAPS { Method::Direct(taps) } else { fourier(kernel, size, &region) };
         Self { region, method }
     }
 
-    /// The region of the picture convolved.
+    /// The convolved region of the image.
     pub(crate) fn apply(&self, picture: &Field) -> Field {
         let mut result = Field::zeros(self.region.x.len(), self.region.y.len());
         match &self.method {
@@ -119,7 +119,7 @@ impl Convolver {
     }
 }
 
-/// The pair of blocks through the transform and back.
+/// Transforms a pair of blocks, multiplies and transforms back.
 fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Grid {
     let mut grid = Grid::zeros(plan.width(), plan.height());
     let rows = |of: fn(&Block) -> Range<usize>| pair.iter().map(|b| of(b).end).max().unwrap_or(0);
@@ -135,7 +135,7 @@ fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Gri
     grid
 }
 
-/// The work of a kernel without a tap of zero on pictures of `size`, of whose result `region` is wanted.
+/// Operation counts of a kernel without zero taps on images of `size`, of which `region` of the result is needed.
 pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Region, uses: Uses) -> OperationCounts {
     let taps = (2 * reach[0] + 1) * (2 * reach[1] + 1);
     if taps <= DIRECT_TAPS {
@@ -146,7 +146,7 @@ pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Reg
     }
     let Cut { blocks, sides } = Cut::best(reach, size, region);
     let pairs = (blocks[0] * blocks[1]).div_ceil(2) as f64;
-    // A pair of blocks goes there and back.
+    // One forward and one inverse transform per pair of blocks.
     let transforms = uses.ready + 2.0 * pairs * uses.applied;
     OperationCounts { transformed: transforms * effort(sides), ..OperationCounts::default() }
 }
@@ -158,7 +158,7 @@ struct Cut {
 }
 
 impl Cut {
-    /// The one that costs least.
+    /// The cheapest division into blocks.
     fn best(reach: [usize; 2], size: [usize; 2], region: &Region) -> Self {
         let lengths = |wanted: &Range<usize>, axis: usize| -> Vec<usize> {
             (1..=MAX_BLOCKS).map(|count| length(&spans(wanted, count, reach[axis], size[axis]))).collect()
@@ -192,7 +192,7 @@ fn fourier(kernel: &Kernel, size: [usize; 2], region: &Region) -> Method {
     Method::Fourier { spectrum: Box::new(spectrum(kernel, &plan)), plan, blocks }
 }
 
-/// Work of a transform of this size, in no particular unit: n log n.
+/// Cost of a transform of this size, in arbitrary units: n log n.
 fn effort([width, height]: [usize; 2]) -> f64 {
     let bits = |n: usize| f64::from(usize::BITS - n.leading_zeros());
     (width * height) as f64 * (bits(width) + bits(height))
@@ -205,7 +205,7 @@ struct Span {
     reach: usize,
 }
 
-/// `wanted` cut into `count` parts of nearly equal length, each with what it needs of a picture of length `size`.
+/// Divides `wanted` into `count` parts of nearly equal length, each with the input it needs of an image of length `size`.
 fn spans(wanted: &Range<usize>, count: usize, reach: usize, size: usize) -> Vec<Span> {
     let end = |i: usize| wanted.start + wanted.len() * i / count;
     let span = |i: usize| {
@@ -215,7 +215,7 @@ fn spans(wanted: &Range<usize>, count: usize, reach: usize, size: usize) -> Vec<
     (0..count).map(span).filter(|span| !span.out.is_empty()).collect()
 }
 
-/// The length of a transform in which no block meets its own copies.
+/// The transform length at which no block overlaps its own periodic copies.
 fn length(spans: &[Span]) -> usize {
     let need = |Span { out, from, reach }: &Span| {
         let furthest = (from.end - out.start).max(out.end - from.start);
@@ -229,7 +229,7 @@ fn spectrum(kernel: &Kernel, plan: &Plan) -> Grid {
     let mut grid = Grid::zeros(plan.width(), plan.height());
     let scale = 1.0 / (plan.width() * plan.height()) as f64;
     for (x, y, tap) in kernel.taps() {
-        // Taps that no two pixels of a block are apart fall outside, and are left out.
+        // Taps farther apart than any two pixels of a block fall outside and are left out.
         if x.unsigned_abs() < plan.width().div_ceil(2) && y.unsigned_abs() < plan.height().div_ceil(2) {
             let column = x.rem_euclid(plan.width() as isize) as usize;
             grid.re_mut(y.rem_euclid(plan.height() as isize) as usize)[column] += tap * scale;
@@ -239,14 +239,14 @@ fn spectrum(kernel: &Kernel, plan: &Plan) -> Grid {
     grid
 }
 
-/// Numbers of what takes time.
+/// Operation counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OperationCounts {
-    /// Products of a pixel and a tap, where few taps are summed directly.
+    /// Products of a pixel and a tap in direct summation.
     pub taps: f64,
-    /// Numbers that pass a Fourier transform, each times the bits of both its sides' lengths.
+    /// Values that pass a Fourier transform, each times the bits of the lengths of both sides.
     pub transformed: f64,
-    /// Points of light shared among the taps of kernels.
+    /// Points of light distributed over the taps of kernels.
     pub shared: f64,
     /// Diffraction patterns of a wavefront.
     pub patterns: f64,
@@ -284,7 +284,7 @@ impl Sum for OperationCounts {
     }
 }
 
-/// How often a kernel is made ready, and how many pictures it is applied to.
+/// Number of times a kernel is prepared, and number of images it is applied to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Uses {
     pub(super) ready: f64,

@@ -1,23 +1,23 @@
-//! How the core of a point spread is spread by displacing samples: a density that offsets are drawn from.
+//! The density from which sample displacements are drawn: the core of a point spread.
 //!
-//! Mass is gathered on a lattice of [`CELLS_PER_PX`] cells a pixel by bilinear shares, and even within a cell, which widens the spread by
-//! (1/6 + 1/12)/256 px² a direction: its modulation at half a cycle a pixel falls by less than half a per cent.
+//! Mass is gathered on a lattice of [`CELLS_PER_PX`] cells per pixel with bilinear weights, uniform within a cell. This widens the spread by (1/6 +
+//! 1/12)/256 px² per direction: its modulation at half a cycle per pixel falls by less than half a per cent.
 
 use core::f64::consts::FRAC_PI_2;
 
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
 
-/// Where the core ends, along rows and columns, px.
+/// End of the core, along rows and columns, px.
 pub(super) const CORE_PX: f64 = 2.5;
-/// How far all of the light is the core's, px.
+/// Distance up to which all of the light belongs to the core, px.
 const WHOLE_PX: f64 = 1.0;
-/// Cells a pixel.
+/// Cells per pixel.
 const CELLS_PER_PX: f64 = 16.0;
-/// Cells along a side: one more at each end, for the bilinear shares.
+/// Cells along a side: one more at each end, for the bilinear weights.
 const SIDE: usize = 2 * 40 + 2;
 
-/// The share of the light at an offset (px) that is the core's: 1 in the middle, 0 beyond it, smooth in between, so that what is left is smooth.
+/// The fraction of the light at an offset (px) in the core: 1 at the centre, 0 beyond it, smooth in between, so that the remainder is smooth.
 pub(super) fn core_share(offset_px: DVec2) -> f64 {
     let along = |away: f64| {
         let t = ((away.abs() - WHOLE_PX) / (CORE_PX - WHOLE_PX)).clamp(0.0, 1.0);
@@ -27,18 +27,18 @@ pub(super) fn core_share(offset_px: DVec2) -> f64 {
     along(offset_px.x) * along(offset_px.y)
 }
 
-/// The core at a place of the picture for a wavelength, its sum one.
+/// The core at a position of the image for a wavelength, its sum one.
 #[derive(Clone, Debug)]
 pub(super) struct CoreTable {
     /// Mass of the cells, row by row.
     cells: Vec<f32>,
-    /// Of each row, the mass of all rows up to it.
+    /// Cumulative mass of all rows up to each row.
     rows: Vec<f32>,
-    /// Of each cell, the mass of its row up to it.
+    /// Cumulative mass of the row up to each cell.
     in_row: Vec<f32>,
 }
 
-/// A core while mass is added.
+/// A core during accumulation of mass.
 #[derive(Debug)]
 pub(super) struct CoreBuilder {
     cells: Vec<f64>,
@@ -51,7 +51,7 @@ impl Default for CoreBuilder {
 }
 
 impl CoreBuilder {
-    /// Adds the core's share of a mass at an offset, px.
+    /// Adds the core's fraction of a mass at an offset, px.
     pub(super) fn deposit(&mut self, offset: DVec2, mass: f64) {
         if offset.abs().max_element() >= CORE_PX {
             return;
@@ -71,7 +71,7 @@ impl CoreBuilder {
         self.cells.iter().sum()
     }
 
-    /// The core; `None` where no mass is in it.
+    /// The core; `None` if no mass is in it.
     pub(super) fn table(self) -> Option<CoreTable> {
         let sum = self.sum();
         (sum > 0.0).then(|| CoreTable::normalised(&self.cells, sum))
@@ -94,14 +94,14 @@ impl CoreTable {
         Self { cells: cells.iter().map(|cell| *cell as f32).collect(), rows, in_row }
     }
 
-    /// An offset, px, by two numbers in [0, 1).
+    /// Samples an offset, px, with two numbers in [0, 1).
     pub(super) fn draw(&self, u: DVec2) -> DVec2 {
         let (y, in_y) = invert(&self.rows, u.y);
         let (x, in_x) = invert(&self.in_row[y * SIDE..(y + 1) * SIDE], u.x);
         (DVec2::new(x as f64 + in_x, y as f64 + in_y) - 1.0) / CELLS_PER_PX - CORE_PX
     }
 
-    /// The mass of the cell of an offset: the density, in units that all tables share.
+    /// The mass of the cell of an offset: the density, in units common to all tables.
     pub(super) fn density(&self, offset_px: DVec2) -> f64 {
         let place = ((offset_px + CORE_PX) * CELLS_PER_PX + 1.0).floor();
         let inside = place.min_element() >= 0.0 && place.max_element() < SIDE as f64;
@@ -109,7 +109,7 @@ impl CoreTable {
     }
 }
 
-/// The cell of a running sum in which a share `u` of all ends, and where within the cell, 0 to 1.
+/// The cell of a running sum in which a fraction `u` of the total ends, and the position within the cell, 0 to 1.
 fn invert(running: &[f32], u: f64) -> (usize, f64) {
     let all = f64::from(running[running.len() - 1]);
     let wanted = u * all;

@@ -1,14 +1,14 @@
-//! Why an effect cannot be.
+//! Errors of irradiance effects.
 
-/// Why an irradiance effect cannot be.
+/// An error of an irradiance effect.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EffectsError {
-    /// A share of scattered light outside of its range.
+    /// A fraction of scattered light outside its range.
     #[error("a scattered share of {share} is not within 0 to {most}; clean lenses scatter 0.005 to 0.03")]
     Scatter {
-        /// What was given.
+        /// Value given.
         share: f64,
-        /// The largest share.
+        /// Maximum fraction.
         most: f64,
     },
     /// A length or exponent that is not a positive number.
@@ -16,7 +16,7 @@ pub enum EffectsError {
     NotPositive {
         /// The key.
         key: &'static str,
-        /// What was given.
+        /// Value given.
         value: f64,
     },
     /// A kernel whose integral over the plane is infinite.
@@ -28,21 +28,21 @@ pub enum EffectsError {
         /// The exponent.
         exponent: f64,
     },
-    /// A table of a wavefront term that is none.
+    /// An invalid table of a wavefront term.
     #[error("a wavefront term needs as many root mean squares as field radii, which must rise; or one, and no radii")]
     Table,
-    /// A wavefront too steep for the pupil's lattice.
+    /// A wavefront too steep for the lattice of the pupil.
     #[error(
         "the wavefront's slope of {slope_um:.1} µm over the pupil's radius is beyond {limit_um:.1} µm, where its pattern is no \
          longer held: give smaller terms; large blurs are defocus, which the lens's own focus makes"
     )]
     Slope {
-        /// The steepest slope, µm.
+        /// The maximum slope, µm.
         slope_um: f64,
-        /// The steepest that is held, µm.
+        /// The maximum supported slope, µm.
         limit_um: f64,
     },
-    /// A diffraction pattern that is wider than the model can compute.
+    /// A diffraction pattern wider than the model can compute.
     #[error(
         "the diffraction pattern of f/{f_number:.1} is wider than can be computed with pixels of {pixel_um:.3} µm; the largest f-number is f/{most:.1}: \
          give a smaller \"f_number\" or larger pixels, or remove [effects.psf]"
@@ -50,7 +50,7 @@ pub enum EffectsError {
     WidePattern {
         /// Working f-number.
         f_number: f64,
-        /// The largest f-number that is computed.
+        /// The maximum supported f-number.
         most: f64,
         /// Pixel pitch, µm.
         pixel_um: f64,
@@ -61,53 +61,53 @@ pub enum EffectsError {
          \"spread_by\", since the film keeps such a function"
     )]
     WideCore {
-        /// The share of the light.
+        /// The fraction of the light in the core.
         core: f64,
-        /// The least.
+        /// The minimum fraction.
         least: f64,
     },
-    /// A picture whose samples do not fill its rows.
+    /// An image whose samples do not fill its rows.
     #[error(
         "a picture of {count} samples is no whole number of rows of {width}: give one sample or more, in full rows"
     )]
     Samples {
-        /// How many there are.
+        /// Number of samples.
         count: usize,
         /// Samples in a row.
         width: usize,
     },
-    /// A sample of a picture that is no light.
+    /// A sample of an image that is not valid light.
     #[error("column {column} of row {row} is {value}: the picture of a point's light has numbers from 0, none below")]
     NoLight {
         /// The column, from 0.
         column: usize,
         /// The row, from 0.
         row: usize,
-        /// What it holds.
+        /// Its value.
         value: f32,
     },
-    /// A picture without light.
+    /// An image without light.
     #[error("the picture of a point's light is 0 everywhere: give one in which some light arrives")]
     Dark,
-    /// A picture whose samples are farther apart than pixels.
+    /// An image whose samples are farther apart than pixels.
     #[error(
         "the picture's samples lie {step_um:.3} µm apart on the sensor (at 780 nm, if it scales with the wavelength), farther than \
          the pixels' {pixel_um:.3} µm: light would arrive in separate dots; give a finer picture and its \"image_pitch_um\""
     )]
     Coarse {
-        /// Distance of samples, µm.
+        /// Pitch of the samples, µm.
         step_um: f64,
-        /// Distance of pixels, µm.
+        /// Pixel pitch, µm.
         pixel_um: f64,
     },
-    /// A picture that is too wide.
+    /// An image that spreads light too far.
     #[error(
         "the picture spreads light over {reach_px} px (at 780 nm, if it scales), and {most_px} is the most: crop it"
     )]
     Wide {
-        /// How far it reaches, px.
+        /// Its reach, px.
         reach_px: usize,
-        /// How far it may.
+        /// Maximum reach, px.
         most_px: usize,
     },
     /// A function over the field whose samples are farther apart than pixels.
@@ -116,42 +116,42 @@ pub enum EffectsError {
          export it with a smaller spacing (\"image delta\")"
     )]
     CoarseFunction {
-        /// Distance of samples, µm.
+        /// Pitch of the samples, µm.
         step_um: f64,
-        /// Distance of pixels, µm.
+        /// Pixel pitch, µm.
         pixel_um: f64,
     },
-    /// A function over the field that is too wide.
+    /// A function over the field that spreads light too far.
     #[error("the function spreads light over {reach_px} px, and {most_px} is the most: export it over a smaller area")]
     WideFunction {
-        /// How far it reaches, px.
+        /// Its reach, px.
         reach_px: usize,
-        /// How far it may.
+        /// Maximum reach, px.
         most_px: usize,
     },
-    /// Functions over the field that do not make a table.
+    /// Functions over the field that do not form a table.
     #[error(
         "functions over the field need distances from the axis that rise, as many at every wavelength, and wavelengths that rise"
     )]
     SpreadTable,
-    /// A table of modulation that is no lens's.
+    /// A table of modulation that no lens has.
     #[error(
         "the modulation is no sum of Gaussians: the nearest is off by {deviation:.3}, and {most} is the most; expected modulations that fall from 1 \
          with the frequency"
     )]
     Modulation {
-        /// By how much the nearest is off.
+        /// Deviation of the best fit.
         deviation: f64,
-        /// By how much it may be.
+        /// Maximum deviation.
         most: f64,
     },
-    /// A margin that is no share.
+    /// A margin outside its range.
     #[error("a margin of {margin} is not within 0 to 1 of the picture's size")]
     Margin {
-        /// What was given.
+        /// Value given.
         margin: f64,
     },
-    /// A margin that nothing needs.
+    /// A margin that no effect uses.
     #[error(
         "\"margin\" has no effect without an effect that takes light from outside the picture: remove it, or add \
          [effects.glare]"
@@ -159,7 +159,7 @@ pub enum EffectsError {
     IdleMargin,
 }
 
-/// The value, if it is a positive number.
+/// Returns the value if it is a positive number.
 pub(crate) fn positive(key: &'static str, value: f64) -> Result<f64, EffectsError> {
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(EffectsError::NotPositive { key, value }) }
 }

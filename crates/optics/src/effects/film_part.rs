@@ -1,4 +1,4 @@
-//! What of a point spread the film spreads: all of it, or the tails beyond a core that samples were displaced by; how narrow it is.
+//! The part of a point spread applied by the film: all of it, or the tails beyond a core that displaced samples; and the width of the function.
 
 use etendue_core::WavelengthRange;
 use glam::DVec2;
@@ -6,20 +6,20 @@ use glam::DVec2;
 use super::core_table::{CoreBuilder, core_share};
 use super::{band::BandLimited, error::EffectsError, kernel::Kernel};
 
-/// What of a point spread a film spreads.
+/// The part of a point spread that a film applies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FilmPart {
     /// All of it.
     Whole,
-    /// What lies beyond its core: the film's samples were displaced by that ([`super::SampleSpread`]).
+    /// The part beyond its core: the film's samples were displaced by the core ([`super::SampleSpread`]).
     Tails,
 }
 
-/// A kernel while mass is added.
+/// A kernel during accumulation of mass.
 #[derive(Debug)]
 pub(super) enum KernelBuilder {
     Whole(Box<BandLimited>),
-    /// The tails are smooth: bilinear shares keep them. They are spread by the core once more, which is narrow beside them.
+    /// The tails are smooth: bilinear weights preserve them. They are convolved with the core once more, which is narrow compared with them.
     Tails(Kernel),
 }
 
@@ -31,7 +31,7 @@ impl KernelBuilder {
         }
     }
 
-    /// Adds a mass at `offset_px` from the middle.
+    /// Adds a mass at `offset_px` from the centre.
     pub(super) fn deposit(&mut self, offset_px: DVec2, mass: f64) {
         match self {
             Self::Whole(band) => band.deposit(offset_px, mass),
@@ -55,19 +55,19 @@ impl KernelBuilder {
     }
 }
 
-/// How narrow a point-spread function is on the pixels of a film, in the middle of the picture at 555 nm; of tables over the field where they are widest.
+/// Width of a point-spread function on the pixels of a film, at the centre of the image at 555 nm; for tables over the field where they are widest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpreadWidth {
-    /// Share of the light that samples can be displaced by: all of it within a pixel, none beyond 2.5 px, along rows and columns.
+    /// Fraction of the light by which samples can be displaced: all of it within a pixel, none beyond 2.5 px, along rows and columns.
     pub core: f64,
-    /// Modulation that a kernel on whole pixels lacks or adds, at most, at up to half a cycle a pixel.
+    /// Maximum modulation error of a kernel on whole pixels, at up to half a cycle per pixel.
     pub film_error: f64,
-    /// Whether it is of another width at other wavelengths.
+    /// True if its width depends on the wavelength.
     pub scales: bool,
 }
 
 impl SpreadWidth {
-    /// Of a function that adds where light lands, px, and how much.
+    /// Measures a function that deposits light: positions, px, and fractions.
     pub(super) fn new(reach: [usize; 2], scales: bool, deposit: impl FnOnce(&mut dyn FnMut(DVec2, f64))) -> Self {
         let mut core = CoreBuilder::default();
         let (mut all, mut band) = (0.0, BandLimited::zeros(reach));
@@ -79,7 +79,7 @@ impl SpreadWidth {
         Self { core: core.sum() / all, film_error: band.worst_error(), scales }
     }
 
-    /// The wider core and the greater error of two.
+    /// The wider core and the larger error of two.
     pub(super) fn worse(self, other: Self) -> Self {
         Self {
             core: self.core.min(other.core),
@@ -89,25 +89,24 @@ impl SpreadWidth {
     }
 }
 
-/// Light in the core from which on samples may be displaced: its blur of the tails, which the film then spreads once more, stays unseen.
+/// Minimum light in the core for displacing samples: the film then applies the core to the tails once more, and the extra blur is invisible.
 const MIN_CORE: f64 = 0.8;
-/// Errors of the film's modulation that are left to it where samples cost no noise: the function is the same at all wavelengths.
+/// Maximum modulation error accepted from the film if samples add no noise: the function is the same at all wavelengths.
 const MAX_FILM_ERROR: f64 = 0.01;
-/// The same where they do. Diffraction by itself reaches 0.061, at half a cycle a pixel along the diagonals.
+/// The same if they add noise. Diffraction by itself reaches 0.061, at half a cycle per pixel along the diagonals.
 const MAX_FILM_ERROR_OF_BANDS: f64 = 0.065;
 
-/// By what light is spread.
+/// Method of spreading light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpreadBy {
-    /// Pixels of the film: no noise, but contrast is lost where the function is about as narrow as a pixel or narrower.
+    /// Pixels of the film: no noise, but contrast is lost if the function is about as narrow as a pixel or narrower.
     Film,
-    /// Samples that are displaced, with the film for the tails: exact however narrow, with some more noise.
+    /// Displaced samples, with the film for the tails: exact for any width, with some more noise.
     Samples,
 }
 
 impl SpreadBy {
-    /// As asked for. Where nothing is, by samples if the function is narrow and the film would be wrong by more than 0.01, or 0.065 where samples
-    /// cost noise.
+    /// The requested method. By default, samples if the function is narrow and the film's error would exceed 0.01, or 0.065 where samples add noise.
     pub(super) fn choose(asked: Option<Self>, width: SpreadWidth) -> Result<Self, EffectsError> {
         let is_narrow = width.core >= MIN_CORE;
         let limit = if width.scales { MAX_FILM_ERROR_OF_BANDS } else { MAX_FILM_ERROR };
@@ -122,10 +121,10 @@ impl SpreadBy {
 
 pub(super) const MM_PER_NM: f64 = 1e-6;
 pub(super) const NM_PER_UM: f64 = 1e3;
-/// Wavelengths of a band are at most this far apart, nm.
+/// Maximum distance of wavelengths of a band, nm.
 const STEP_NM: f64 = 10.0;
 
-/// The middles of the equal parts of a band, none wider than the step.
+/// The centres of the equal parts of a band, none wider than the step.
 pub(super) fn mid_wavelengths(band: WavelengthRange) -> impl Iterator<Item = f64> {
     let parts = (band.width_nm() / STEP_NM).ceil().max(1.0);
     (0..parts as usize).map(move |part| band.low_nm + band.width_nm() * (part as f64 + 0.5) / parts)

@@ -1,22 +1,22 @@
 //! The discrete Fourier transform of a rectangle of complex numbers.
 //!
-//! Stockham's self-sorting algorithm (Cochran et al. 1967) in radices 4, 2, 3 and 5, decimated in frequency, on strips of
-//! lines that lie beside each other. All arithmetic is f64, and the roots of unity come from the core's own sine: the
-//! libraries of the field take them from the platform's, whose last bit differs from machine to machine.
+//! Stockham's self-sorting algorithm (Cochran et al. 1967) in radices 4, 2, 3 and 5, decimated in frequency, on strips of adjacent lines. All
+//! arithmetic is f64, and the roots of unity come from the core crate's own sine: common FFT libraries use that of the platform, whose last bit
+//! differs between machines.
 
 use core::{f64::consts::PI, ops::Range};
 
 use etendue_core::maths::f64::sin_cos;
 
-/// Lines that are transformed together.
+/// Lines transformed together.
 const LANES: usize = 16;
 
-/// The least length of at least `least` that is a product of 2, 3 and 5.
+/// The smallest length, at least `least`, that is a product of 2, 3 and 5.
 pub(crate) fn fast_length(least: usize) -> usize {
     (least.max(1)..).find(|n| factors(*n).is_some()).expect("powers of two have no end")
 }
 
-/// The radices of a length, or `None` where another prime divides it.
+/// The radices of a length, or `None` if another prime divides it.
 fn factors(mut n: usize) -> Option<Vec<usize>> {
     let mut found = Vec::new();
     for radix in [4, 2, 3, 5] {
@@ -28,7 +28,7 @@ fn factors(mut n: usize) -> Option<Vec<usize>> {
     (n == 1).then_some(found)
 }
 
-/// Complex numbers in two lists.
+/// Complex numbers as two lists.
 #[derive(Clone, Debug, Default)]
 struct Line {
     re: Vec<f64>,
@@ -58,7 +58,7 @@ impl Transform {
         Self { n, radices, roots: Line { re, im } }
     }
 
-    /// Transforms `lanes` interleaved lines; `spare` is of the same size.
+    /// Transforms `lanes` interleaved lines; `spare` has the same size.
     fn run(&self, data: &mut Line, spare: &mut Line, lanes: usize) {
         let (mut length, mut stride) = (self.n, lanes);
         for radix in &self.radices {
@@ -120,7 +120,7 @@ struct Pass<'a> {
     gap: usize,
 }
 
-/// One butterfly for all lanes: the inputs a₀ …, their transform, the twiddles.
+/// One butterfly for all lanes: the inputs a₀ …, their transform, the twiddle factors.
 macro_rules! butterfly {
     ($self:ident, $p:ident, $twiddles:ident, $radix:literal, |$a:ident| $transform:expr) => {{
         let Self { from, to, stride, gap } = $self;
@@ -193,7 +193,7 @@ impl Pass<'_> {
     }
 }
 
-/// Transforms of rectangles of one size, whose sides are fast lengths.
+/// Transforms of rectangles of one size; the sides are fast lengths.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     rows: Transform,
@@ -265,7 +265,7 @@ impl Plan {
         self.along_columns(grid);
     }
 
-    /// Σ a exp(+2πi (xu/w + yv/h)), not divided by the number of points, in the rows `wanted`; the others are left unfinished.
+    /// Σ a exp(+2πi (xu/w + yv/h)), not divided by the number of points, in the rows `wanted`; the other rows are undefined.
     pub(crate) fn inverse(&self, grid: &mut Grid, wanted: Range<usize>) {
         // The conjugate of the transform of the conjugate; exchanging the parts does the same.
         core::mem::swap(&mut grid.data.re, &mut grid.data.im);
@@ -328,7 +328,7 @@ fn resize(strip: &mut Line, spare: &mut Line, len: usize) {
 mod tests {
     use super::*;
 
-    /// Numbers without any pattern that a transform would know.
+    /// Numbers without a pattern that could favour the transform.
     fn noise(i: usize) -> f64 {
         let x = (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(31).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         (x >> 11) as f64 / (1u64 << 53) as f64 - 0.5

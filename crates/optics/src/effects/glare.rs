@@ -1,16 +1,14 @@
-//! Veiling glare: light that dust, coatings and barrel scatter over the sensor.
+//! Veiling glare: light scattered over the sensor by dust, coatings and the barrel.
 //!
-//! Of the light that would fall on a point, the share 1 − s does, and s is spread over the plane with the density
-//! K(r) = C (r₀² + r²)^(−p/2), r the distance on the sensor (the form is Harvey and Shack's ABg scatter
-//! (1976), taken to be the same for every point of the sensor and every wavelength). C makes the integral of K one, over
-//! the plane (p > 2) or over a disc of the radius "reach" (any p). With G(r) the integral of ρ (r₀² + ρ²)^(−p/2) from 0 to
-//! r, the share of K within r is F(r) = G(r)/G(reach); over the plane F(r) = 1 − (1 + r²/r₀²)^(1 − p/2).
+//! A fraction 1 − s of the light of a point stays there; s is spread over the plane with the density K(r) = C (r₀² + r²)^(−p/2), r the distance on
+//! the sensor (the form is Harvey and Shack's ABg scatter (1976), taken to be the same for every point of the sensor and every wavelength). C makes
+//! the integral of K one, over the plane (p > 2) or over a disc of the radius "reach" (any p). With G(r) the integral of ρ (r₀² + ρ²)^(−p/2) from 0
+//! to r, the fraction of K within r is F(r) = G(r)/G(reach); over the plane F(r) = 1 − (1 + r²/r₀²)^(1 − p/2).
 //!
-//! Closed forms that tests check: the middle of a black disc of radius a in an endless white field (the veiling glare
-//! index of ISO 9358) has s (1 − F(a)) of the field's irradiance; a bright patch far away gives s K(d) times its area.
+//! Closed forms checked by tests: the centre of a black disc of radius a in an infinite white field (the veiling glare index of ISO 9358) has s (1 −
+//! F(a)) of the field's irradiance; a bright patch far away gives s K(d) times its area.
 //!
-//! Left out: dependence on field, on wavelength and on the direction of the light; scatter that is lost to the sensor
-//! altogether (it is part of the transmittance).
+//! Left out: dependence on field, wavelength and direction of the light; scattered light that misses the sensor (it is part of the transmittance).
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -22,28 +20,28 @@ use super::convolve::{self, OperationCounts, Uses};
 use super::error::{EffectsError, positive};
 use super::{Canvas, kernel::Kernel};
 
-/// The largest scattered share.
+/// The largest scattered fraction.
 const MAX_SCATTER: f64 = 0.5;
 const MM_PER_UM: f64 = 1e-3;
-/// Columns and rows about the middle whose taps are summed ring by ring; beyond them K is nearly even over a pixel.
+/// Columns and rows about the centre whose taps are summed ring by ring; beyond them K is nearly uniform over a pixel.
 const NEAR_PX: usize = 8;
-/// Rings of the near taps, their angles, and where they end: beyond the corner of the farthest near tap's triangle.
+/// Rings of the near taps, their angles, and their end: beyond the corner of the farthest near tap's triangle.
 const RINGS: usize = 600;
 const ANGLES: usize = 256;
 const RINGS_END_PX: f64 = 13.0;
-/// Directions of the integral of F over the lattice's rectangle.
+/// Directions of the integral of F over the lattice rectangle.
 const DIRECTIONS: usize = 4096;
 
-/// What is known of the scatter.
+/// Parameters of the scatter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GlareParameters {
-    /// Share s of the light that is scattered, 0 to 0.5.
+    /// Fraction s of the light that is scattered, 0 to 0.5.
     pub scatter: f64,
-    /// Radius r₀ within which the scattered light is even, µm.
+    /// Radius r₀ within which the scattered light is nearly uniform, µm.
     pub core_um: f64,
-    /// Exponent p of the fall with distance.
+    /// Exponent p of the decay with distance.
     pub exponent: f64,
-    /// Where it ends, mm; `None` for nowhere.
+    /// Cut-off radius, mm; `None`: unlimited.
     pub reach_mm: Option<f64>,
 }
 
@@ -54,10 +52,10 @@ pub struct Glare {
 }
 
 impl Glare {
-    /// Veiling glare.
+    /// Creates veiling glare.
     ///
     /// # Errors
-    /// Where a number is outside of its range, or the kernel's integral is infinite.
+    /// If a number is outside its range, or the kernel's integral is infinite.
     pub fn new(parameters: GlareParameters) -> Result<Self, EffectsError> {
         let GlareParameters { scatter, core_um, exponent, reach_mm } = parameters;
         if !(0.0..=MAX_SCATTER).contains(&scatter) {
@@ -73,13 +71,13 @@ impl Glare {
         Ok(Self { parameters })
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &GlareParameters {
         &self.parameters
     }
 
-    /// Share of the scattered light within `radius_mm`.
+    /// Fraction of the scattered light within `radius_mm`.
     #[must_use]
     pub fn within(&self, radius_mm: f64) -> f64 {
         match self.parameters.reach_mm {
@@ -111,14 +109,14 @@ impl Glare {
         EffectStatus::Modelled(how)
     }
 
-    /// Columns and rows that light is scattered over; `None` without end.
+    /// Columns and rows over which light is scattered; `None`: unlimited.
     pub(super) fn reach_px(&self, pitch_mm: DVec2) -> Option<[usize; 2]> {
         let px = |pitch: f64| move |reach: f64| (reach / pitch).ceil() as usize;
         let reach = self.parameters.reach_mm?;
         Some([px(pitch_mm.x)(reach), px(pitch_mm.y)(reach)])
     }
 
-    /// What it has to do on so many pictures, one kernel for all.
+    /// Operation counts for the given number of images, with one kernel for all.
     pub(super) fn operation_counts(&self, canvas: &Canvas, pictures: f64) -> OperationCounts {
         let reach = self.reach_on(canvas);
         let shared = RINGS * ANGLES + (reach[0] + 1) * (reach[1] + 1);
@@ -127,13 +125,13 @@ impl Glare {
             + convolve::operation_counts(reach, canvas.size(), &canvas.whole(), uses)
     }
 
-    /// Columns and rows that light is scattered over on a canvas.
+    /// Columns and rows over which light is scattered on a canvas.
     fn reach_on(&self, canvas: &Canvas) -> [usize; 2] {
         let far = canvas.size().map(|side| side.saturating_sub(1));
         self.reach_px(canvas.pitch_mm()).map_or(far, |[x, y]| [far[0].min(x + 1), far[1].min(y + 1)])
     }
 
-    /// The kernel (1 − s) δ + s K on a canvas: as far as any two of its pixels are apart.
+    /// The kernel (1 − s) δ + s K on a canvas: up to the largest distance between two of its pixels.
     pub(super) fn kernel(&self, canvas: &Canvas) -> Kernel {
         let pitch = canvas.pitch_mm();
         let reach = self.reach_on(canvas);
@@ -148,7 +146,7 @@ impl Glare {
         kernel
     }
 
-    /// The taps about the middle: rings of exact mass, shared among the taps.
+    /// The near taps: rings of exact mass, distributed over the taps.
     fn add_near(&self, kernel: &mut Kernel, pitch_mm: DVec2) {
         let mut near = Kernel::zeros([NEAR_PX, NEAR_PX]);
         let edge = |i: usize| {
@@ -166,7 +164,7 @@ impl Glare {
         near.taps().for_each(|(x, y, tap)| kernel.add(x, y, tap));
     }
 
-    /// The taps beyond: p² (K + p² ∇²K/12), the integral of K with the triangle to the fourth order in the pitch.
+    /// The far taps: p² (K + p² ∇²K/12), the integral of K with the triangle to fourth order in the pitch.
     fn add_far(&self, kernel: &mut Kernel, pitch_mm: DVec2) {
         let [rx, ry] = kernel.reach();
         for y in 0..=ry as isize {
@@ -192,10 +190,10 @@ impl Glare {
         self.density_per_mm2(r2.sqrt()) * (1.0 + correction) * pitch_mm.x * pitch_mm.y
     }
 
-    /// Share of the scattered light within |x| ≤ `half_mm.x`, |y| ≤ `half_mm.y`: F at the edge, averaged over directions.
+    /// Fraction of the scattered light within |x| ≤ `half_mm.x`, |y| ≤ `half_mm.y`: F at the edge, averaged over directions.
     fn within_rectangle(&self, half_mm: DVec2) -> f64 {
         let corner = atan2(half_mm.y, half_mm.x);
-        // The corner is a kink: each side of it is averaged by itself.
+        // The corner is a kink: each side is averaged separately.
         let side = |from: f64, to: f64| {
             let direction = |i: usize| from + (to - from) * (i as f64 + 0.5) / DIRECTIONS as f64;
             let edge = |angle: f64| {
@@ -224,7 +222,7 @@ impl Glare {
         if power == 0.0 { 0.5 * log } else { 0.5 * exp_m1(power * log) / power }
     }
 
-    /// K at the middle, 1/mm².
+    /// K at the centre, 1/mm².
     fn constant(&self) -> f64 {
         let r0 = self.parameters.core_um * MM_PER_UM;
         let whole = self.parameters.reach_mm.map_or_else(|| 0.5 / (self.half() - 1.0), |reach| self.gathered(reach));

@@ -1,12 +1,11 @@
-//! A convolution kernel on the lattice of pixels.
+//! A convolution kernel on the pixel lattice.
 //!
-//! Bilinear shares, for what is wide and smooth (glare, far parts of patterns); `band.rs` shares narrow spreads without widening them.
+//! Uses bilinear weights, for wide and smooth spreads (glare, far parts of patterns); `band.rs` handles narrow spreads without widening them.
 //!
-//! The film holds means over pixels. With a spread function P of the plane, the mean over a pixel after the spread is
-//! ∫ P(t) Ē(x − t) dt, Ē the irradiance's running mean over a pixel; between pixel centres, where Ē is not known, it is
-//! taken as bilinear. The tap at n is then ∫ P(t) Λ(t/p − n) dt with the triangle Λ in both directions: mass of P is shared
-//! among the four nearest taps. This keeps mass and centroid exactly, leaves a spread of no width the identity, and widens
-//! the spread by the variance of the triangle, p²/6 a direction, which is part of the pixel's own.
+//! The film holds means over pixels. With a spread function P of the plane, the mean over a pixel after the spread is ∫ P(t) Ē(x − t) dt, Ē the
+//! irradiance's running mean over a pixel; between pixel centres, where Ē is unknown, it is taken as bilinear. The tap at n is then ∫ P(t) Λ(t/p − n)
+//! dt with the triangle Λ in both directions: mass of P is distributed over the four nearest taps. This preserves mass and centroid exactly, leaves a
+//! spread of zero width the identity, and widens the spread by the variance of the triangle, p²/6 per direction, which is part of the pixel's own.
 
 use glam::DVec2;
 
@@ -23,12 +22,12 @@ impl Kernel {
         Self { reach, taps: vec![0.0; (2 * reach[0] + 1) * (2 * reach[1] + 1)] }
     }
 
-    /// Columns and rows to each side of the middle.
+    /// Columns and rows to each side of the centre.
     pub(crate) fn reach(&self) -> [usize; 2] {
         self.reach
     }
 
-    /// Taps a row.
+    /// Taps per row.
     pub(crate) fn width(&self) -> usize {
         2 * self.reach[0] + 1
     }
@@ -53,7 +52,7 @@ impl Kernel {
         (column < self.width() && row <= 2 * self.reach[1]).then(|| row * self.width() + column)
     }
 
-    /// Shares a mass at `offset_px` among the four nearest taps.
+    /// Distributes a mass at `offset_px` over the four nearest taps.
     pub(crate) fn deposit(&mut self, offset_px: DVec2, mass: f64) {
         let low = offset_px.floor();
         let share = offset_px - low;
@@ -74,7 +73,7 @@ impl Kernel {
         sums
     }
 
-    /// Scales every column, every row, by a number of its own.
+    /// Scales every column and every row by its own factor.
     pub(crate) fn scale_lines(&mut self, columns: Option<&[f64]>, rows: Option<&[f64]>) {
         let width = self.width();
         for (y, row) in self.taps.chunks_exact_mut(width).enumerate() {
@@ -99,7 +98,7 @@ impl Kernel {
         self
     }
 
-    /// The squares of the taps: what it does to variances of independent pixels.
+    /// The squares of the taps: the effect on variances of independent pixels.
     pub(crate) fn squared(&self) -> Self {
         Self { reach: self.reach, taps: self.taps.iter().map(|tap| tap * tap).collect() }
     }

@@ -2,22 +2,22 @@
 //!
 //! # Contract
 //!
-//! - Effects act on band means of the irradiance (W·m⁻²·nm⁻¹), one band after the other, in the order of the table. Each
-//!   says whether a camera needs it and why (`status`), beside what it does.
-//! - They need light from outside the picture: the film is wider by a margin on every side ([`Effects::margin_px`]), which
-//!   is cut off at the end. Nothing comes from beyond the margin, and what leaves it is lost.
-//! - All are linear with weights that are not negative. Variances go through the squared weights: errors of different pixels
-//!   are taken as independent, before every effect.
-//! - What is absent costs nothing: no margin, no spectrum.
+//! - Effects act on band means of the irradiance (W·m⁻²·nm⁻¹), one band after the other, in the order of the table. Each states whether a camera
+//!   needs it and why (`status`).
+//! - They need light from outside the image: the film is wider by a margin on every side ([`Effects::margin_px`]), which is cut off at the end. No
+//!   light comes from beyond the margin, and light that leaves it is lost.
+//! - All are linear with non-negative weights. Variances use the squared weights: errors of different pixels are taken as independent before every
+//!   effect.
+//! - An absent effect costs nothing: no margin, no spectrum.
 //!
 //! | order | effect | on |
 //! | --- | --- | --- |
 //! | 1 | [point spread](psf) | diffraction of the aperture, wavefront error; or [a picture](spread_image); or [tables over the field](spread_table) |
-//! | 2 | [veiling glare](glare) | scatters a share of the light over the plane |
+//! | 2 | [veiling glare](glare) | scatters a fraction of the light over the plane |
 //! | 3 | [ghosts](crate::ghosts) | adds light that two surfaces of the lens reflect |
 //!
-//! Ghosts are made of the film's own light, before the other effects, of all bands at once ([`crate::ghosts::layer`]), and are
-//! added behind them: they are out of focus, and what scatters of them is of second order.
+//! Ghosts are computed from the film's own light, before the other effects, for all bands at once ([`crate::ghosts::layer`]), and are added after
+//! them: they are out of focus, and their scatter is of second order.
 
 mod band;
 mod canvas;
@@ -51,14 +51,14 @@ pub use spread_table::{FieldSpread, SpreadTable, SpreadTableParameters, TabledWa
 
 pub(crate) use canvas::Canvas;
 
-/// The effects that there are.
+/// The effects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
     /// Diffraction and wavefront error.
     PointSpread,
     /// Light scattered in the lens.
     Glare,
-    /// Light that two surfaces reflect.
+    /// Light reflected by two surfaces.
     Ghosts,
 }
 

@@ -1,12 +1,14 @@
-//! A point-spread function from a table of modulation: a sum of Gaussians, none of them negative.
+//! A point-spread function from a table of modulation: a sum of non-negative Gaussians.
 //!
 //! ```text
 //! MTF(f) ≈ Σ wᵢ exp(−2π² σᵢ² f²)      wᵢ ≥ 0, Σ wᵢ = 1      σᵢ = 0 and 32 widths from 0.02/f_max to 1.5/f_min
 //! ```
 //!
-//! The weights are those of least squares under wᵢ ≥ 0 (Lawson and Hanson 1974, ch. 23); f_min is the least frequency above 0 in the table. Any modulation that falls ever more slowly in
-//! f² is such a sum; one that ends, as that of a lens without aberrations at its cut-off, is off by up to 0.04. [`SpreadImageParameters::deviation`] says by how much the samples that come of it are off.
-//! A table has no phase and no direction: the function is round, and the same over the picture.
+//! The weights are those of least squares under wᵢ ≥ 0 (Lawson and Hanson 1974, ch. 23); f_min is the smallest frequency above 0 in the table. Any
+//! modulation that falls ever more slowly in f² is such a sum. One that ends, as that of an aberration-free lens at its cut-off, is off by up to
+//! 0.04.
+//! [`SpreadImageParameters::deviation`] states the error of the resulting samples.
+//! A table has no phase and no direction: the function is round, and the same over the image.
 
 use core::f64::consts::PI;
 
@@ -14,29 +16,29 @@ use etendue_core::maths::f64::{cos, exp, ln};
 
 use super::{error::EffectsError, spread_image::SpreadImageParameters};
 
-/// Widths beside that of a point.
+/// Number of widths in addition to that of a point.
 const WIDTHS: u32 = 32;
-/// The narrowest, by the greatest frequency, and the widest, by the least.
+/// The narrowest width, relative to the largest frequency, and the widest, relative to the smallest.
 const NARROWEST: f64 = 0.02;
 const WIDEST: f64 = 1.5;
-/// How much more the sum of one counts than a point of the table.
+/// Weight of the sum of one relative to a point of the table.
 const SUM_WEIGHT: f64 = 1e3;
-/// Samples of a pixel.
+/// Samples per pixel.
 const SAMPLES_PX: f64 = 4.0;
-/// Cycles a sample up to which these are held against the table: one cycle a pixel, beyond which the pixel's own area lets less than a fifth pass.
+/// Cycles per sample up to which these are compared with the table: one cycle per pixel, beyond which the pixel's own area passes less than a fifth.
 const JUDGED: f64 = 0.25;
-/// Where a Gaussian ends, in its widths.
+/// Cut-off radius of a Gaussian, in its widths.
 const REACH: f64 = 5.0;
-/// Widths beyond this, px, are told apart from a constant loss by no picture: they are cut.
+/// Widths beyond this, px, cannot be distinguished from a constant loss: they are cut.
 const WIDEST_PX: f64 = 24.0;
-/// What is refused.
+/// Maximum accepted deviation.
 const WORST: f64 = 0.06;
 
-/// The samples of a point-spread function, the same at all wavelengths, from (frequency, cycles/mm, rising from 0 or above; modulation, 1 at 0), for pixels
-/// of `pixel_um`.
+/// The samples of a point-spread function, the same at all wavelengths, from (frequency, cycles/mm, rising from 0 or above; modulation, 1 at 0), for
+/// pixels of `pixel_um`.
 ///
 /// # Errors
-/// Where no sum of Gaussians is nearer than 0.06 to the table, up to one cycle a pixel.
+/// If no sum of Gaussians is within 0.06 of the table, up to one cycle per pixel.
 pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<SpreadImageParameters, EffectsError> {
     const UM_PER_MM: f64 = 1e3;
     let gaussians = gaussians(table, WIDEST_PX * pixel_um / UM_PER_MM);
@@ -69,7 +71,7 @@ pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<Sprea
     Ok(SpreadImageParameters { width, light, pitch_um, wavelength_nm: None, deviation })
 }
 
-/// Weights and widths, mm, of the Gaussians that together come nearest to a table.
+/// Weights and widths, mm, of the Gaussians whose sum best fits a table.
 fn gaussians(table: &[(f64, f64)], widest_mm: f64) -> Vec<(f64, f64)> {
     let above = || table.iter().map(|(f, _)| *f).filter(|f| *f > 0.0);
     let (least, greatest) = (above().fold(f64::INFINITY, f64::min), above().fold(0.0, f64::max));
@@ -88,9 +90,10 @@ fn gaussians(table: &[(f64, f64)], widest_mm: f64) -> Vec<(f64, f64)> {
     weights.iter().map(|w| w / sum).zip(sigmas).filter(|(weight, _)| *weight > 0.0).collect()
 }
 
-/// A Gaussian on samples, an odd number about its middle; their sum is one. One that is narrower than samples tell has its variance in three of them.
+/// A Gaussian on an odd number of samples about its centre; their sum is one. A Gaussian narrower than the samples resolve has its variance in three
+/// of them.
 fn profile(sigma_mm: f64, pitch_mm: f64) -> Vec<f64> {
-    /// From here on samples have the modulation of what they are taken of to 1e-4.
+    /// Width from which samples have the modulation of the sampled function to 1e-4.
     const RESOLVED: f64 = 0.7;
     let width = sigma_mm / pitch_mm;
     if width == 0.0 {
@@ -107,7 +110,7 @@ fn profile(sigma_mm: f64, pitch_mm: f64) -> Vec<f64> {
     samples.iter().map(|sample| sample / sum).collect()
 }
 
-/// The modulation of samples that are even about their middle, at a frequency in cycles a sample.
+/// The modulation of samples symmetric about their centre, at a frequency in cycles per sample.
 fn transform(samples: &[f64], frequency: f64) -> f64 {
     let middle = (samples.len() / 2) as f64;
     samples.iter().enumerate().map(|(i, sample)| sample * cos(2.0 * PI * frequency * (i as f64 - middle))).sum()
@@ -131,11 +134,11 @@ fn non_negative_least_squares(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> 
         passive.push(next);
         loop {
             let Some(free) = least_squares(columns, &passive, target) else {
-                // The new column is a sum of the others.
+                // The new column is linearly dependent on the others.
                 passive.pop();
                 return x;
             };
-            // As far towards the free solution as none turns negative.
+            // As far towards the free solution as no value turns negative.
             let limit = passive.iter().zip(&free).filter(|(_, free)| **free <= 0.0);
             let share = limit.map(|(j, free)| x[*j] / (x[*j] - free)).fold(1.0, f64::min);
             passive.iter().zip(&free).for_each(|(j, free)| x[*j] += share * (free - x[*j]));
@@ -154,7 +157,7 @@ fn non_negative_least_squares(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> 
     x
 }
 
-/// The unconstrained solution for some columns, by orthogonalisation (modified Gram and Schmidt); `None` where they depend on each other.
+/// The unconstrained solution for some columns, by orthogonalisation (modified Gram and Schmidt); `None` if they depend on each other.
 fn least_squares(columns: &[Vec<f64>], chosen: &[usize], target: &[f64]) -> Option<Vec<f64>> {
     const DEPENDENT: f64 = 1e-13;
     let count = chosen.len();
@@ -206,7 +209,7 @@ mod tests {
         // A lens without aberrations: to 0.6 of its cut-off, and to the cut-off itself.
         let arc = |x: f64| atan2((1.0 - x * x).sqrt(), x);
         let perfect = |x: f64| 2.0 / PI * (arc(x) - x * (1.0 - x * x).sqrt());
-        // Bounds: what SciPy's nnls leaves with the same widths (0.001164, 0.001719, 0.004616, 0.038201, 1.3e-7), rounded up.
+        // Bounds: the residuals of SciPy's nnls with the same widths (0.001164, 0.001719, 0.004616, 0.038201, 1.3e-7), rounded up.
         for (points, bound) in [
             (table(100.0, falling), 0.0012),
             (table(100.0, gaussian), 0.0018),
@@ -221,7 +224,7 @@ mod tests {
         }
     }
 
-    /// A lens of f/2 without aberrations on large pixels, to its cut-off at 3.6 cycles a pixel.
+    /// An aberration-free f/2 lens on large pixels, to its cut-off at 3.6 cycles per pixel.
     #[test]
     fn tables_that_reach_beyond_the_samples_are_taken() {
         let arc = |x: f64| atan2((1.0 - x * x).sqrt(), x);

@@ -1,8 +1,8 @@
-//! A function that varies over the picture: patches with a function each.
+//! A function that varies over the image: one function per patch.
 //!
-//! Each pixel takes a mean of what the functions of the nearest patches make of the film, with weights that are linear between the patches and sum to
-//! one: a uniform irradiance stays uniform. Light of a point is kept where the functions' centroids lie in the middle and the weights are straight across
-//! it. A variance is that mean of what the squared functions make, which is not too small.
+//! Each pixel is a weighted mean of the film spread by the functions of the nearest patches. The weights are linear between the patches and sum to
+//! one: a uniform irradiance stays uniform. The light of a point is preserved where the centroids of the functions are at the centre and the weights
+//! are linear across it. The variance is that mean for the squared functions, which does not underestimate it.
 
 use std::borrow::Borrow;
 
@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::convolve::{Convolver, Field, Region};
 use super::{canvas::Canvas, kernel::Kernel};
 
-/// Patches over the picture in a film, row by row.
+/// Patches over the image in a film, row by row.
 #[derive(Clone, Debug)]
 pub(super) struct Patches {
     columns: Vec<Hat>,
@@ -20,7 +20,7 @@ pub(super) struct Patches {
 }
 
 impl Patches {
-    /// So many across and down.
+    /// Creates this number of patches across and down.
     pub(super) fn new([across, down]: [usize; 2], stand: Stand, canvas: &Canvas) -> Self {
         let (region, size) = (canvas.picture(), canvas.size());
         let columns = (0..across).map(|i| Hat::new(stand, i, across, &region.x, size[0])).collect();
@@ -36,13 +36,13 @@ impl Patches {
         [&self.columns[index % self.columns.len()], &self.rows[index / self.columns.len()]]
     }
 
-    /// Where in the film the function of a patch holds, px.
+    /// Position in the film at which the function of a patch holds, px.
     pub(super) fn middle_px(&self, index: usize) -> DVec2 {
         let [x, y] = self.hats(index);
         DVec2::new(x.middle, y.middle)
     }
 
-    /// The pixels of the film that take the function of a patch.
+    /// The pixels of the film that use the function of a patch.
     pub(super) fn region(&self, index: usize) -> Region {
         let [x, y] = self.hats(index);
         Region { x: x.range(), y: y.range() }
@@ -85,16 +85,16 @@ impl Patches {
     }
 }
 
-/// Where the functions of patches stand along an axis of the picture.
+/// Positions of the patches along an axis of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stand {
-    /// In the middles of equal parts; the outermost hold to the edge.
+    /// At the centres of equal parts; the outermost hold to the edge.
     Middles,
-    /// On both edges, and evenly between; a single one in the middle.
+    /// On both edges, and uniformly between; a single one at the centre.
     Edges,
 }
 
-/// Weights of a patch along one axis: linear to its neighbours, even outside of the outermost.
+/// Weights of a patch along one axis: linear to its neighbours, constant beyond the outermost.
 #[derive(Clone, Debug)]
 pub(super) struct Hat {
     middle: f64,

@@ -1,4 +1,4 @@
-//! The point-spread functions that there are.
+//! The kinds of point-spread functions.
 
 use core::fmt;
 
@@ -12,7 +12,7 @@ use super::spread_image::{ReadyImage, SpreadImage};
 use super::spread_table::{ReadyTable, SpreadTable};
 use super::{Canvas, sample_spread::SampleSpread};
 
-/// Where it is told how narrow a function is, nm.
+/// Wavelength at which the width of a function is stated, nm.
 const GREEN_NM: f64 = 555.0;
 
 /// A point-spread function.
@@ -20,14 +20,14 @@ const GREEN_NM: f64 = 555.0;
 pub enum PointSpread {
     /// Of an aperture.
     Aperture(Psf),
-    /// From a picture.
+    /// From an image.
     Image(SpreadImage),
     /// From tables over the field.
     Table(SpreadTable),
 }
 
 impl fmt::Debug for PointSpread {
-    /// That of its member.
+    /// Delegates to the member.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Aperture(psf) => psf.fmt(f),
@@ -47,7 +47,7 @@ impl PointSpread {
         }
     }
 
-    /// Columns and rows that light is spread over.
+    /// Columns and rows over which light is spread.
     pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
         match self {
             Self::Aperture(psf) => psf.reach_px(pitch_mm),
@@ -56,7 +56,7 @@ impl PointSpread {
         }
     }
 
-    /// What it has to do on so many pictures a band.
+    /// Operation counts for the given number of images per band.
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         match self {
             Self::Aperture(psf) => psf.operation_counts(canvas, bands, pictures),
@@ -65,7 +65,7 @@ impl PointSpread {
         }
     }
 
-    /// The function made ready for a film and the wavelengths of a range.
+    /// The function prepared for a film and the wavelengths of a range.
     pub(super) fn ready(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> ReadySpread {
         match self {
             Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range, part))),
@@ -74,7 +74,7 @@ impl PointSpread {
         }
     }
 
-    /// The cores by which samples are displaced, for the wavelengths of a range; `None` where no light is in them.
+    /// The cores by which samples are displaced, for the wavelengths of a range; `None` if they hold no light.
     pub(super) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         match self {
             Self::Aperture(psf) => psf.sample_spread(canvas, range),
@@ -83,7 +83,7 @@ impl PointSpread {
         }
     }
 
-    /// How narrow it is on the pixels of a film.
+    /// Width of the function on the pixels of a film.
     pub(super) fn width(&self, canvas: &Canvas) -> SpreadWidth {
         let reach = self.reach_px(canvas.pitch_mm());
         match self {
@@ -97,12 +97,12 @@ impl PointSpread {
     }
 }
 
-/// A point-spread function of a film.
+/// A point-spread function prepared for a film.
 #[derive(Debug)]
 pub(super) enum ReadySpread {
     /// Of an aperture.
     Aperture(Box<Ready>),
-    /// From a picture.
+    /// From an image.
     Image(Box<ReadyImage>),
     /// From tables over the field.
     Table(Box<ReadyTable>),

@@ -1,27 +1,28 @@
-//! A narrow point spread without a film's lattice: each sample's place on the sensor is displaced by a draw of the spread's core.
+//! A narrow point spread without the film's lattice: each sample's position on the sensor is displaced by a random offset from the spread's core.
 //!
-//! Light at x of the sensor is ∫ P(u) E(x − u) du: a sample at x looks where the light of x − u comes from, u drawn from P. This is exact
-//! however narrow P is, where a kernel on whole pixels must choose between too little contrast and negative light (`band.rs`).
-//! The wavelengths of a path share its place: it is drawn from the density of one of them, and each is weighted by its own density over the mean of all of
-//! them (the balance heuristic, Veach 1997, eq. 9.8). The sum of the weights is the number of wavelengths, so that light over the whole spectrum gets no
-//! noise by it. Narrow bands of even light do where the spread is wider for longer wavelengths: of diffraction some 0.37 of a band's light, divided by the
-//! root of the samples of a pixel. Where the spread is the same for all wavelengths, the weights are 1.
+//! The light at x of the sensor is ∫ P(u) E(x − u) du: a sample at x looks along the ray of x − u, u sampled from P. This is exact for any width of
+//! P, whereas a kernel on whole pixels must choose between too little contrast and negative light (`band.rs`). The wavelengths of a path share its
+//! position. It is sampled from the density of one of them, and each is weighted by its own density over the mean of all of them (the balance
+//! heuristic, Veach 1997, eq. 9.8). The weights sum to the number of wavelengths, so light over the whole spectrum has no added noise. Narrow bands
+//! of uniform illumination have some if the spread is wider for longer wavelengths: for diffraction about 0.37 of a band's light, divided by the root
+//! of the samples per pixel. If the spread is the same for all wavelengths, the weights are 1.
 //!
-//! Light near a lamp is drawn, so that only a core of 2.5 px is: the rest, smooth and faint, is the film's ([`FilmPart::Tails`](super::FilmPart)).
+//! Sampling adds noise to the light near a bright source, so only a core of 2.5 px is sampled: the rest, smooth and faint, is applied by the film
+//! ([`FilmPart::Tails`](super::FilmPart)).
 //!
-//! Where the function varies over the picture, a pixel takes one patch's at random, by the weights that the film's pixels take them with.
+//! If the function varies over the image, a pixel selects a patch at random, with the weights that the film's pixels use.
 
 use etendue_core::random::Pixel;
 use glam::DVec2;
 
 use super::{core_table::CoreTable, patches::Hat};
 
-/// Random numbers of a draw, in [0, 1).
+/// Random numbers of a displacement, in [0, 1).
 #[derive(Clone, Copy, Debug)]
 pub struct SpreadDraw {
-    /// Which wavelength, and which patch.
+    /// Selects the wavelength and the patch.
     pub choice: f64,
-    /// Where.
+    /// Selects the position.
     pub place: DVec2,
 }
 
@@ -30,20 +31,20 @@ pub struct SpreadDraw {
 pub struct SampleSpread {
     low_nm: f64,
     step_nm: f64,
-    /// Columns of patches; one, without weights, where the function is the same everywhere.
+    /// Columns of patches; one, without weights, if the function is uniform.
     columns: Vec<Hat>,
     rows: Vec<Hat>,
-    /// Of each patch, row by row, the tables by wavelength.
+    /// Tables of each patch, row by row, by wavelength.
     tables: Vec<Vec<CoreTable>>,
 }
 
 impl SampleSpread {
-    /// Of patches' tables, row by row, which each have wavelengths in equal steps of `step_nm` from `low_nm` on.
+    /// Creates the cores from the patches' tables, row by row; the wavelengths of each are in equal steps of `step_nm` from `low_nm` on.
     pub(super) fn new([columns, rows]: [Vec<Hat>; 2], low_nm: f64, step_nm: f64, tables: Vec<Vec<CoreTable>>) -> Self {
         Self { low_nm, step_nm, columns, rows, tables }
     }
 
-    /// How far from a pixel (of the film) its sample's light would fall, px; and the weights of the path's wavelengths.
+    /// The offset of the sample's light from a pixel (of the film), px; and the weights of the path's wavelengths.
     #[must_use]
     pub fn draw<const N: usize>(&self, pixel: Pixel, wavelengths_nm: &[f32; N], draw: SpreadDraw) -> (DVec2, [f32; N]) {
         let choice = draw.choice * N as f64;
@@ -73,7 +74,7 @@ impl SampleSpread {
     }
 }
 
-/// One of the patches of a pixel's column or row, by its weight there, and what is left of `u`.
+/// Selects one of the patches of a pixel's column or row by its weight there; returns the rescaled `u`.
 fn choose(hats: &[Hat], at: usize, u: f64) -> (usize, f64) {
     let mut left = u;
     let mut last = (0, 0.0);

@@ -1,15 +1,14 @@
-//! A point-spread function from a picture: measured, or made by another program.
+//! A point-spread function from an image: measured, or computed by another program.
 //!
-//! The picture is what becomes of a point's light, its first row above, its first column on the left; the numbers are linear
-//! and are divided by their sum. Each sample holds its light in its middle: sample (i, j) of w × h lies at
-//! (i + ½ − w/2, j + ½ − h/2) times the pitch from the point, so the point is in the middle of the picture, whether it has an
-//! even or an odd number of samples. Light is shared among the pixels so that the modulation is kept (`band.rs`); one sample
+//! The image is the response to a point's light, first row at the top, first column on the left; the values are linear and are divided by their sum.
+//! The light of a sample counts at its centre: sample (i, j) of w × h is at (i + ½ − w/2, j + ½ − h/2) times the pitch from the point, so the point
+//! is at the centre of the image for even and odd sizes. Light is distributed over the pixels so that the modulation is kept (`band.rs`); one sample
 //! is the identity.
 //!
-//! With a wavelength λ₀ the picture is as much larger as λ is longer, as diffraction is: the pitch is that times λ/λ₀, averaged
-//! over a band in steps of 10 nm at most. Without, it is the same at all wavelengths.
+//! With a wavelength λ₀ the image scales with the wavelength, as diffraction does: the pitch is multiplied by λ/λ₀, averaged over a band in steps of
+//! at most 10 nm. Without, it is the same at all wavelengths.
 //!
-//! Left out: a function that varies over the picture.
+//! Left out: a function that varies over the image.
 
 use core::fmt;
 
@@ -23,26 +22,26 @@ use super::film_part::{FilmPart, KernelBuilder, mid_wavelengths};
 use super::psf::{MAX_PX, MM_PER_UM, VISIBLE};
 use super::{Canvas, canvas::Spread, core_table::CoreBuilder, kernel::Kernel, sample_spread::SampleSpread};
 
-/// The farthest that samples lie apart, px; the rest is rounding.
+/// The largest distance between samples, px; the rest is rounding.
 const WIDEST_STEP_PX: f64 = 1.0 + 1e-9;
 
-/// A picture of a point's light.
+/// Parameters of an image of a point's light.
 #[derive(Clone, PartialEq)]
 pub struct SpreadImageParameters {
     /// Samples in a row.
     pub width: usize,
     /// Light of the samples, row by row, linear, in any unit.
     pub light: Vec<f32>,
-    /// Distance of samples on the sensor, µm.
+    /// Pitch of the samples on the sensor, µm.
     pub pitch_um: f64,
-    /// Where that is the distance, nm; elsewhere it is in proportion to the wavelength. `None` for the same everywhere.
+    /// Wavelength of the pitch, nm; at others the pitch is in proportion to the wavelength. `None`: the same pitch at all wavelengths.
     pub wavelength_nm: Option<f64>,
-    /// Of samples that were made from a table of modulation: by how much theirs is off at worst. `None` for a picture.
+    /// For samples fitted to a table of modulation: the maximum error of their modulation. `None` for an image.
     pub deviation: Option<f64>,
 }
 
 impl fmt::Debug for SpreadImageParameters {
-    /// Without the samples, which are those of a file.
+    /// Omits the samples, which come from a file.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -63,17 +62,17 @@ impl SpreadImageParameters {
     }
 }
 
-/// A point-spread function from a picture.
+/// A point-spread function from an image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpreadImage {
     parameters: SpreadImageParameters,
 }
 
 impl SpreadImage {
-    /// The function on the pixels of a picture.
+    /// The function on the pixels of an image.
     ///
     /// # Errors
-    /// Where the samples are no light, or are too far apart, or the function is too wide.
+    /// If the samples are not valid light, or are too far apart, or the function is too wide.
     pub fn new(parameters: SpreadImageParameters, picture: &Raster) -> Result<Self, EffectsError> {
         positive("image_pitch_um", parameters.pitch_um)?;
         parameters.wavelength_nm.map_or(Ok(0.0), |nm| positive("image_wavelength_nm", nm))?;
@@ -83,7 +82,7 @@ impl SpreadImage {
         Ok(image)
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &SpreadImageParameters {
         &self.parameters
@@ -116,7 +115,7 @@ impl SpreadImage {
         EffectStatus::Modelled(p.deviation.map_or_else(picture, off))
     }
 
-    /// Columns and rows that light is spread over.
+    /// Columns and rows over which light is spread.
     pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
         self.reach_px_at(VISIBLE.high_nm, pitch_mm)
     }
@@ -126,19 +125,19 @@ impl SpreadImage {
         [reach.x.ceil() as usize, reach.y.ceil() as usize]
     }
 
-    /// Distance of samples.
+    /// Pitch of the samples.
     fn step_mm(&self, nm: f64) -> f64 {
         self.parameters.pitch_um * MM_PER_UM * self.parameters.wavelength_nm.map_or(1.0, |at| nm / at)
     }
 
-    /// Where a sample lies from the point.
+    /// Offset of a sample from the point.
     fn offset_mm(&self, index: usize, nm: f64) -> DVec2 {
         let (width, height) = (self.parameters.width, self.parameters.height());
         let middle = DVec2::new((index % width) as f64, (index / width) as f64) + 0.5;
         (middle - 0.5 * DVec2::new(width as f64, height as f64)) * self.step_mm(nm)
     }
 
-    /// Adds where light of a wavelength lands, px, and how much.
+    /// Deposits the light of a wavelength: positions, px, and fractions.
     pub(super) fn deposit(&self, pitch_mm: DVec2, nm: f64, mut to: impl FnMut(DVec2, f64)) {
         for (index, light) in self.parameters.light.iter().enumerate().filter(|(_, light)| **light > 0.0) {
             to(self.offset_mm(index, nm) / pitch_mm, f64::from(*light));
@@ -169,7 +168,7 @@ impl SpreadImage {
         Some(SampleSpread::new([Vec::new(), Vec::new()], range.low_nm, step_nm, vec![tables]))
     }
 
-    /// What it has to do on so many pictures a band.
+    /// Operation counts for the given number of images per band.
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let count = bands.count() as f64;
         let of_band = WavelengthRange::new(bands.low_nm(), bands.low_nm() + bands.width_nm());
@@ -184,7 +183,7 @@ impl SpreadImage {
             + convolve::operation_counts(reach, canvas.size(), &canvas.whole(), uses)
     }
 
-    /// The function made ready for a film.
+    /// The function prepared for a film.
     pub(super) fn ready(&self, canvas: &Canvas, part: FilmPart) -> ReadyImage {
         let shared = self.parameters.wavelength_nm.is_none();
         let shared = shared.then(|| Spread::new(&self.kernel(VISIBLE, canvas.pitch_mm(), part), canvas));
@@ -209,7 +208,7 @@ pub(super) struct ReadyImage {
     image: SpreadImage,
     canvas: Canvas,
     part: FilmPart,
-    /// Where it is the same at all wavelengths.
+    /// Set if the function is the same at all wavelengths.
     shared: Option<Spread>,
 }
 

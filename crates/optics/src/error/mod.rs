@@ -1,4 +1,4 @@
-//! Why a lens cannot be, or cannot serve a picture.
+//! Errors of a lens, alone or for an image.
 
 pub(crate) mod front;
 mod prescription;
@@ -10,7 +10,7 @@ use crate::ray_transfer::RayTransferError;
 pub use front::FrontError;
 pub use prescription::PrescriptionError;
 
-/// A lens or a stored radiance image that cannot do what is asked of it.
+/// An error of a lens or of a stored radiance image.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OpticsError {
     /// A length or number that must be positive.
@@ -21,7 +21,7 @@ pub enum OpticsError {
         /// Its value.
         value: f64,
     },
-    /// Faster than any lens can be.
+    /// An f-number below the limit for a lens in air.
     #[error(
         "f_number is {value}; no lens in air is faster than f/0.5, where the light on the axis comes from the whole half space: \
          give 0.5 or more"
@@ -30,19 +30,19 @@ pub enum OpticsError {
         /// Its value.
         value: f64,
     },
-    /// A picture nearly all of which looks along the edge of the field.
+    /// An image mostly at the edge of the field.
     #[error(
         "the picture reaches {radius_mm:.6} mm from the principal point, {:.3e} focal lengths of {focal_length_mm:e} mm: nearly all of \
          it would look sideways and be black; give a longer focal length (a narrower field)",
         radius_mm / focal_length_mm
     )]
     TooWide {
-        /// How far the picture reaches, mm.
+        /// Distance from the axis to the image's farthest point, mm.
         radius_mm: f64,
         /// Principal distance, mm.
         focal_length_mm: f64,
     },
-    /// A distortion that is no lens's.
+    /// A distortion beyond that of any real lens.
     #[error(
         "the distortion moves a point at {radius_mm:.6} mm from the principal point to {:.3e} times that distance or nowhere; no lens \
          does: check the coefficients and the unit of their radius",
@@ -62,7 +62,7 @@ pub enum OpticsError {
         /// Its value.
         value: f64,
     },
-    /// A transmittance that is none.
+    /// A transmittance outside its range.
     #[error("transmittance is {value}; it must be above 0 and at most 1")]
     Transmittance {
         /// Its value.
@@ -78,7 +78,7 @@ pub enum OpticsError {
         /// The distance whose image lies at infinity, m.
         least_m: f64,
     },
-    /// Two statements about the pupils that cannot both be true.
+    /// Two contradictory statements about the pupils.
     #[error(
         "{first} = {first_value} means {second} = {expected}, because both pupils are images of one stop; {second} = \
          {second_value} contradicts it: give one of them"
@@ -105,72 +105,72 @@ pub enum OpticsError {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// The pupil magnification it means.
+        /// The resulting pupil magnification.
         magnification: f64,
     },
-    /// A rim that clips the bundle on the axis, so that it and not the f-number would be the stop.
+    /// An aperture that clips the bundle on the axis and so acts as the stop in place of the f-number.
     #[error(
         "{rim} has a radius of {radius_mm} mm but the f-number's bundle on the axis needs {needed_mm:.6} mm there: the rim \
          would be the stop; enlarge it or raise f_number"
     )]
     RimIsStop {
-        /// Which rim.
+        /// Name of the aperture.
         rim: &'static str,
         /// Its radius, mm.
         radius_mm: f64,
         /// The radius of the bundle on the axis, mm.
         needed_mm: f64,
     },
-    /// A rim that is not between the plane in focus and the sensor.
+    /// An aperture that is not between the plane in focus and the sensor.
     #[error("{rim} at {position_mm} mm lies beyond the {plane}, which is at {plane_mm:.6} mm")]
     RimMisplaced {
-        /// Which rim.
+        /// Name of the aperture.
         rim: &'static str,
         /// Its position on the axis, mm.
         position_mm: f64,
-        /// What it lies beyond.
+        /// The plane that it lies beyond.
         plane: &'static str,
         /// That plane's position on the axis, mm.
         plane_mm: f64,
     },
-    /// A prescription that is no lens.
+    /// An invalid prescription.
     #[error(transparent)]
     Prescription(#[from] PrescriptionError),
-    /// Ray-transfer functions that are no lens.
+    /// Invalid ray-transfer functions.
     #[error(transparent)]
     RayTransfer(#[from] RayTransferError),
-    /// A filter without layers.
+    /// A filter with an invalid effective index.
     #[error("effective_index is {value}; an interference filter's is above 1 (1.5 to 2.2)")]
     FilterIndex {
         /// Its value.
         value: f64,
     },
-    /// A filter that gains light or has less than none.
+    /// A filter transmittance outside 0 to 1.
     #[error("the filter's transmittance is {value} at some wavelength; it must stay within 0 and 1")]
     FilterTransmittance {
         /// Its value.
         value: f64,
     },
-    /// A distortion of a lens that has its own.
+    /// A distortion for a lens that has its own.
     #[error(
         "prescriptions, ray-transfer functions, calibrated and telecentric cameras have their own distortion: leave out the lens's"
     )]
     OwnDistortion,
-    /// A lateral colour of a lens that cannot have it.
+    /// A lateral colour for a lens that does not accept one.
     #[error(
         "a {kind} takes no \"lateral_colour\": a prescription's glasses make their own, a telecentric camera has none; remove it"
     )]
     OwnColour {
-        /// What the lens is.
+        /// Kind of the lens.
         kind: &'static str,
     },
-    /// A lateral colour that is none.
+    /// An invalid lateral colour.
     #[error("a lateral colour is a list of two or more rising wavelengths (nm) and of magnifications above 0")]
     LateralColour,
-    /// A calibration that cannot serve.
+    /// An invalid calibration.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
-    /// A calibration of another picture.
+    /// A calibration for another image size.
     #[error(
         "the sensor has {got_width} × {got_height} pixels but the calibration is of {width} × {height}: give the sensor the calibration's size, or a calibration of this picture"
     )]
@@ -184,7 +184,7 @@ pub enum OpticsError {
         /// The calibration's height.
         height: usize,
     },
-    /// A calibration that sees nothing at its own principal point.
+    /// A calibration without a direction at its own principal point.
     #[error("the calibration sees nothing at its principal point ({x}, {y}) px, where the focal length is taken")]
     BlindCentre {
         /// cx, px.
@@ -192,77 +192,77 @@ pub enum OpticsError {
         /// cy, px.
         y: f64,
     },
-    /// A relative illumination that is none.
+    /// An invalid relative illumination.
     #[error(
         "a relative illumination is a list of rising radii or angles from 0 and of ratios of at least 0 that begin with 1"
     )]
     Falloff,
-    /// A relative illumination that ends inside the picture.
+    /// A relative illumination that ends inside the image.
     #[error("the relative illumination is known to {end}{unit}, but the picture reaches {needed:.4}{unit}: extend it")]
     FalloffEnds {
-        /// Where it ends.
+        /// End of the table.
         end: f64,
-        /// How far the picture reaches.
+        /// Extent of the image.
         needed: f64,
-        /// The unit of both, and from where they count.
+        /// Unit of both, and their origin.
         unit: &'static str,
     },
-    /// A sensor that mirrors more than all light, or less than none.
+    /// A sensor reflectance outside 0 to 1.
     #[error("the sensor's reflectance is {value}; it must be at least 0 and below 1")]
     SensorReflectance {
         /// Its value.
         value: f64,
     },
-    /// What stands in front of the lens cannot be.
+    /// Invalid optics in front of the lens.
     #[error(transparent)]
     Front(#[from] FrontError),
-    /// What stands in front of the lens cannot be put on stored radiance.
+    /// Front optics that cannot be applied to stored radiance.
     #[error(
         "the route at the pupil cannot serve a camera with a {what} in front of its lens: render it with route = \"lens\""
     )]
     FrontNeedsLens {
-        /// What it is.
+        /// Kind of the front optics.
         what: &'static str,
     },
-    /// A lens that the route at the pupil cannot serve.
+    /// A lens unsuitable for the at-the-pupil route.
     #[error(
         "the route at the pupil needs one viewpoint that is known; that of a {kind} is not: render it with route = \"lens\""
     )]
     NoPupilRoute {
-        /// What the lens is.
+        /// Kind of the lens.
         kind: &'static str,
     },
-    /// The distortion cannot serve the picture.
+    /// A distortion that does not cover the image.
     #[error(transparent)]
     Distortion(#[from] DistortionError),
-    /// A stored radiance image does not hold all directions that a picture needs.
+    /// A stored radiance image without all directions that an image needs.
     #[error(
         "the stored radiance image lacks directions that the picture needs: {:.4}° beyond its {edge} edge; \
          render it with more overscan or use a narrower lens or a smaller sensor",
         missing_rad.to_degrees()
     )]
     MissingDirections {
-        /// The edge at which the most is missing.
+        /// The edge with the largest gap.
         edge: &'static str,
-        /// How far beyond the edge the picture reaches, rad.
+        /// Angle by which the image reaches beyond the edge, rad.
         missing_rad: f64,
     },
-    /// Distances of a blend that are not in order.
+    /// Distances of a blend in the wrong order.
     #[error(
         "wholly blurred to {blurred_near_m} m, sharp from {sharp_near_m} m to {sharp_far_m} m, wholly blurred from \
          {blurred_far_m} m on: these distances must rise"
     )]
     SharpRange {
-        /// Blurred wholly from here to the camera, m.
+        /// Fully blurred from here to the camera, m.
         blurred_near_m: f64,
         /// Sharp from here, m.
         sharp_near_m: f64,
         /// Sharp to here, m.
         sharp_far_m: f64,
-        /// Blurred wholly from here on, m.
+        /// Fully blurred from here on, m.
         blurred_far_m: f64,
     },
-    /// Radiance that is no number.
+    /// Radiance that is not a finite number.
     #[error("the radiance at column {x}, row {y} is no finite number: depth of field would spread it; render it anew")]
     RadianceNotFinite {
         /// Column.
@@ -270,19 +270,19 @@ pub enum OpticsError {
         /// Row.
         y: usize,
     },
-    /// A stored radiance image lacks a whole view that a picture needs.
+    /// A stored radiance image lacks a whole view that an image needs.
     #[error(
         "the stored radiance image lacks its {view} view, at which the picture looks; render it with the lens that looks \
          there, or use a narrower one"
     )]
     MissingView {
-        /// Which view.
+        /// Name of the view.
         view: &'static str,
     },
     /// A stored radiance image without views, or with empty ones.
     #[error("a stored radiance image needs at least one view, and pixels in each")]
     NoViews,
-    /// A picture none of whose pixels has a ray.
+    /// An image without a single ray.
     #[error("no pixel of the picture has a ray: the lens sees nothing there")]
     SeesNothing,
     /// A cube whose size is not that of its stated geometry.

@@ -1,19 +1,18 @@
-//! Why a prescription is no lens.
+//! Errors of a prescription.
 
-/// A prescription that cannot be, or cannot be focused as asked. Surfaces are counted from 1 at the scene, as lens files
-/// do.
+/// A prescription that is invalid, or cannot be focused as requested. Surfaces are counted from 1 at the scene, as in lens files.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PrescriptionError {
-    /// Nothing to trace.
+    /// A prescription without surfaces.
     #[error("the prescription has no surface; give at least one refracting surface and a stop")]
     Empty,
-    /// Not exactly one stop.
+    /// A number of stops other than one.
     #[error("{found} surfaces are the stop; exactly one must be: set `stop = true` at one of them")]
     Stops {
-        /// How many there are.
+        /// Number of stops.
         found: usize,
     },
-    /// A number that a surface cannot have.
+    /// An invalid number of a surface.
     #[error("surface {surface}: {name} is {value}; {expected}")]
     Number {
         /// The surface.
@@ -22,10 +21,10 @@ pub enum PrescriptionError {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it should be.
+        /// The legal range.
         expected: &'static str,
     },
-    /// An aperture larger than the surface.
+    /// A clear aperture larger than the surface.
     #[error(
         "surface {surface}: semi_aperture_mm is {semi_aperture_mm} but the surface ends at its equator before that; make it smaller than the radius of curvature"
     )]
@@ -46,10 +45,10 @@ pub enum PrescriptionError {
         second: usize,
         /// Distance from the axis, mm.
         height_mm: f64,
-        /// How far the second lies before the first, mm.
+        /// Distance of the second surface before the first, mm.
         overlap_mm: f64,
     },
-    /// A wavelength that is not modelled.
+    /// A wavelength outside the modelled range.
     #[error("a reference wavelength of {nm} nm: it must be from 300 to 1100 nm")]
     Wavelength {
         /// The wavelength, nm.
@@ -58,17 +57,17 @@ pub enum PrescriptionError {
     /// More glasses than the tracer's table holds.
     #[error("the prescription has {found} different media; at most {most} are possible")]
     Media {
-        /// How many there are.
+        /// Number of glasses.
         found: usize,
         /// The limit.
         most: usize,
     },
-    /// The sensor is not in air.
+    /// A sensor that is not in air.
     #[error(
         "behind the last surface is glass; the sensor stands in air: add the last surface of the glass (a plane for a cover glass)"
     )]
     LastMedium,
-    /// No real image.
+    /// A lens without a real image.
     #[error(
         "the prescription has a focal length of {focal_length_mm} mm: only a positive one images a scene onto a sensor"
     )]
@@ -76,7 +75,7 @@ pub enum PrescriptionError {
         /// Focal length at the reference wavelength, mm.
         focal_length_mm: f64,
     },
-    /// The sensor would be inside the lens.
+    /// A sensor inside the lens.
     #[error(
         "the paraxial image lies {distance_mm:.6} mm behind the last surface; it must be behind it (a positive distance) for a sensor to stand there"
     )]
@@ -89,7 +88,7 @@ pub enum PrescriptionError {
         "the entrance pupil lies at infinity (the stop is in the front group's focal plane): an object-side telecentric lens is not modelled"
     )]
     Telecentric,
-    /// Rays of the axial bundle that are totally reflected.
+    /// Total reflection in the axial bundle.
     #[error(
         "surface {surface} totally reflects rays of the axial bundle (which cross the stop about {height_mm:.4} mm from its centre): check the radii and glasses, or stop down"
     )]
@@ -99,7 +98,7 @@ pub enum PrescriptionError {
         /// Height at the stop, mm.
         height_mm: f64,
     },
-    /// Another surface limits the axial bundle.
+    /// A surface other than the stop that limits the axial bundle.
     #[error(
         "surface {surface} clips the axial bundle (rays that cross the stop about {height_mm:.4} mm from its centre; it opens to {stop_mm} mm): it would be the stop; enlarge its aperture or stop down"
     )]
@@ -111,21 +110,21 @@ pub enum PrescriptionError {
         /// The stop's semi-aperture, mm.
         stop_mm: f64,
     },
-    /// An f-number that the stop cannot open to.
+    /// An f-number beyond the opening of the stop.
     #[error(
         "f_number {f_number} needs a stop of {needed_mm:.4} mm semi-aperture, but it opens to {open_mm} mm (f/{least:.3})"
     )]
     TooFast {
-        /// The f-number asked for.
+        /// The requested f-number.
         f_number: f64,
         /// The semi-aperture it needs, mm.
         needed_mm: f64,
-        /// What the prescription gives, mm.
+        /// The available semi-aperture, mm.
         open_mm: f64,
         /// The f-number fully open.
         least: f64,
     },
-    /// A cone of light that no point of the object sends.
+    /// A cone of light that no point of the object emits.
     #[error(
         "the aperture asks for a cone of sine {sine:.4} from an object {distance_m} m in front of the entrance pupil; it must be below 1, and the object in front of the pupil"
     )]
@@ -135,13 +134,13 @@ pub enum PrescriptionError {
         /// Distance of the object from the entrance pupil, m.
         distance_m: f64,
     },
-    /// A focus distance that is none.
+    /// An invalid focus distance.
     #[error("a focus distance of {focus_m} m: it must be positive; infinity is legal")]
     FocusDistance {
         /// The distance, m.
         focus_m: f64,
     },
-    /// A group that is none.
+    /// An invalid focusing group.
     #[error(
         "the focusing group {first} to {last}: it must be a range of the {count} surfaces that does not hold all the lens's power in a place it cannot leave; count from 1"
     )]
@@ -150,10 +149,10 @@ pub enum PrescriptionError {
         first: usize,
         /// Its last surface.
         last: usize,
-        /// How many surfaces there are.
+        /// Number of surfaces.
         count: usize,
     },
-    /// A group without room.
+    /// A focusing group without enough travel.
     #[error(
         "moving surfaces {first} to {last} within the room they have ({low_mm:.4} to {high_mm:.4} mm) does not bring {focus_m} m into focus"
     )]
@@ -162,14 +161,14 @@ pub enum PrescriptionError {
         first: usize,
         /// Its last surface.
         last: usize,
-        /// How far it may move towards the scene (negative), mm.
+        /// Maximum travel towards the scene (negative), mm.
         low_mm: f64,
-        /// How far it may move towards the sensor, mm.
+        /// Maximum travel towards the sensor, mm.
         high_mm: f64,
         /// The focus distance, m.
         focus_m: f64,
     },
-    /// A sensor that sees nothing.
+    /// A sensor without light.
     #[error("no ray from the middle of the sensor comes through the lens at {nm} nm")]
     Dark {
         /// The wavelength, nm.
@@ -178,7 +177,7 @@ pub enum PrescriptionError {
 }
 
 impl PrescriptionError {
-    /// The surface (from 1) that is at fault, where it is one.
+    /// The surface (from 1) concerned, if any.
     #[must_use]
     pub fn surface(&self) -> Option<usize> {
         match *self {

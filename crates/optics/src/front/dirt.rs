@@ -1,10 +1,10 @@
-//! Dirt and scratches on the front glass: a picture of transmittances on a plane before the lens.
+//! Dirt and scratches on the front glass: an image of transmittances on a plane before the lens.
 //!
-//! Each ray is weighted by the mask where it crosses it, so that it appears as far out of focus as it is. On stored radiance the
-//! mask becomes an operator: each pixel is multiplied by the mask's mean over its footprint, the bundle of rays that reaches
-//! the pixel ([`Dirt::shade`]); what it leaves out is that a pixel's blurred scene can differ over the pupil.
+//! Each ray is weighted by the mask at its crossing, so the dirt has its true defocus. On stored radiance the mask becomes an operator: each pixel is
+//! multiplied by the mask's mean over its footprint, the bundle of rays that reaches the pixel ([`Dirt::shade`]). This ignores the variation of a
+//! pixel's blurred scene over the pupil.
 //!
-//! Left out: light that the dirt scatters into the picture (a matter of glare), its thickness, its colour.
+//! Left out: light that the dirt scatters into the image (see glare), its thickness, its colour.
 
 use core::fmt;
 
@@ -14,9 +14,8 @@ use super::{Line, Placement, line};
 use crate::error::front::{FrontError, positive};
 use crate::{lens::Lens, overlap::PRINCIPAL_NM};
 
-/// Pupil samples by which a footprint is averaged: a rank-1 sequence whose steps are powers of the inverse of 1.3247…, the root
-/// of x³ = x + 1, so that no edge runs along its rows (M. Roberts, "The unreasonable effectiveness of quasirandom
-/// sequences", 2018).
+/// Pupil samples for the mean over a footprint: a rank-1 sequence whose steps are powers of the inverse of 1.3247…, the root of x³ = x + 1, so that
+/// no edge runs along its rows (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 const SAMPLES: u32 = 1024;
 const STEP: DVec2 = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_3);
 
@@ -29,17 +28,17 @@ pub struct Mask {
 }
 
 impl fmt::Debug for Mask {
-    /// Its size: the texels are those of the file.
+    /// Prints the size only: the texels are those of the file.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Mask({} × {})", self.width, self.height)
     }
 }
 
 impl Mask {
-    /// A mask.
+    /// Creates a mask.
     ///
     /// # Errors
-    /// Where its texels are not as many as its size says, there are none, or one is no share.
+    /// If the number of texels does not match the size, there are none, or one is outside 0 to 1.
     pub fn new(width: usize, height: usize, transmittance: Vec<f32>) -> Result<Self, FrontError> {
         if width == 0 || height == 0 || transmittance.len() != width * height {
             return Err(FrontError::MaskSize { width, height, texels: transmittance.len() });
@@ -50,7 +49,7 @@ impl Mask {
         Ok(Self { width, height, transmittance })
     }
 
-    /// Between the middles of texels linear; `at` from 0 to 1 over the picture, from its top left.
+    /// Linear interpolation between texel centres; `at` from 0 to 1 over the image, from its top left.
     fn at(&self, at: DVec2) -> f64 {
         let size = DVec2::new(self.width as f64, self.height as f64);
         let texel = (at * size - 0.5).clamp(DVec2::ZERO, size - 1.0);
@@ -63,10 +62,10 @@ impl Mask {
     }
 }
 
-/// What dirt is made of.
+/// Parameters of dirt.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirtParameters {
-    /// Where it lies: the middle of the mask at the origin, in the plane z = 0, x to the right, y down.
+    /// Placement: the centre of the mask is at the origin, in the plane z = 0, x to the right, y down.
     pub placement: Placement,
     /// Width and height of the mask, mm. Beyond it the glass is clean.
     pub size_mm: DVec2,
@@ -81,28 +80,28 @@ pub struct Dirt {
 }
 
 impl Dirt {
-    /// Dirt.
+    /// Creates dirt.
     ///
     /// # Errors
-    /// Where its size is none.
+    /// If the size is invalid.
     pub fn new(parameters: DirtParameters) -> Result<Self, FrontError> {
         positive("size_mm", parameters.size_mm.min_element())?;
         positive("size_mm", parameters.size_mm.max_element())?;
         Ok(Self { parameters })
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &DirtParameters {
         &self.parameters
     }
 
-    /// Whether a ray starts on the camera's side of the dirt.
+    /// True if a ray starts on the camera's side of the dirt.
     pub(super) fn is_after(&self, start: Line) -> bool {
         self.parameters.placement.inward(start).point_mm.z < 0.0
     }
 
-    /// The share of a ray's light that passes.
+    /// The transmitted fraction of a ray's light.
     pub(super) fn share(&self, ray: Line) -> f64 {
         let Line { point_mm, direction } = self.parameters.placement.inward(ray);
         let way = -point_mm.z / direction.z;
@@ -115,7 +114,7 @@ impl Dirt {
         if inside { self.parameters.mask.at(at) } else { 1.0 }
     }
 
-    /// Mean share over the footprint of a sensor point (mm), at 587.56 nm; 1 where no light comes.
+    /// Mean transmittance over the footprint of a sensor point (mm), at 587.56 nm; 1 if no light arrives.
     #[must_use]
     pub fn shade(&self, lens: &Lens, sensor_mm: DVec2) -> f64 {
         let (mut passed, mut all) = (0.0, 0.0);

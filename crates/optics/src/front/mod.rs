@@ -1,15 +1,15 @@
-//! What stands in front of the lens and is attached to the camera: dirt, and a wind-screen or a mirror.
+//! Optics attached to the camera in front of the lens: dirt, and a windscreen or a mirror.
 //!
 //! # Contract
 //!
-//! - A lens makes a ray; the front carries it outwards, against the light, all in f64 and in the camera frame
-//!   (x right, y down, z forward, origin at the centre of the entrance pupil). What leaves is a [`FrontRay`].
-//! - Radiance in air is carried along rays without change, so a member changes only a ray's line and, by its losses, its
-//!   weight: the mean over pupil samples of weight × radiance stays the irradiance of the sensor point.
-//! - A ray that a member does not meet passes it by, unchanged.
-//! - Where a member has to choose ([`Windscreen`]: light that came straight or by two reflections), it uses up a part of
-//!   the pupil sample and stretches the rest to the whole square; weights are divided by the probability of the choice.
-//! - Members stand in the order dirt, then wind-screen (with drops on its outer face) or mirror. Both of the latter together are not modelled.
+//! - A lens generates a ray. The front propagates it outwards, against the light, all in f64 and in the camera frame (x right, y down, z forward,
+//!   origin at the centre of the entrance pupil). The result is a [`FrontRay`].
+//! - Radiance in air is constant along rays. A member therefore changes only a ray's line and, by its losses, its weight: the mean over pupil samples
+//!   of weight × radiance stays the irradiance of the sensor point.
+//! - A ray that misses a member is unchanged.
+//! - A member that must choose ([`Windscreen`]: direct light or light after two reflections) uses part of the pupil sample and rescales the rest to
+//!   the whole square; weights are divided by the probability of the choice.
+//! - The order of members is dirt, then windscreen (with drops on its outer face) or mirror. A windscreen together with a mirror is not modelled.
 
 mod dirt;
 mod drops;
@@ -34,24 +34,24 @@ pub use windscreen::{Layer, Tint, Windscreen, WindscreenParameters};
 
 pub(crate) use placement::{Fate, Line};
 
-/// What stands in front of a lens.
+/// Optics in front of a lens.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Front {
     dirt: Option<Dirt>,
     optic: Option<Optic>,
 }
 
-/// What bends rays: the closed list.
+/// The ray-bending members: the closed list.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Optic {
-    /// Glass that the camera looks through.
+    /// Glass in the view of the camera.
     Windscreen(Box<Windscreen>),
-    /// A mirror that the camera looks at.
+    /// A mirror in the view of the camera.
     Mirror(Box<Mirror>),
 }
 
 impl Optic {
-    /// What it is, in words.
+    /// Name in words.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -62,25 +62,25 @@ impl Optic {
 }
 
 impl Front {
-    /// What stands in front of a lens; `None` where nothing does.
+    /// Combines the members in front of a lens; `None` if there are none.
     #[must_use]
     pub fn new(dirt: Option<Dirt>, optic: Option<Optic>) -> Option<Self> {
         (dirt.is_some() || optic.is_some()).then_some(Self { dirt, optic })
     }
 
-    /// The dirt, where there is any.
+    /// The dirt, if any.
     #[must_use]
     pub fn dirt(&self) -> Option<&Dirt> {
         self.dirt.as_ref()
     }
 
-    /// What bends rays, where anything does.
+    /// The windscreen or mirror, if any.
     #[must_use]
     pub fn optic(&self) -> Option<&Optic> {
         self.optic.as_ref()
     }
 
-    /// How drops on it change over time; `None` where nothing does.
+    /// Change of its drops over time; `None` if there is none.
     #[must_use]
     pub fn course(&self) -> Option<&Course> {
         match &self.optic {
@@ -89,7 +89,7 @@ impl Front {
         }
     }
 
-    /// The same front as it is at a time, s of simulated time, where `down` is gravity's direction in the camera frame.
+    /// The same front at a time, s of simulated time; `down` is the direction of gravity in the camera frame.
     #[must_use]
     pub fn at(&self, time_s: f64, down: DVec3) -> Self {
         match &self.optic {
@@ -114,14 +114,14 @@ impl Front {
         beyond(fate, ray, way)
     }
 
-    /// The ray by which ground truth looks, as [`Lens::truth_ray`], and whether it is off the pupil's centre.
+    /// The ground-truth ray, as [`Lens::truth_ray`], and whether it is off the pupil's centre.
     #[must_use]
     pub fn truth_ray(&self, lens: &Lens, sensor_mm: DVec2) -> Option<(FrontRay, bool)> {
         let truth = lens.truth_ray(sensor_mm)?;
         Some((self.carry(truth.ray, PRINCIPAL_NM)?, truth.off_centre))
     }
 
-    /// Whether a ray or its weight depends on the wavelength.
+    /// True if a ray or its weight depends on the wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         match &self.optic {
@@ -131,10 +131,10 @@ impl Front {
         }
     }
 
-    /// Refuses a front that the camera cannot look through or at.
+    /// Refuses a front that does not fit the camera's view.
     ///
     /// # Errors
-    /// Where the picture sees nothing of a mirror, or its back; where a wind-screen is not before the lens.
+    /// If the image sees nothing of a mirror, or sees its back; if a windscreen is not in front of the lens.
     pub fn check(&self, lens: &Lens, raster: &Raster) -> Result<(), FrontError> {
         let sights = sights(raster).filter_map(|s_mm| lens.truth_ray(s_mm));
         let lines: Vec<Line> = sights.map(|truth| line(&truth.ray)).collect();
@@ -157,14 +157,14 @@ impl Front {
         }
     }
 
-    /// A ray with what the dirt leaves of it; `None` where that is nothing.
+    /// A ray attenuated by the dirt; `None` if nothing is left.
     fn soiled(&self, ray: PupilRay) -> Option<PupilRay> {
         let Some(dirt) = &self.dirt else { return Some(ray) };
         let weight_sr = ray.weight_sr * dirt.share(line(&ray));
         (weight_sr > 0.0).then_some(PupilRay { weight_sr, ..ray })
     }
 
-    /// The ray that ground truth and whatever needs no choice follow. It does not see drops.
+    /// The ray for ground truth and for uses without a choice. It ignores drops.
     fn carry(&self, ray: PupilRay, nm: f64) -> Option<FrontRay> {
         match &self.optic {
             None => Some(FrontRay::bare(ray)),
@@ -178,7 +178,7 @@ impl Front {
 fn beyond(fate: Fate, ray: PupilRay, way: Way) -> Option<FrontRay> {
     let from = line(&ray);
     match fate {
-        // By the glass, light comes straight only.
+        // Past the glass, only direct light arrives.
         Fate::Past => (way == Way::Straight).then(|| FrontRay::bare(ray)),
         Fate::Lost => None,
         Fate::On(to, share) => {
@@ -201,7 +201,7 @@ fn reflected(mirror: &Mirror, ray: PupilRay, nm: f64) -> Option<FrontRay> {
     }
 }
 
-/// Points of the picture, edges included, at which a front is looked at once.
+/// Points of the image, edges included, at which a front is checked.
 fn sights(raster: &Raster) -> impl Iterator<Item = DVec2> {
     const SIDE: u32 = 48;
     let size = DVec2::new(raster.width() as f64, raster.height() as f64);

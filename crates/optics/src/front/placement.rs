@@ -1,4 +1,4 @@
-//! Where a member of the front stands, rays to it and from it, and its quantities over the wavelength.
+//! Placement of a member of the front, rays to it and from it, and its wavelength-dependent quantities.
 
 use core::f64::consts::PI;
 
@@ -8,18 +8,18 @@ use glam::{DMat3, DVec3};
 
 use crate::pupil::MM;
 
-/// A frame of its own within the camera frame.
+/// A local frame within the camera frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Its origin in the camera frame, mm.
     pub origin_mm: DVec3,
-    /// From it to the camera frame: a rotation.
+    /// Rotation from the local frame to the camera frame.
     pub rotation: DMat3,
 }
 
 impl Placement {
-    /// A frame that was turned, at first parallel to the camera frame, right-handed about the camera's x, then its y, then
-    /// its z axis, degrees.
+    /// A rotated frame: initially parallel to the camera frame, it is rotated right-handed about the camera's x, then its y, then its z axis,
+    /// degrees.
     #[must_use]
     pub fn turned(origin_mm: DVec3, degrees: [f64; 3]) -> Self {
         let [(sx, cx), (sy, cy), (sz, cz)] = degrees.map(|d| sin_cos(d * PI / 180.0));
@@ -39,21 +39,21 @@ impl Placement {
     }
 }
 
-/// A ray of a member, mm.
+/// A ray in a member's frame, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Line {
     pub(crate) point_mm: DVec3,
     pub(crate) direction: DVec3,
 }
 
-/// What a member makes of a ray.
+/// Result of a ray's interaction with a member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Fate {
-    /// It does not meet the member.
+    /// The ray misses the member.
     Past,
-    /// It ends: no light comes this way.
+    /// The ray ends: no light comes along it.
     Lost,
-    /// It goes on here, with this factor on its weight.
+    /// The ray continues here, with this factor on its weight.
     On(Line, f64),
 }
 
@@ -68,11 +68,11 @@ pub(super) fn outgoing(line: Line, weight_sr: f64) -> PupilRay {
 /// A ray that leaves the front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrontRay {
-    /// The ray from the last surface that it met, camera frame.
+    /// The ray from the last surface it met, camera frame.
     pub ray: PupilRay,
-    /// What a distance along `ray` lacks to the distance that ground truth states, m: see [`FrontRay::truth_origin_m`].
+    /// Offset from a distance along `ray` to the ground-truth distance, m: see [`FrontRay::truth_origin_m`].
     pub path_m: f64,
-    /// Where it met a mirror, camera frame, m.
+    /// The point where it met a mirror, camera frame, m.
     pub mirror_m: Option<DVec3>,
 }
 
@@ -83,14 +83,14 @@ impl FrontRay {
         Self { ray, path_m: 0.0, mirror_m: None }
     }
 
-    /// Where the ray table says that the ray begins: at the mirror; else where distances count from.
+    /// Origin of the ray in the ray table: the mirror point; else the point from which distances count.
     #[must_use]
     pub fn truth_origin_m(&self) -> DVec3 {
         self.mirror_m.unwrap_or(self.ray.origin_m - self.ray.direction * self.path_m)
     }
 }
 
-/// A quantity that is the same at all wavelengths, exactly, or is tabulated.
+/// A quantity that is exactly constant over wavelength, or tabulated.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Curve {
     /// The same at all wavelengths.
@@ -110,13 +110,13 @@ impl Curve {
         }
     }
 
-    /// Whether it depends on the wavelength.
+    /// True if it depends on the wavelength.
     #[must_use]
     pub fn varies(&self) -> bool {
         matches!(self, Self::Table(spectrum) if spectrum.min_value() != spectrum.max_value())
     }
 
-    /// Least and greatest value.
+    /// Smallest and largest value.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         match self {
@@ -134,7 +134,7 @@ mod tests {
     fn a_positive_turn_about_x_leans_the_upper_edge_towards_the_camera() {
         let placement = Placement::turned(DVec3::new(0.0, 0.0, 500.0), [30.0, 0.0, 0.0]);
         let upper = placement.outward(Line { point_mm: DVec3::new(0.0, -100.0, 0.0), direction: DVec3::Z });
-        // y is down: the upper edge lies at 500 − 100 sin 30° and its normal looks up.
+        // y is down: the upper edge lies at 500 − 100 sin 30° and its normal points up.
         assert!((upper.point_mm.z - 450.0).abs() < 1e-12 && (upper.direction.y + 0.5).abs() < 1e-15);
         let back = placement.inward(upper);
         assert!((back.point_mm - DVec3::new(0.0, -100.0, 0.0)).length() < 1e-12);

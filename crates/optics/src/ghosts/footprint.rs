@@ -1,8 +1,8 @@
-//! Where the beam of one field angle, pair and wavelength lands: a grid of rays, and what lies between them.
+//! The landing positions of the beam of one field angle, pair and wavelength: a grid of rays, interpolated.
 //!
-//! The grid lies across the beam and covers half of it (the other half mirrors it). Places, weights and fillings (above 1
-//! a ray is clipped) are bilinear within a cell, so edges are found more finely than the grid. Cells with a corner whose
-//! ray misses a surface or is totally reflected on its way are dark.
+//! The grid is perpendicular to the beam and covers half of it (the other half is its mirror image). Positions, weights and fillings (above 1 a ray
+//! is clipped) are bilinear within a cell, so edges are found more finely than the grid. A cell is dark if the ray of one of its corners misses a
+//! surface or is totally reflected.
 
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
@@ -12,27 +12,27 @@ use crate::{prescription::Prescription, prescription::ghost::GhostPair, prescrip
 /// Cells across the whole beam in the meridional plane, and across half of it.
 const COLUMNS: usize = 32;
 const ROWS: usize = 16;
-/// The same of a first look, over the whole front.
+/// The same for a first coarse pass, over the whole front.
 const LOOK_COLUMNS: usize = 32;
 const LOOK_ROWS: usize = 16;
-/// Rays of either.
+/// Number of rays of either grid.
 pub(super) const NODES: usize = (COLUMNS + 1) * (ROWS + 1);
 pub(super) const NODES_OF_LOOK: usize = (LOOK_COLUMNS + 1) * (LOOK_ROWS + 1);
 
-/// Rays that land further from the axis than this count as lost, mm.
+/// Rays that land farther from the axis than this count as lost, mm.
 const MAX_MM: f32 = 1e4;
 
-/// A ray's end.
+/// The end of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Node {
     /// On the sensor, mm: away from the axis in the source's own direction, and across.
     x: f32,
     y: f32,
-    /// Share of the light.
+    /// Fraction of the light.
     weight: f32,
-    /// Infinite for a ray that does not arrive.
+    /// Infinite for a lost ray.
     filling: f32,
-    /// Of the angle at which it lands.
+    /// Cosine of the angle of incidence on the sensor.
     cosine: f32,
 }
 
@@ -64,7 +64,7 @@ impl Node {
     }
 }
 
-/// Telecentric light at an angle to the axis.
+/// Collimated light at an angle to the axis.
 pub(super) struct Beam<'a> {
     lens: &'a Prescription,
     direction: DVec3,
@@ -90,14 +90,14 @@ impl<'a> Beam<'a> {
             let d = ghost.ray.direction;
             let end = ghost.ray.point + d * ((self.lens.sensor_position_mm() - ghost.ray.point.z) / d.z);
             let (x, y, weight, filling) = (end.x as f32, end.y as f32, ghost.weight as f32, ghost.filling as f32);
-            // Rays along the sensor or away from it do not land.
+            // Rays parallel to the sensor or away from it do not land.
             let lands = d.z > 0.0 && x.abs().max(y.abs()) < MAX_MM;
             if lands { Node { x, y, weight, filling, cosine: d.z as f32 } } else { Node::LOST }
         };
         (0..(size[0] + 1) * (size[1] + 1)).map(node).collect()
     }
 
-    /// The window in which a pair lets rays pass, and the area it lets pass times its weight, mm².
+    /// The window in which a pair passes rays, and the passed area times its weight, mm².
     pub(super) fn look(&self, pair: GhostPair, nm: f64) -> Option<([DVec2; 2], f64)> {
         let size = [LOOK_COLUMNS, LOOK_ROWS];
         let [low, high] = self.lens.front_box(self.angle);
@@ -115,7 +115,7 @@ impl<'a> Beam<'a> {
         (weight > 0.0).then_some((window, weight * cell.x * cell.y))
     }
 
-    /// Where the light of a pair lands that enters through a window.
+    /// The footprint of a pair's light that enters through a window.
     pub(super) fn footprint(&self, pair: GhostPair, nm: f64, window: [DVec2; 2]) -> Footprint {
         let area = window[1] - window[0];
         let cell_mm2 = area.x * area.y / (COLUMNS * ROWS) as f64;
@@ -127,11 +127,11 @@ impl<'a> Beam<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Footprint {
     nodes: Vec<Node>,
-    /// Cross-section of the beam that a cell stands for, mm².
+    /// Cross-section of the beam per cell, mm².
     cell_mm2: f32,
 }
 
-/// Light that lands at a point, mm: the cross-section of the beam that it came through, times the shares left of it, mm².
+/// Light that lands at a point, mm: the cross-section of its part of the beam times the remaining fractions, mm².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Landed {
     pub(super) x: f32,
@@ -141,13 +141,13 @@ pub(super) struct Landed {
 }
 
 impl Footprint {
-    /// Between two angles.
+    /// Interpolates between two angles.
     pub(super) fn mix(&self, other: &Self, share: f32) -> Self {
         let nodes = self.nodes.iter().zip(&other.nodes).map(|(a, b)| a.mix(*b, share)).collect();
         Self { nodes, cell_mm2: self.cell_mm2 + share * (other.cell_mm2 - self.cell_mm2) }
     }
 
-    /// The same place with a share of the light.
+    /// The same position with a fraction of the light.
     pub(super) fn dimmed(&self, share: f32) -> Self {
         Self { nodes: self.nodes.clone(), cell_mm2: self.cell_mm2 * share }
     }
@@ -162,7 +162,7 @@ impl Footprint {
         (0..COLUMNS * ROWS).map(corners).filter(lit)
     }
 
-    /// The smallest box about the light, mm; `None` for none.
+    /// The smallest box about the light, mm; `None` if there is none.
     pub(super) fn bounds(&self) -> Option<[[f32; 2]; 2]> {
         let mut bounds = [[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]];
         for node in self.cells().flatten() {
@@ -191,7 +191,7 @@ impl Footprint {
     }
 }
 
-/// Least and greatest number of points along a cell's side; more than the least only to be dense enough.
+/// Minimum and maximum number of points along a cell's side; more than the minimum only for density.
 const LEAST: usize = 3;
 const MOST: usize = 256;
 

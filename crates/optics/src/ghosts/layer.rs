@@ -1,4 +1,4 @@
-//! From a picture's irradiance to the irradiance of its ghosts.
+//! Computes the irradiance of ghosts from the irradiance of an image.
 
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::{Bands, maths::f64::sin, quantity::Irradiance};
@@ -13,19 +13,18 @@ use crate::{error::OpticsError, lens::Prescribed, overlap::PRINCIPAL_NM, prescri
 
 /// Rings between which the field is tabulated.
 const RINGS: usize = 256;
-/// Every how many rings the étendue is.
+/// Step, in rings, of the tabulated étendue.
 const ETENDUE_STEP: usize = 4;
-/// A height or a wavelength that gets less than this share of what the best gets is no source: what is divided by it would
-/// be noise.
+/// A height or wavelength with less than this fraction of the best one's light is no source: dividing by it would amplify noise.
 const DARK: f64 = 1e-3;
-/// Sources laid down at a time, to bound memory.
+/// Sources processed at a time, to bound memory.
 const BATCH: usize = 8;
 
-/// The ghosts of a picture behind a lens: irradiance in the same raster. The raster may be larger than the sensor: with
-/// light from beside the picture.
+/// The ghosts of an image behind a lens: irradiance in the same raster. The raster may be larger than the sensor, to include light from outside the
+/// image.
 ///
 /// # Errors
-/// Where the irradiance is not of the raster's size.
+/// If the irradiance does not have the raster's size.
 pub fn layer(
     irradiance: &SpectralCube<Irradiance>,
     lens: &Prescribed,
@@ -53,24 +52,24 @@ pub fn layer(
     Ok(Scattering::new(lens, raster, settings, bands, &sources, field.greatest()).layer(&sources))
 }
 
-/// Light from a direction.
+/// A source at infinity.
 struct FarSource {
-    /// From the axis, rad.
+    /// Angle from the axis, rad.
     angle: f64,
-    /// In the picture, from the axis towards its own image.
+    /// Direction in the image, from the axis towards the source's image.
     outward: DVec2,
     spectrum: Vec<f32>,
     share: f64,
 }
 
-/// The ghost that a pair of surfaces makes of a source.
+/// The ghost of a source by a pair of surfaces.
 struct Splat<'a> {
     source: &'a FarSource,
     pair: usize,
     laid: Laid,
 }
 
-/// A lens's ghosts, ready to be laid down.
+/// A lens's ghosts, prepared for accumulation.
 struct Scattering<'a> {
     lens: &'a Prescribed,
     raster: &'a Raster,
@@ -78,7 +77,7 @@ struct Scattering<'a> {
     bands: Bands,
     response: Response,
     levels: Vec<Level>,
-    /// By pair: what its mirrors reflect, by band, over what they do at the tabulated wavelengths.
+    /// By pair: reflectance of its surfaces by band, over that at the tabulated wavelengths.
     colours: Vec<Colour>,
 }
 
@@ -124,7 +123,7 @@ impl<'a> Scattering<'a> {
         let Splat { source, pair, laid } = splat;
         let rear = self.response.pairs[*pair].rear;
         let filtered = self.lens.filtered(self.bands.centre_nm(band), laid.cosine);
-        // Light that the sensor mirrors passes the filter before it on all three ways.
+        // Light reflected by the sensor passes the filter before it all three times.
         let passes = if rear == self.lens.prescription().surfaces().len() { 3 } else { 1 };
         let strength = f64::from(source.spectrum[band])
             * mirrored(self.lens, rear, self.settings)
@@ -142,7 +141,7 @@ impl<'a> Scattering<'a> {
         }
     }
 
-    /// The sum of all levels, interpolated between the middles of their cells.
+    /// The sum of all levels, interpolated between the centres of their cells.
     fn picture(&self, levels: &[Vec<f32>]) -> Plane<Irradiance> {
         let (width, height) = (self.raster.width(), self.raster.height());
         let mut plane = Plane::new(width, height);
@@ -162,7 +161,7 @@ impl<'a> Scattering<'a> {
     }
 }
 
-/// What a pair's mirrors reflect at each band, over what they reflect at the tabulated wavelengths.
+/// The reflectance of a pair's surfaces at each band, over that at the tabulated wavelengths.
 struct Colour {
     /// By band: the tabulated wavelength below, and factors of it and of the next.
     bands: Vec<(usize, [f64; 2])>,
@@ -195,7 +194,7 @@ impl Colour {
 struct Field {
     step_mm: f64,
     angles: Vec<f64>,
-    /// sr by sr and mm²: of the ring above each height.
+    /// sr per sr·mm²: of the ring above each height.
     factors: Vec<f64>,
 }
 
@@ -220,7 +219,7 @@ impl Field {
         Self { step_mm, angles, factors }
     }
 
-    /// For each pixel, its solid angle over the étendue of its place; 0 beyond the light.
+    /// Solid angle of each pixel over the étendue at its position; 0 beyond the light.
     fn pixel_factors(&self, raster: &Raster) -> Vec<f64> {
         let pitch = raster.pitch_mm();
         let factor = |i: usize| {
@@ -243,7 +242,7 @@ impl Field {
     }
 }
 
-/// Linear interpolation in an evenly spaced table, held beyond its end.
+/// Linear interpolation in a uniformly spaced table, held beyond its end.
 fn between(table: &[f64], place: f64) -> f64 {
     let last = table.len().saturating_sub(1);
     let i = (place as usize).min(last);
@@ -252,7 +251,7 @@ fn between(table: &[f64], place: f64) -> f64 {
     if table.is_empty() { 0.0 } else { table[i] + share * (table[next] - table[i]) }
 }
 
-/// By band, the inverse of what the lens lets through on the axis, over that at 587.56 nm, at which the étendue is.
+/// By band: the inverse of the lens's axial transmittance relative to 587.56 nm, the wavelength of the étendue.
 fn band_factors(lens: &Prescribed, bands: Bands) -> Vec<f64> {
     let passes = |nm: f64| lens.prescription().axial_transmittance(nm) * lens.filtered(nm, 1.0);
     let through: Vec<f64> = (0..bands.count()).map(|i| passes(bands.centre_nm(i))).collect();

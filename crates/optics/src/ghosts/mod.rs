@@ -1,26 +1,25 @@
-//! Ghosts of a picture: a layer of irradiance, light that a prescription's surfaces reflect twice.
+//! Ghosts of an image: a layer of irradiance from light that a prescription's surfaces reflect twice.
 //!
-//! **Equation.** Every pixel of an image is a far source in its principal ray's direction, of radiance L and solid angle Ω.
-//! A beam cross-section dA that enters by that direction brings L Ω w dA to where its ray lands after two reflections
-//! ([`crate::prescription::ghost`]), with w the product of all transmittances and both reflectances; the layer is the sum over sources, pairs and
-//! wavelengths. Ghosts are thus as large, as cut off and as coloured as the surfaces, rims and coatings make them.
+//! **Equation.** Every pixel of an image is a source at infinity in its principal ray's direction, of radiance L and solid angle Ω. A beam
+//! cross-section dA that enters in that direction contributes L Ω w dA where its ray lands after two reflections ([`crate::prescription::ghost`]),
+//! with w the product of all transmittances and both reflectances. The layer is the sum over sources, pairs and wavelengths. Size, clipping and
+//! colour of ghosts thus follow from the surfaces, clear apertures and coatings.
 //!
-//! **How.** All is deterministic; no random numbers.
-//! - *Sources.* The image is split into blocks as long as a block of more than one pixel sends more than 1/300 of
-//!   all light (`source.rs`). A block acts from the centroid of its light: light moves by half a block at most,
-//!   bright lamps by none.
-//! - *Beams.* For 48 field angles a grid of 32 × 32 rays over what each pair lets pass is traced at wavelengths 100 nm
-//!   apart (`footprint.rs`); between them places, weights and edges are interpolated, and the reflectances' product is taken at
-//!   each band itself.
-//! - *Pairs* that together bring at most 0.5 % of the ghost light of an angle are left out there (`response.rs`).
-//! - *Laying down.* Each cell of a beam is spread over the sensor between its corners, its light kept (`splat.rs`), on a grid
-//!   as coarse as 32 cells across the ghost for a source of 1/300 of the light, finer for brighter ones.
+//! **Method.** Everything is deterministic; no random numbers.
 //!
-//! Ghosts are not in focus: the layer neither passes the point-spread function nor the glare kernel (scatter of ghosts is of
-//! second order) and is added to the irradiance behind both.
+//! - *Sources.* The image is split into blocks until no block of more than one pixel sends more than 1/300 of all light (`source.rs`). A block acts
+//!   from the centroid of its light: light moves by half a block at most, single bright pixels do not move.
+//! - *Beams.* For 48 field angles a grid of 32 × 32 rays over the passing region of each pair is traced at wavelengths 100 nm apart (`footprint.rs`).
+//!   Between them positions, weights and edges are interpolated, and the product of the reflectances is evaluated at each band itself.
+//! - *Pairs* that together contribute at most 0.5 % of the ghost light of an angle are omitted there (`response.rs`).
+//! - *Splatting.* Each cell of a beam is spread over the sensor between its corners, its light preserved (`splat.rs`), on a grid as coarse as 32
+//!   cells across the ghost for a source of 1/300 of the light, finer for brighter ones.
 //!
-//! **Left out**: sources outside the picture's field; the nearness of near sources (each counts as far); see the pairs'
-//! own list.
+//! Ghosts are out of focus: the layer is not convolved with the point-spread function or the glare kernel (scatter of ghosts is of second order) and
+//! is added to the irradiance after both.
+//!
+//! **Left out**: sources outside the image's field; the distance of near sources (each counts as infinitely far); see also the limitations in the
+//! module of pairs.
 
 mod footprint;
 mod layer;
@@ -37,17 +36,17 @@ pub use layer::layer;
 pub use report::{GhostReport, strongest};
 pub use response::{GhostOperationCounts, operation_counts};
 
-/// What a layer of ghosts is asked for.
+/// Settings of a layer of ghosts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GhostSettings {
     sensor_reflectance: f64,
 }
 
 impl GhostSettings {
-    /// Ghosts of a lens before a sensor that mirrors this share of light, whatever its wavelength; 0 for none.
+    /// Settings for the ghosts of a lens with a sensor of this reflectance, the same at all wavelengths; 0 for none.
     ///
     /// # Errors
-    /// Where the reflectance is not in [0, 1).
+    /// If the reflectance is not in [0, 1).
     pub fn new(sensor_reflectance: f64) -> Result<Self, OpticsError> {
         if (0.0..1.0).contains(&sensor_reflectance) {
             Ok(Self { sensor_reflectance })
@@ -56,7 +55,7 @@ impl GhostSettings {
         }
     }
 
-    /// Whether a camera needs ghosts, and why.
+    /// Status of ghosts (needed or not) with the reason.
     pub(crate) fn status(settings: Option<&Self>) -> EffectStatus {
         match settings {
             None => EffectStatus::LeftOut("not asked for".to_owned()),
@@ -72,14 +71,14 @@ impl GhostSettings {
         }
     }
 
-    /// The share of light that the sensor mirrors.
+    /// Reflectance of the sensor.
     #[must_use]
     pub fn sensor_reflectance(&self) -> f64 {
         self.sensor_reflectance
     }
 }
 
-/// The share of a pair's light that its mirrors leave besides the traced surfaces: the sensor's, where it is one.
+/// Reflectance factor of a pair in addition to the traced surfaces: that of the sensor, if it is one of the pair.
 fn mirrored(lens: &Prescribed, rear: usize, settings: GhostSettings) -> f64 {
     if rear == lens.prescription().surfaces().len() { settings.sensor_reflectance } else { 1.0 }
 }

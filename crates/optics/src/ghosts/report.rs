@@ -1,4 +1,4 @@
-//! The strongest ghosts of a far point, without a picture.
+//! The strongest ghosts of a point at infinity, without an image.
 
 use core::f64::consts::PI;
 
@@ -12,23 +12,22 @@ use crate::{lens::Prescribed, overlap::PRINCIPAL_NM, prescription::ghost::GhostP
 /// Solid angle of the sun's disc, sr (radius 959.63″, Auwers 1891).
 const SUN_SR: f64 = 6.8e-5;
 
-/// A pair's ghost of a far source, at 587.56 nm.
+/// The ghost of a source at infinity by a pair of surfaces, at 587.56 nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GhostReport {
     /// The pair.
     pub pair: GhostPair,
     /// Light of the ghost over light of the image.
     pub light: f64,
-    /// Where its centroid lies: mm from the axis towards the image, negative on the other side.
+    /// Position of its centroid: mm from the axis towards the image, negative on the other side.
     pub height_mm: f64,
-    /// Radius of the even disc that has its root-mean-square size, mm.
+    /// Radius of the uniform disc of the same root-mean-square size, mm.
     pub radius_mm: f64,
     /// Mean irradiance of the sun's ghost over that of the sun's image.
     pub sun_irradiance: f64,
 }
 
-/// The `most` ghosts with the most light of a far source whose image lies at a height; none where the height has no
-/// principal ray or no light.
+/// The `most` brightest ghosts of a source at infinity whose image lies at a height; empty if the height has no principal ray or no light.
 #[must_use]
 pub fn strongest(lens: &Prescribed, height_mm: f64, settings: GhostSettings, most: usize) -> Vec<GhostReport> {
     let (Some(angle), Some(image_mm2)) = (lens.field_angle(height_mm), image_mm2(lens, height_mm)) else {
@@ -54,8 +53,8 @@ pub fn strongest(lens: &Prescribed, height_mm: f64, settings: GhostSettings, mos
     reports
 }
 
-/// The beam's cross-section that makes the image of a far point at a height, times what is left of it, mm²: étendue by area over
-/// solid angle by area.
+/// The beam's cross-section that forms the image of a point at infinity at a height, times its transmittance, mm²: étendue per area over solid angle
+/// per area.
 fn image_mm2(lens: &Prescribed, height_mm: f64) -> Option<f64> {
     let step_mm = 1e-3 * lens.lit_radius_mm();
     let inner = (height_mm - 0.5 * step_mm).max(0.0);
@@ -82,6 +81,6 @@ fn moments(footprint: &Footprint) -> Option<Moments> {
     });
     let centre_mm = first / area;
     let square = (second / area - centre_mm * centre_mm).max(0.0);
-    // An even disc's mean square distance from its middle is half its radius squared.
+    // The mean square distance of a uniform disc from its centre is half its radius squared.
     (area > 0.0).then(|| Moments { area_mm2: area, centre_mm, radius_mm: (2.0 * square).sqrt() })
 }

@@ -1,4 +1,4 @@
-//! The footprints of a lens by field angle, pair and wavelength, and how many operations a layer of ghosts takes.
+//! The footprints of a lens by field angle, pair and wavelength, and the operation counts of a layer of ghosts.
 
 use rayon::prelude::*;
 
@@ -6,14 +6,14 @@ use super::footprint::{Beam, Footprint, NODES, NODES_OF_LOOK};
 use super::{GhostSettings, mirrored};
 use crate::{lens::Prescribed, prescription::ghost::GhostPair};
 
-/// Field angles from the axis to the greatest.
+/// Field angles from the axis to the largest.
 pub(super) const ANGLES: usize = 48;
-/// The share of an angle's ghost light that left-out pairs may have together.
+/// Maximum total fraction of an angle's ghost light in omitted pairs.
 const LEFT_OUT: f64 = 5e-3;
-/// Distance of wavelengths, nm, at most.
+/// Maximum distance of wavelengths, nm.
 const KNOT_NM: f64 = 100.0;
 
-/// One angle's footprints: by pair, those that matter, by wavelength.
+/// One angle's footprints: by pair (the relevant ones), by wavelength.
 type AtAngle = Vec<Option<Vec<Footprint>>>;
 
 /// Tabulated ghosts.
@@ -21,7 +21,7 @@ pub(super) struct Response {
     pub(super) pairs: Vec<GhostPair>,
     pub(super) knots_nm: Vec<f64>,
     step: f64,
-    /// By angle; `None` where no source is near.
+    /// By angle; `None` if no source is near.
     table: Vec<Option<AtAngle>>,
 }
 
@@ -46,7 +46,7 @@ impl Response {
         Self { pairs, knots_nm, step, table }
     }
 
-    /// The footprints of a pair (by its place in the list) at an angle; `None` where it is left out.
+    /// The footprints of a pair (by its index in the list) at an angle; `None` if it is omitted.
     pub(super) fn at(&self, angle: f64, pair: usize) -> Option<Vec<Footprint>> {
         let (i, share) = place(angle, self.step);
         let side = |i: usize| self.table[i].as_ref().and_then(|pairs| pairs[pair].as_ref());
@@ -59,14 +59,14 @@ impl Response {
     }
 }
 
-/// The tabulated angle below, and how far on to the next.
+/// The tabulated angle below, and the fraction towards the next.
 fn place(angle: f64, step: f64) -> (usize, f32) {
     let place = if step > 0.0 { angle / step } else { 0.0 };
     let i = (place as usize).min(ANGLES - 2);
     (i, (place - i as f64) as f32)
 }
 
-/// Wavelengths over a range, evenly: one in its middle for a lens that treats all alike.
+/// Uniformly spaced wavelengths over a range: one at its centre for a lens that does not depend on the wavelength.
 pub(super) fn knots(lens: &Prescribed, [low, high]: [f64; 2]) -> Vec<f64> {
     if !lens.disperses() {
         return vec![0.5 * (low + high)];
@@ -92,7 +92,7 @@ fn at_angle(lens: &Prescribed, settings: GhostSettings, angle: f64, pairs: &[Gho
     pairs.iter().zip(looks).map(footprints).collect()
 }
 
-/// The area below which pairs together have at most the share of light that may be left out.
+/// The area below which pairs together have at most the fraction of light that may be omitted.
 fn threshold(areas: &[f64]) -> f64 {
     let mut rising = areas.to_vec();
     rising.sort_by(f64::total_cmp);
@@ -105,17 +105,17 @@ fn threshold(areas: &[f64]) -> f64 {
     first.unwrap_or(f64::INFINITY)
 }
 
-/// Numbers of what takes time, of a picture that has light at all field angles.
+/// Operation counts for an image that has light at all field angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GhostOperationCounts {
-    /// Surfaces that rays meet, if none is lost on its way and no pair is left out.
+    /// Surfaces met by rays, if no ray is lost and no pair is omitted.
     pub met: f64,
-    /// Beams laid on the sensor: one a source, a pair and a tabulated wavelength, if no pair is left out.
+    /// Beams splatted onto the sensor: one per source, pair and tabulated wavelength, if no pair is omitted.
     pub laid: f64,
 }
 
-/// What the ghosts of so many sources take between two wavelengths, nm. How many a picture has, only its light tells: a quite
-/// even one 1024, one with half of its light in the sun about 260, a single lamp 1.
+/// Operation counts of the ghosts of a number of sources between two wavelengths, nm. The number depends on the light of the image: a nearly uniform
+/// one has 1024, one with half of its light in the sun about 260, a single light 1.
 #[must_use]
 pub fn operation_counts(
     lens: &Prescribed,
@@ -126,7 +126,7 @@ pub fn operation_counts(
     let prescription = lens.prescription();
     let pairs = prescription.ghost_pairs(settings.sensor_reflectance > 0.0);
     let (wavelengths, surfaces) = (knots(lens, range_nm).len() as f64, prescription.surfaces().len());
-    // Through the lens, and twice what lies between the mirrors.
+    // Through the lens, and twice through the part between the reflecting surfaces.
     let way = |pair: &GhostPair| (surfaces + 2 * (pair.rear - pair.front)) as f64;
     let rays = (NODES_OF_LOOK as f64 + wavelengths * NODES as f64) * ANGLES as f64;
     GhostOperationCounts {
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn what_is_left_out_is_little() {
-        // 0.3 + 0.1 of 100 may go, with 0.2 more they may not.
+        // 0.3 + 0.1 of 100 may be omitted, with 0.2 more they may not.
         let areas = [60.0, 0.1, 39.4, 0.3, 0.2];
         assert_eq!(threshold(&areas), 0.3);
         assert_eq!(threshold(&[5.0, 5.0]), 5.0);

@@ -1,9 +1,9 @@
-//! An image as far sources: single pixels where it is bright, blocks of pixels where it is dim.
+//! An image as sources at infinity: single pixels where it is bright, blocks of pixels where it is dim.
 
 use etendue_core::{plane::Plane, quantity::Quantity};
 use glam::DVec2;
 
-/// The share of all light above which a block of several pixels is split.
+/// The fraction of all light above which a block of several pixels is split.
 pub(super) const SHARE: f64 = 1.0 / 300.0;
 
 /// An image whose samples, times a factor of the pixel and one of the band, are radiance times solid angle.
@@ -22,7 +22,7 @@ pub(super) struct Source {
     pub(super) at_px: DVec2,
     /// Radiance times solid angle by band: the irradiance of a surface that faces it, W·m⁻²·nm⁻¹.
     pub(super) spectrum: Vec<f32>,
-    /// Its share of all light.
+    /// Its fraction of all light.
     pub(super) share: f64,
 }
 
@@ -53,7 +53,7 @@ impl<Q: Quantity<Sample = f32>> SourceImage<'_, Q> {
         sources
     }
 
-    /// Light of all bands of each pixel.
+    /// Total light of all bands of each pixel.
     fn strength(&self) -> Vec<f64> {
         let mut strength = vec![0.0; self.pixel_factor.len()];
         for (plane, band) in self.planes.iter().zip(&self.band_factor) {
@@ -83,12 +83,12 @@ impl Block {
         (self.x[1] - self.x[0]) * (self.y[1] - self.y[0])
     }
 
-    /// Places of its pixels in an image of a width.
+    /// Indices of its pixels in an image of a width.
     fn pixels(self, width: usize) -> impl Iterator<Item = usize> {
         (self.y[0]..self.y[1]).flat_map(move |y| (self.x[0]..self.x[1]).map(move |x| y * width + x))
     }
 
-    /// Halves, each way that has more than one pixel.
+    /// Halves along each direction with more than one pixel.
     fn parts(self) -> Vec<Self> {
         let halves = |[low, high]: [usize; 2]| {
             let middle = usize::midpoint(low, high);

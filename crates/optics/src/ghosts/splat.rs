@@ -1,23 +1,23 @@
-//! Laying a beam's light on the sensor, at a resolution that suits its size.
+//! Splats a beam's light onto the sensor, at a resolution that suits its size.
 //!
-//! Level l has square cells of 2^l pixels. Light is laid down by tents as wide as a cell on both sides of its point, which
-//! keeps it, from points at most 0.35 cells apart, which leaves at most some per cent of ripple. One row of cells around
-//! the picture is kept too, so that levels can be interpolated up to its edges.
+//! Level l has square cells of 2^l pixels. Light is splatted with tents as wide as a cell on both sides of its point, which preserves its sum. Points
+//! are at most 0.35 cells apart, so the ripple is at most a few per cent. One row of cells around the image is kept too, so that levels can be
+//! interpolated up to its edges.
 
 use etendue_projection::Raster;
 use glam::DVec2;
 
 use super::{footprint::Footprint, source::SHARE};
 
-/// Cells across a ghost of a source that has [`SHARE`] of the light, and at most.
+/// Cells across a ghost of a source with [`SHARE`] of the light, and the maximum.
 const CELLS: f64 = 32.0;
 const MAX_CELLS: f64 = 192.0;
 /// Distance of points, cells.
 const STEP: f32 = 0.35;
-/// Coarsest levels still have this many cells across the picture's shorter side.
+/// Minimum cells across the shorter side of the image at the coarsest level.
 const COARSEST: usize = 12;
 
-/// The cells of one level about a picture.
+/// The cells of one level about an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Level {
     level: u32,
@@ -45,21 +45,21 @@ impl Level {
         }
     }
 
-    /// All levels of a picture, finest first.
+    /// All levels of an image, finest first.
     pub(super) fn of(raster: &Raster) -> Vec<Self> {
         let shorter = raster.width().min(raster.height());
         (0..24).take_while(|l| *l == 0 || shorter >> l >= COARSEST).map(|l| Self::new(raster, l)).collect()
     }
 
-    /// The cell whose middle lies at or before that of a pixel's column or row, and how far on to the next it lies.
+    /// The cell whose centre lies at or before that of a pixel's column or row, and the fraction towards the next.
     pub(super) fn pixel(&self, pixel: usize) -> (usize, f32) {
         let place = (pixel as f64 + 0.5) / f64::from(1_u32 << self.level) + 0.5;
         (place as usize, (place - place.floor()) as f32)
     }
 
-    /// Coordinates in cells, with the middle of cell i at i, of a point of the picture, mm.
+    /// Coordinates in cells (the centre of cell i at i) of a point of the image, mm.
     fn place(&self, mm: DVec2) -> DVec2 {
-        // The margin adds a cell, the middle takes half of one.
+        // The margin adds a cell, the centre subtracts half of one.
         self.principal + mm / self.cell_mm + 0.5
     }
 }
@@ -75,12 +75,12 @@ pub(super) struct Laid {
     pub(super) columns: usize,
     /// By wavelength, row by row.
     pub(super) light: Vec<Vec<f32>>,
-    /// Mean cosine of the angle at which it lands.
+    /// Mean cosine of the angle of incidence on the sensor.
     pub(super) cosine: f64,
 }
 
-/// Lays the footprints (by wavelength) of a source that lies `outward` from the axis and has a share of all light; `None`
-/// where nothing falls on the picture.
+/// Splats the footprints (by wavelength) of a source in the direction `outward` from the axis with a fraction of all light; `None` if nothing falls
+/// on the image.
 pub(super) fn lay(footprints: &[Footprint], outward: DVec2, share: f64, levels: &[Level]) -> Option<Laid> {
     let bounds = bounds(footprints)?;
     let level = level(bounds, share, levels);
@@ -108,7 +108,7 @@ fn bounds(footprints: &[Footprint]) -> Option<[DVec2; 2]> {
     boxes.map(|b| b.map(vector)).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
-/// The coarsest level with as many cells across a ghost as its source is worth.
+/// The coarsest level with enough cells across a ghost for the fraction of its source.
 fn level(bounds: [DVec2; 2], share: f64, levels: &[Level]) -> usize {
     let cells = (CELLS * (share / SHARE).max(1.0).sqrt()).min(MAX_CELLS);
     let cell_mm = (bounds[1] - bounds[0]).max_element() / cells;
@@ -157,7 +157,7 @@ impl Window {
         let column = self.origin[0] + x * self.x_axis[0] + y * self.y_axis[0];
         let row = self.origin[1] + x * self.x_axis[1] + y * self.y_axis[1];
         let [columns, rows] = self.size;
-        // What falls beside the window falls beside the picture's margin.
+        // Light outside the window also falls outside the image's margin.
         if !(column >= 0.0 && row >= 0.0 && column < (columns as f32) - 1.0 && row < (rows as f32) - 1.0) {
             return;
         }

@@ -1,20 +1,20 @@
-//! A camera known by where its pixels look: a calibrated or ideal projection, with a lens's light.
+//! A camera defined by the viewing directions of its pixels: a calibrated or ideal projection, with the light of a lens.
 //!
-//! A projection says which solid angle dΩ of the scene lands on which area dA of the sensor. Through a pupil of area A_p as
-//! the direction sees it, that area gets E = τ L A_p dΩ/dA.
+//! A projection maps a solid angle dΩ of the scene to an area dA of the sensor. Through a pupil of area A_p as seen from the direction, that area
+//! receives E = τ L A_p dΩ/dA.
 //!
-//! - **f-number**: A_p on the axis is π (f/2N)² with the focal length f = √(dA/dΩ) at the principal point, so that
-//!   E = π τ L/(4 N²) there (small-pupil limit, as a pinhole), whatever the projection.
-//! - **Constant pupil**: [`PupilStance::Flat`] keeps the disc across the axis, foreshortened to cos θ (a rectilinear
-//!   projection then gives cos⁴ θ, and no light comes from 90° on); [`PupilStance::Turning`] keeps A_p for every direction,
-//!   as the pupils of wide lenses nearly do, which tilt and move towards the light (an equisolid fisheye is then uniform, an
-//!   equidistant one falls off as sin θ/θ). A measured relative illumination takes the place of both.
-//! - **Defocus**, where a focus distance is given: rays begin on the pupil's disc of radius f/2N and meet where the
-//!   principal ray meets the plane in focus (flat), or at the focus distance along it (turning). Weights stay those of the
-//!   principal ray. The calibration holds for the focus at which it was made: there is no breathing.
+//! - **f-number**: A_p on the axis is π (f/2N)² with the focal length f = √(dA/dΩ) at the principal point, so that E = π τ L/(4 N²) there
+//!   (small-pupil limit, as a pinhole), for every projection.
+//! - **Constant pupil**: [`PupilStance::Flat`] keeps the disc perpendicular to the axis, foreshortened by cos θ (a rectilinear projection then gives
+//!   cos⁴ θ, and no light comes from 90° on). [`PupilStance::Turning`] keeps A_p for every direction. The pupils of wide lenses nearly do so: they
+//!   tilt and move towards the light (an equisolid fisheye is then uniform, an equidistant one falls off as sin θ/θ). A measured relative
+//!   illumination replaces both.
+//! - **Defocus**, if a focus distance is given: rays begin on the pupil's disc of radius f/2N and meet where the principal ray meets the plane in
+//!   focus (flat), or at the focus distance along it (turning). Weights stay those of the principal ray. The calibration holds for the focus at which
+//!   it was made: there is no focus breathing.
 //!
-//! Left out: what the projection does not hold: aberrations, colours (but for [`LateralColour`]), a pupil that moves with the field (all rays meet in
-//! one point), clipping.
+//! Left out: everything that the projection does not describe: aberrations, colours (except [`LateralColour`]), a pupil that moves with the field
+//! (all rays meet in one point), clipping.
 
 use core::f64::consts::PI;
 use core::fmt::{self, Debug, Formatter};
@@ -29,7 +29,7 @@ use crate::error::OpticsError;
 use crate::overlap::{f_number, positive};
 use crate::pupil::{MM, concentric_disc};
 
-/// How the entrance pupil stands.
+/// Orientation of the entrance pupil over the field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PupilStance {
     /// A disc across the axis.
@@ -38,20 +38,20 @@ pub enum PupilStance {
     Turning,
 }
 
-/// What a calibrated camera is made of.
+/// Parameters of a calibrated camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CalibratedParameters {
-    /// Where pixels look.
+    /// Viewing directions of the pixels.
     pub calibration: Calibration,
-    /// Distance of the pixels' centres, mm.
+    /// Pixel pitch, mm.
     pub pixel_pitch_mm: f64,
     /// f-number N.
     pub f_number: f64,
     /// Transmittance, (0, 1].
     pub transmittance: f64,
-    /// Distance of what is sharp, m; infinity is legal. `None`: everything is.
+    /// Focus distance, m; infinity is legal. `None`: everything is sharp.
     pub focus_distance_m: Option<f64>,
-    /// How the pupil stands; `None`: flat for projections that see less than 180°, else turning.
+    /// Orientation of the pupil; `None`: flat for projections that see less than 180°, else turning.
     pub pupil: Option<PupilStance>,
     /// Measured relative illumination.
     pub relative_illumination: Option<Falloff>,
@@ -68,7 +68,7 @@ pub struct Calibrated {
     scale: f64,
 }
 
-/// A camera without lateral colour has the text (and plans have the hashes) that it had before there was any.
+/// A camera without lateral colour keeps the text (and plans keep the hashes) of versions without it.
 impl Debug for Calibrated {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut text = f.debug_struct("Calibrated");
@@ -82,10 +82,10 @@ impl Debug for Calibrated {
 }
 
 impl Calibrated {
-    /// A calibrated camera.
+    /// Creates a calibrated camera.
     ///
     /// # Errors
-    /// Where a number is outside its range, or the calibration sees nothing at its principal point.
+    /// If a number is outside its range, or the calibration has no direction at its principal point.
     pub fn new(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
         let pitch_mm = positive("pixel_pitch_mm", parameters.pixel_pitch_mm)?;
         let n = f_number(parameters.f_number)?;
@@ -108,13 +108,13 @@ impl Calibrated {
         Ok(Self { pupil, lateral_colour: None, focal_length_mm, scale, parameters })
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &CalibratedParameters {
         &self.parameters
     }
 
-    /// How its pupil stands.
+    /// Orientation of the pupil.
     #[must_use]
     pub fn pupil(&self) -> PupilStance {
         self.pupil
@@ -126,13 +126,13 @@ impl Calibrated {
         self.focal_length_mm
     }
 
-    /// Radius of the pupil, mm; 0 where everything is sharp.
+    /// Radius of the pupil, mm; 0 if everything is sharp.
     #[must_use]
     pub fn pupil_radius_mm(&self) -> f64 {
         self.parameters.focus_distance_m.map_or(0.0, |_| self.focal_length_mm / (2.0 * self.parameters.f_number))
     }
 
-    /// Refuses a picture that is not the calibration's, a fold inside it, and a measured illumination that ends before it.
+    /// Refuses an image size that differs from the calibration's, a fold inside the image, and a measured illumination that ends inside it.
     pub(super) fn check(&self, raster: &Raster) -> Result<(), OpticsError> {
         let [width, height] = self.parameters.calibration.size_px();
         let (got_width, got_height) = (raster.width(), raster.height());
@@ -147,8 +147,8 @@ impl Calibrated {
             .map_or(Ok(()), |table| table.check(self.reach(raster, table.by())))
     }
 
-    /// How far a picture reaches in what a relative illumination goes by: to the farthest of its corners that sees something, or
-    /// to the edge of the projection where one does not.
+    /// Extent of an image in the argument of a relative illumination: to its farthest corner with a direction, or to the edge of the projection if a
+    /// corner has none.
     fn reach(&self, raster: &Raster, by: FalloffBy) -> f64 {
         let [width, height] = self.parameters.calibration.size_px().map(|size| size as f64);
         let corners = [0.0, 0.5, 1.0].map(|x| [0.0, 0.5, 1.0].map(|y| DVec2::new(x * width, y * height)));
@@ -164,7 +164,7 @@ impl Calibrated {
         }
     }
 
-    /// Near the principal point a model looks at about r/f from it.
+    /// Checks that the model looks at about r/f near the principal point.
     fn check_course(&self, radius_mm: f64) -> Result<(), OpticsError> {
         let limited = self.parameters.calibration.greatest_angle_rad().is_some();
         let ideal = |r_mm: f64| {
@@ -215,7 +215,7 @@ impl Calibrated {
         self.principal_ray(sensor_mm).map_or(0.0, |ray| ray.weight_sr)
     }
 
-    /// The share of the pupil's area that a direction sees; `None` where no light comes.
+    /// The fraction of the pupil's area seen from a direction; `None` if no light comes from it.
     fn foreshortening(&self, direction: DVec3) -> Option<f64> {
         match self.pupil {
             PupilStance::Flat => (direction.z > 0.0).then_some(direction.z),
@@ -234,7 +234,7 @@ impl Calibrated {
         }
     }
 
-    /// The ray through the point `q` of the unit disc that meets the principal ray where it is sharp.
+    /// The ray through the point `q` of the unit disc that meets the principal ray at the focus distance.
     fn through(&self, principal: PupilRay, q: DVec2, focus_m: f64) -> PupilRay {
         let ahead = principal.direction;
         let at = q * (self.pupil_radius_mm() * MM);

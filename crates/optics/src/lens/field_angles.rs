@@ -1,4 +1,4 @@
-//! Field angles of chief rays over the picture, interpolated, and whether a picture is one that a lens could make.
+//! Interpolated field angles of chief rays over the image, and a check that a lens could form the image.
 
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
@@ -20,7 +20,7 @@ impl FieldAngles {
         Some((outwards * sin).extend(cos))
     }
 
-    /// The field angle of a radius; `None` beyond the table, which ends with the picture or the lens.
+    /// The field angle of a radius; `None` beyond the table, which ends with the image or the lens.
     fn angle(&self, radius_mm: f64) -> Option<f64> {
         let place = radius_mm / self.step_mm;
         let last = self.angles.len().checked_sub(2)?;
@@ -31,7 +31,7 @@ impl FieldAngles {
         Some(cubic(self.around(i), place - i as f64))
     }
 
-    /// Four angles about the interval `i`: odd about the axis, straight on beyond the end.
+    /// Four angles about the interval `i`: odd about the axis, linear beyond the end.
     fn around(&self, i: usize) -> [f64; 4] {
         let a = &self.angles;
         let before = if i == 0 { -a[1] } else { a[i - 1] };
@@ -47,18 +47,18 @@ fn cubic([a, b, c, d]: [f64; 4], t: f64) -> f64 {
     b + t * (start + t * (3.0 * rest - 2.0 * start - end + t * (start + end - 2.0 * rest)))
 }
 
-/// Focal lengths that a picture may reach from its principal point: 89.994° of a lens without distortion.
+/// Maximum extent of an image from its principal point, in focal lengths: 89.994° of a lens without distortion.
 const WIDEST: f64 = 1e4;
-/// By how much a distortion may stretch or shrink a distance from the principal point.
+/// Maximum factor by which a distortion may stretch or shrink a distance from the principal point.
 const WILD: f64 = 1e3;
 
-/// Parts of the picture's reach at which a distortion is looked at.
+/// Fractions of the image's extent at which a distortion is checked.
 pub(super) const ALL: [f64; 3] = [1e-3, 0.1, 1.0];
-/// Those near the principal point.
+/// The fractions near the principal point.
 pub(super) const NEAR: [f64; 2] = [1e-4, 1e-3];
 
-/// Checks a picture that reaches `radius_mm` from the principal point of a lens. `ideal` is the distance at which a lens without
-/// distortion would show what is seen at a distance, mm; `None` where nothing is.
+/// Checks an image that reaches `radius_mm` from the principal point of a lens. `ideal` maps an observed distance to that of a lens without
+/// distortion, mm; `None` if there is no direction.
 pub(super) fn check(
     radius_mm: f64,
     focal_length_mm: f64,

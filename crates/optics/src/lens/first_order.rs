@@ -17,7 +17,7 @@ impl Lens {
         )
     }
 
-    /// The wavelength at which focal length, f-number and focus of a lens that disperses are stated, nm; `None` where they belong to none.
+    /// The wavelength of a dispersive lens's focal length, f-number and focus, nm; `None` if they do not depend on one.
     #[must_use]
     pub fn first_order_nm(&self) -> Option<f64> {
         match self {
@@ -57,7 +57,7 @@ impl Lens {
         self.f_number() / self.transmittance().sqrt()
     }
 
-    /// Distance of the plane in focus from the entrance pupil, m; `None` where everything is sharp.
+    /// Distance of the plane in focus from the entrance pupil, m; `None` if everything is sharp.
     #[must_use]
     pub fn focus_distance_m(&self) -> Option<f64> {
         match self {
@@ -70,8 +70,7 @@ impl Lens {
         }
     }
 
-    /// The principal distance c, mm: near the axis a tangent t of object space is seen at c·t on the sensor. Infinite for a
-    /// telecentric camera.
+    /// The principal distance c, mm: near the axis a tangent t of object space is imaged at c·t on the sensor. Infinite for a telecentric camera.
     #[must_use]
     pub fn principal_distance_mm(&self) -> f64 {
         match self {

@@ -1,11 +1,11 @@
-//! Measures of a lens that its image has: scale, pupils, blur.
+//! Image-related quantities of a lens: scale, pupils, blur.
 
 use super::{Lens, paraxial_properties::PupilSize};
 use crate::pupil::MM;
 
 impl Lens {
-    /// Image size over object size in the plane in focus; 0 at infinity focus and where everything is sharp, but for a
-    /// telecentric camera, which has one everywhere.
+    /// Image size over object size in the plane in focus; 0 at infinity focus and if everything is sharp, except for a telecentric camera, whose
+    /// scale is constant.
     #[must_use]
     pub fn magnification(&self) -> f64 {
         match self {
@@ -30,8 +30,8 @@ impl Lens {
         }
     }
 
-    /// Distance from the exit pupil to the sensor, mm: of a pinhole, a thin lens and a calibrated camera the principal distance,
-    /// infinite for a telecentric camera.
+    /// Distance from the exit pupil to the sensor, mm: the principal distance for a pinhole, a thin lens and a calibrated camera, infinite for a
+    /// telecentric camera.
     #[must_use]
     pub fn exit_pupil_distance_mm(&self) -> f64 {
         match self {
@@ -44,7 +44,7 @@ impl Lens {
         }
     }
 
-    /// Radius of the entrance pupil on the axis, m; 0 where everything is sharp.
+    /// Radius of the entrance pupil on the axis, m; 0 if everything is sharp.
     #[must_use]
     pub fn entrance_pupil_radius_m(&self) -> f64 {
         match self {
@@ -57,8 +57,8 @@ impl Lens {
         }
     }
 
-    /// The sensor's z coordinate in the camera frame, m: negative where it lies behind the entrance pupil. Of a calibrated
-    /// camera it is taken to be a focal length behind; a telecentric camera's is not known.
+    /// The sensor's z coordinate in the camera frame, m: negative if it lies behind the entrance pupil. For a calibrated camera it is assumed a focal
+    /// length behind; for a telecentric camera it is unknown.
     #[must_use]
     pub fn sensor_plane_m(&self) -> f64 {
         match self {
@@ -93,7 +93,7 @@ impl Lens {
         }
     }
 
-    /// The focus distance at which infinity blurs to a circle of `circle_mm`, m; 0 where everything is sharp.
+    /// The focus distance at which infinity blurs to a circle of `circle_mm`, m; 0 if everything is sharp.
     #[must_use]
     pub fn hyperfocal_m(&self, circle_mm: f64) -> f64 {
         match self {

@@ -3,20 +3,20 @@
 //! # Contract
 //!
 //! - All arithmetic is f64. Rays are in the camera frame (x right, y down, z forward, m) whose origin is the centre of the
-//!   **entrance pupil**. Sensor points are mm of the erect picture from the principal point.
-//! - [`Lens::ray`] makes a ray of a sensor point and a pupil sample; the mean over pupil samples of `weight_sr` × radiance
-//!   is the irradiance of the sensor point. `None` means no light by this sample: it counts as zero.
-//! - [`Lens::projected_solid_angle_sr`] is the mean of the weights, computed without samples: a closed form, or a quadrature to 1e-9
-//!   (through a prescription, whose clear apertures have no closed form, at 587.56 nm and to 1e-5).
+//!   **entrance pupil**. Sensor points are mm of the erect image from the principal point.
+//! - [`Lens::ray`] generates a ray from a sensor point and a pupil sample; the mean over pupil samples of `weight_sr` × radiance is the irradiance of
+//!   the sensor point. `None` means that the sample carries no light: it counts as zero.
+//! - [`Lens::projected_solid_angle_sr`] is the mean of the weights, computed without samples: in closed form, or by a quadrature to 1e-9 (through a
+//!   prescription, whose clear apertures have no closed form, at 587.56 nm and to 1e-5).
 //! - [`Lens::principal_ray`] goes through the centre of the pupil (of the real stop) at 587.56 nm, and [`Lens::project`] is
 //!   its inverse.
-//! - A calibrated camera and a telecentric one say their own (`calibrated.rs`, `telecentric.rs`).
-//! - A radial distortion, where there is one, maps the observed sensor point to the ideal one before the ray is made; the
-//!   weight is that of the observed point, where the light arrives. A lateral colour ([`LateralColour`]) acts before it.
-//! - f-number, of the paraxial lenses: a flat pupil disc, tan θ′ = 1/2N at infinity focus, so E = π τ L / (1 + 4N²) on the axis. (The pinhole is
-//!   the limit of small pupils: π τ L / 4N².)
+//! - A calibrated and a telecentric camera define their own (`calibrated.rs`, `telecentric.rs`).
+//! - An optional radial distortion maps the observed sensor point to the ideal one before the ray is generated; the weight is that of the observed
+//!   point, where the light arrives. A lateral colour ([`LateralColour`]) acts before it.
+//! - f-number of the paraxial lenses: a flat pupil disc, tan θ′ = 1/2N at infinity focus, so E = π τ L / (1 + 4N²) on the axis. (The pinhole is the
+//!   small-pupil limit: π τ L / 4N².)
 
-/// The same for the paraxial lenses, and what the others do.
+/// Dispatches to the common code of the paraxial lenses, or to the other kinds.
 macro_rules! each {
     ($self:expr, $lens:ident => $body:expr, $($other:ident($it:pat) => $does:expr),+ $(,)?) => {
         match $self {
@@ -65,20 +65,20 @@ pub enum Lens {
     Pinhole(Pinhole),
     /// One refracting plane, finite pupil.
     Thin(Thin),
-    /// Principal planes, pupils and rims.
+    /// Principal planes, pupils and apertures.
     Thick(Thick),
     /// Surfaces, glasses, a stop: traced.
     Prescription(Arc<Prescribed>),
-    /// Ray-transfer functions: carried through at once.
+    /// Ray-transfer functions: one step per ray.
     RayTransfer(Arc<Transferred>),
-    /// Each pixel looks where a projection says.
+    /// Viewing directions by a projection.
     Calibrated(Arc<Calibrated>),
     /// Every pixel looks along the axis.
     Telecentric(Telecentric),
 }
 
 impl Lens {
-    /// A pinhole.
+    /// Creates a pinhole.
     ///
     /// # Errors
     /// As [`Pinhole::new`].
@@ -86,7 +86,7 @@ impl Lens {
         Pinhole::new(parameters).map(Self::Pinhole)
     }
 
-    /// A thin lens.
+    /// Creates a thin lens.
     ///
     /// # Errors
     /// As [`Thin::new`].
@@ -94,7 +94,7 @@ impl Lens {
         Thin::new(parameters).map(Self::Thin)
     }
 
-    /// A thick lens.
+    /// Creates a thick lens.
     ///
     /// # Errors
     /// As [`Thick::new`].
@@ -102,19 +102,19 @@ impl Lens {
         Thick::new(parameters).map(Self::Thick)
     }
 
-    /// A prescription.
+    /// Creates a lens from a prescription.
     #[must_use]
     pub fn prescription(lens: Prescribed) -> Self {
         Self::Prescription(Arc::new(lens))
     }
 
-    /// A lens known by its ray-transfer functions.
+    /// Creates a lens from ray-transfer functions.
     #[must_use]
     pub fn ray_transfer(lens: Transferred) -> Self {
         Self::RayTransfer(Arc::new(lens))
     }
 
-    /// A calibrated camera.
+    /// Creates a calibrated camera.
     ///
     /// # Errors
     /// As [`Calibrated::new`].
@@ -122,7 +122,7 @@ impl Lens {
         Calibrated::new(parameters).map(|lens| Self::Calibrated(Arc::new(lens)))
     }
 
-    /// A telecentric camera.
+    /// Creates a telecentric camera.
     ///
     /// # Errors
     /// As [`Telecentric::new`].
@@ -130,8 +130,8 @@ impl Lens {
         Telecentric::new(parameters).map(Self::Telecentric)
     }
 
-    /// The same lens with a radial distortion. A distortion whose radius unit is the focal length is made with
-    /// [`Lens::principal_distance_mm`] of the lens without it.
+    /// The same lens with a radial distortion. A distortion whose radius unit is the focal length is built with [`Lens::principal_distance_mm`] of
+    /// the lens without it.
     ///
     /// # Errors
     /// For a prescription, a calibrated and a telecentric camera, which have their own.
@@ -146,7 +146,7 @@ impl Lens {
         Ok(self)
     }
 
-    /// The radial distortion that was laid over the lens, where there is one.
+    /// The radial distortion added to the lens, if any.
     #[must_use]
     pub fn distortion(&self) -> Option<&RadialDistortion> {
         each!(self, lens => lens.properties.distortion.as_ref(), Prescription(_) => None, RayTransfer(_) => None, Calibrated(_) => None, Telecentric(_) => None)
@@ -155,7 +155,7 @@ impl Lens {
     /// The same lens with lateral colour.
     ///
     /// # Errors
-    /// For a prescription, which has its own, and a telecentric camera, which has no principal point to be large about.
+    /// For a prescription, which has its own, and a telecentric camera, which has no principal point as a centre.
     pub fn with_lateral_colour(mut self, colour: LateralColour) -> Result<Self, OpticsError> {
         each!(&mut self,
             lens => lens.properties.lateral_colour = Some(Arc::new(colour)),
@@ -167,7 +167,7 @@ impl Lens {
         Ok(self)
     }
 
-    /// The lateral colour that was laid over the lens, where there is one.
+    /// The lateral colour added to the lens, if any.
     #[must_use]
     pub fn lateral_colour(&self) -> Option<&LateralColour> {
         each!(self,
@@ -179,7 +179,7 @@ impl Lens {
         )
     }
 
-    /// What the lens is, in words.
+    /// Kind of the lens, in words.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -193,11 +193,11 @@ impl Lens {
         }
     }
 
-    /// Refuses a picture that the lens cannot image.
+    /// Refuses an image that the lens cannot form.
     ///
     /// # Errors
-    /// Where the distortion folds inside the picture or is none of a lens, the picture reaches farther than a lens sees, or
-    /// is not that of the calibration.
+    /// If the distortion folds inside the image or is not that of a lens, the image reaches beyond the lens's field, or its size is not that of the
+    /// calibration.
     pub fn check(&self, raster: &Raster) -> Result<(), OpticsError> {
         if let Self::Calibrated(lens) = self {
             return lens.check(raster);

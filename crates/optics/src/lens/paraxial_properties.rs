@@ -1,23 +1,21 @@
-//! What every paraxial lens has: a transmittance, and perhaps a radial distortion and lateral colour.
+//! Properties common to paraxial lenses: a transmittance, and optionally a radial distortion and lateral colour.
 //!
-//! What a description says about the pupils of a thick lens.
+//! Statements about the pupils of a thick lens.
 //!
-//! Both pupils are images of one stop, so each is the image of the other and one statement fixes all (`thick.rs`).
+//! Both pupils are images of one stop, so each is the image of the other and one statement determines all (`thick.rs`).
 //!
-//! First-order focusing: where the sensor stands, and how far a point out of focus spreads.
+//! First-order focusing: the sensor position, and the blur of a point out of focus.
 //!
-//! With focal length f, pupil magnification m_p (exit over entrance diameter) and the plane in focus at F from the
-//! **entrance pupil**, the image's magnification is |m| = 1/(F/f − 1/m_p) and the principal distance, by which tangents in
-//! object space become lengths on the sensor, is c = f (1 + |m|/m_p). The exit pupil is at m_p c from the sensor. For pupils
-//! in the principal planes m_p = 1 and these are the lens equation.
+//! With focal length f, pupil magnification m_p (exit over entrance diameter) and the plane in focus at F from the **entrance pupil**, the image's
+//! magnification is |m| = 1/(F/f − 1/m_p). The principal distance, the factor from tangents in object space to lengths on the sensor, is c = f (1 +
+//! |m|/m_p). The exit pupil is at m_p c from the sensor. For pupils in the principal planes m_p = 1 and these are the lens equation.
 //!
-//! Lateral colour: an image whose size depends on the wavelength.
+//! Lateral colour: variation of the image size with the wavelength.
 //!
-//! At the wavelength λ the image is m(λ) times as large as at 587.56 nm, about the principal point: the light of λ at a sensor
-//! point s looks where that of 587.56 nm does at s/m(λ), before any distortion. m is linear between the points of the table
-//! and holds beyond its ends; only ratios count, so the table is divided by its value at 587.56 nm. Weights stay those of the
-//! sensor point itself. Typical lenses keep |m − 1| below 0.002. Left out: displacements that are not proportional to the
-//! distance from the axis (a prescription brings its own).
+//! At the wavelength λ the image is m(λ) times as large as at 587.56 nm, about the principal point: the light of λ at a sensor point s comes from the
+//! direction that 587.56 nm has at s/m(λ), before any distortion. m is interpolated linearly between the points of the table and clamped beyond; only
+//! ratios matter, so the table is divided by its value at 587.56 nm. Weights stay those of the sensor point itself. Typical lenses keep |m − 1| below
+//! 0.002. Left out: displacements that are not proportional to the distance from the axis (a prescription has its own).
 
 use core::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
@@ -35,11 +33,11 @@ pub(crate) struct ParaxialProperties {
     pub(crate) transmittance: f64,
     /// Radial distortion; `None` for a rectilinear lens.
     pub(crate) distortion: Option<RadialDistortion>,
-    /// Image size by wavelength; `None` where all colours are alike.
+    /// Image size by wavelength; `None` if it is the same at all wavelengths.
     pub(crate) lateral_colour: Option<Arc<LateralColour>>,
 }
 
-/// A lens without lateral colour does not mention it.
+/// A lens without lateral colour omits the field.
 impl Debug for ParaxialProperties {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut text = f.debug_struct("ParaxialProperties");
@@ -92,11 +90,11 @@ pub struct PupilStatements {
     pub pupil_magnification: Option<f64>,
 }
 
-/// How far two statements of the pupil magnification may part, relative.
+/// Maximum relative difference between two statements of the pupil magnification.
 const PUPIL_AGREEMENT: f64 = 1e-6;
 
 impl PupilStatements {
-    /// The pupil magnification that the statements mean; 1 where there is none.
+    /// The pupil magnification given by the statements; 1 if there is none.
     pub(super) fn magnification(&self, focal_mm: f64, separation_mm: f64) -> Result<f64, OpticsError> {
         let position = |m: f64| separation_mm + focal_mm * (1.0 - m);
         let entrance = self.entrance_pupil_mm.map(|p| ("entrance_pupil_mm", p, focal_mm / (focal_mm + p)));
@@ -139,7 +137,7 @@ impl Conjugates {
     pub(crate) fn new(focal_mm: f64, pupil_magnification: f64, focus_m: f64) -> Result<Self, OpticsError> {
         let inverse_focus_per_mm = MM / focus_m;
         let least_mm = focal_mm / pupil_magnification;
-        // Written with the inverse so that infinity is no special case: |m| = f/F / (1 − f/(m_p F)).
+        // Written with the inverse so that infinity needs no special case: |m| = f/F / (1 − f/(m_p F)).
         let room = 1.0 - least_mm * inverse_focus_per_mm;
         if focus_m.is_nan() || focus_m <= 0.0 || room <= 0.0 {
             return Err(OpticsError::FocusTooNear { focus_m, least_m: least_mm * MM });
@@ -156,7 +154,7 @@ impl Conjugates {
     }
 }
 
-/// The entrance pupil that an f-number means.
+/// The entrance pupil of an f-number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PupilSize {
     /// Radius f/2N, mm.
@@ -176,7 +174,7 @@ impl PupilSize {
     }
 }
 
-/// What a relative illumination goes by.
+/// The argument of a relative illumination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FalloffBy {
     /// The distance from the principal point, mm.
@@ -194,14 +192,14 @@ impl FalloffBy {
     }
 }
 
-/// A table, linear between its points; the end value holds beyond.
+/// A table of relative illumination: linear interpolation, the end value beyond.
 #[derive(Clone, PartialEq)]
 pub struct Falloff {
     by: FalloffBy,
     points: Vec<(f64, f64)>,
 }
 
-/// A table by radius has the text (and plans have the hashes) that it had before there were others.
+/// A table by radius keeps the text (and plans keep the hashes) of versions without other arguments.
 impl Debug for Falloff {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut text = f.debug_struct("Falloff");
@@ -213,18 +211,18 @@ impl Debug for Falloff {
 }
 
 impl Falloff {
-    /// The table of distances (mm, rising from 0) and ratios (0 or more, from 1).
+    /// Creates the table of distances (mm, rising from 0) and ratios (0 or more, from 1).
     ///
     /// # Errors
-    /// Where the points are not so.
+    /// If the points violate this.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         Self::over(FalloffBy::Radius, points)
     }
 
-    /// The table of distances (mm) or angles (degrees), rising from 0, and ratios (0 or more, from 1).
+    /// Creates the table of distances (mm) or angles (degrees), rising from 0, and ratios (0 or more, from 1).
     ///
     /// # Errors
-    /// Where the points are not so.
+    /// If the points violate this.
     pub fn over(by: FalloffBy, points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         let rising = points.windows(2).all(|pair| pair[1].0 > pair[0].0);
         let legal = points.iter().all(|(r, ratio)| r.is_finite() && ratio.is_finite() && *ratio >= 0.0);
@@ -235,13 +233,13 @@ impl Falloff {
         }
     }
 
-    /// What it goes by.
+    /// The argument of the table.
     #[must_use]
     pub fn by(&self) -> FalloffBy {
         self.by
     }
 
-    /// Refuses a picture that reaches beyond the table.
+    /// Refuses an image that reaches beyond the table.
     pub(super) fn check(&self, needed: f64) -> Result<(), OpticsError> {
         let end = self.points.last().map_or(0.0, |(r, _)| *r);
         if end >= needed { Ok(()) } else { Err(OpticsError::FalloffEnds { end, needed, unit: self.by.unit() }) }
@@ -266,10 +264,10 @@ pub struct LateralColour {
 }
 
 impl LateralColour {
-    /// The table of wavelengths (nm, rising) and magnifications (above 0).
+    /// Creates the table of wavelengths (nm, rising) and magnifications (above 0).
     ///
     /// # Errors
-    /// Where the points are not so, or fewer than two.
+    /// If the points violate this or are fewer than two.
     pub fn new(mut points: Vec<(f64, f64)>) -> Result<Self, OpticsError> {
         let rising = points.windows(2).all(|pair| pair[1].0 > pair[0].0);
         let legal = points.iter().all(|(nm, m)| nm.is_finite() && m.is_finite() && *nm > 0.0 && *m > 0.0);

@@ -5,17 +5,17 @@ use glam::{DVec2, DVec3};
 
 use super::Lens;
 
-/// The ray by which ground truth looks.
+/// The ray of ground truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruthRay {
     /// The ray.
     pub ray: PupilRay,
-    /// Whether the chief ray is clipped and this one goes through the centroid of the open part of the pupil instead.
+    /// True if the chief ray is clipped and this one goes through the centroid of the open part of the pupil instead.
     pub off_centre: bool,
 }
 
 impl Lens {
-    /// The ray of a sensor point (mm) through a pupil sample in [0, 1)² at a wavelength; `None` where no light comes.
+    /// The ray of a sensor point (mm) through a pupil sample in [0, 1)² at a wavelength; `None` if no light comes.
     #[must_use]
     pub fn ray(&self, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
         each!(self,
@@ -27,8 +27,8 @@ impl Lens {
         )
     }
 
-    /// The ray of a sensor point through the centre of the entrance pupil, its weight that of the small-pupil limit;
-    /// `None` where it is clipped or the sensor point has no image.
+    /// The ray of a sensor point through the centre of the entrance pupil, its weight that of the small-pupil limit; `None` if it is clipped or the
+    /// sensor point has no image.
     #[must_use]
     pub fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
         each!(self,
@@ -40,8 +40,8 @@ impl Lens {
         )
     }
 
-    /// The ray by which ground truth looks: the principal ray, or, where that is clipped but light arrives, the ray through
-    /// the centroid of the open part of the pupil. `None` where no light comes.
+    /// The ray of ground truth: the principal ray or, if that is clipped but light arrives, the ray through the centroid of the open part of the
+    /// pupil. `None` if no light arrives.
     #[must_use]
     pub fn truth_ray(&self, sensor_mm: DVec2) -> Option<TruthRay> {
         if let Some(ray) = self.principal_ray(sensor_mm) {
@@ -56,8 +56,8 @@ impl Lens {
         }
     }
 
-    /// Where a direction of the camera frame (any length) is seen, mm; `None` outside the field, beyond a fold, and for a
-    /// telecentric camera, which sees a single direction. Clipping is not looked at.
+    /// The sensor point of a direction of the camera frame (any length), mm; `None` outside the field, beyond a fold, and for a telecentric camera,
+    /// which sees a single direction. Clipping is ignored.
     #[must_use]
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
         let ideal_mm = || self.rectilinear().project(direction);
@@ -70,7 +70,7 @@ impl Lens {
         )
     }
 
-    /// Irradiance of a sensor point per uniform radiance, sr; 0 where no light comes.
+    /// Irradiance of a sensor point per uniform radiance, sr; 0 if no light arrives.
     #[must_use]
     pub fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         each!(self,
@@ -82,8 +82,8 @@ impl Lens {
         )
     }
 
-    /// Whether a ray or its weight depends on the wavelength: glasses that disperse, coatings, a filter, lateral colour. A
-    /// sample's ray then serves one wavelength only.
+    /// True if a ray or its weight depends on the wavelength: dispersive glasses, coatings, a filter, lateral colour. A sample's ray then serves one
+    /// wavelength only.
     #[must_use]
     pub fn disperses(&self) -> bool {
         let own = match self {
@@ -94,7 +94,7 @@ impl Lens {
         own || self.lateral_colour().is_some()
     }
 
-    /// Whether the chief ray of a sensor point depends on the wavelength: lateral colour.
+    /// True if the chief ray of a sensor point depends on the wavelength: lateral colour.
     #[must_use]
     pub fn spreads_colours(&self) -> bool {
         let own = match self {

@@ -1,11 +1,11 @@
-//! Numerical tools of traced lenses: searches for the edges of what lets light through, and a rule of integration.
+//! Numerical tools for traced lenses: searches for the edges of open regions, and an integration rule.
 
 use core::f64::consts::TAU;
 
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
 
-/// The last open place between an open one and a closed one, by so many bisections.
+/// The last open position between an open and a closed one, by a number of bisections.
 pub(super) fn last_open(mut bracket: [f64; 2], halvings: usize, is_open: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..halvings {
         let middle = 0.5 * (bracket[0] + bracket[1]);
@@ -14,7 +14,7 @@ pub(super) fn last_open(mut bracket: [f64; 2], halvings: usize, is_open: impl Fn
     bracket[0]
 }
 
-/// The greatest distance up to `reach_mm` below which all are lit, looked for at so many steps; `None` where the first is dark.
+/// The largest distance up to `reach_mm` below which all steps are lit; `None` if the first is dark.
 pub(super) fn lit_as_far_as(reach_mm: f64, steps: usize, is_lit: impl Fn(f64) -> bool) -> Option<f64> {
     let at = |i: usize| reach_mm * i as f64 / steps as f64;
     let Some(dark) = (0..=steps).find(|i| !is_lit(at(*i))) else { return Some(reach_mm) };
@@ -27,7 +27,7 @@ pub(super) fn unit(angle_rad: f64) -> DVec2 {
     DVec2::new(cos, sin)
 }
 
-/// The unit vector of one of some directions all around.
+/// The unit vector of one of a number of directions around the circle.
 pub(super) fn towards(i: usize, directions: usize) -> DVec2 {
     unit(TAU * i as f64 / directions as f64)
 }

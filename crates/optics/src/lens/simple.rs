@@ -1,30 +1,27 @@
 //! Lenses without thickness: a pinhole, a thin lens, a parallel camera.
 //!
-//! A pinhole: every point of the scene is sharp, and a nominal f-number says how much light there is.
+//! A pinhole: every point of the scene is sharp, and a nominal f-number sets the irradiance.
 //!
-//! Irradiance of the limit of small pupils: E = τ π L cos⁴ θ′ / (4N²), with θ′ the angle at which the pinhole is seen from
-//! the sensor point itself (after distortion). All light passes through one point, so the pupil sample changes nothing. The
-//! distance from sensor to pinhole is the focal length. Diffraction, which would make a real pinhole of this f-number
-//! unsharp or a large one blurred, is left out.
+//! Irradiance in the small-pupil limit: E = τ π L cos⁴ θ′ / (4N²), with θ′ the angle at which the pinhole is seen from the sensor point itself (after
+//! distortion). All light passes through one point, so the pupil sample changes nothing. The distance from sensor to pinhole is the focal length.
+//! Left out: diffraction, which would blur the image of a real pinhole of this f-number, and the geometric blur of a large one.
 //!
 //! A thin lens: refraction in one plane, perfect imaging of the plane in focus, a finite pupil.
 //!
-//! The lens is a flat disc of diameter f/N and is both pupils. The sensor stands at the image distance of the lens
-//! equation, c = f F/(F − f) for a focus distance F, so that close focus costs light (the bellows factor) by geometry alone.
-//! The weight is the exact τ ∫ cos θ cos θ′ / d² dA over the disc, sampled uniformly by area; its mean is Foote's form
-//! factor. On the axis at infinity focus E = π τ L / (1 + 4N²): the **flat-disc convention** tan θ′ = 1/2N (a lens that obeys
-//! the sine condition would give π τ L / 4N²).
+//! The lens is a flat disc of diameter f/N and is both pupils. The sensor is at the image distance of the lens equation, c = f F/(F − f) for a focus
+//! distance F, so close focus loses light (the bellows factor) by geometry alone. The weight is the exact τ ∫ cos θ cos θ′ / d² dA over the disc,
+//! sampled uniformly by area; its mean is Foote's form factor. On the axis at infinity focus E = π τ L / (1 + 4N²): the **flat-disc convention** tan
+//! θ′ = 1/2N (a lens that obeys the sine condition would give π τ L / 4N²).
 //!
-//! All rays of a sensor point meet in the point of the plane in focus that its chief ray meets. With a distortion the
-//! chief ray is the ideal point's, and the disc is seen from the sensor point itself. Left out: aberrations, dispersion,
-//! diffraction, and a mount that clips.
+//! All rays of a sensor point meet in the point of the plane in focus that its chief ray meets. With a distortion the chief ray is the ideal point's,
+//! and the disc is seen from the sensor point itself. Left out: aberrations, dispersion, diffraction, and a clipping mount.
 //!
-//! A parallel (orthographic) camera: every pixel looks along the axis, from its own place.
+//! A parallel (orthographic) camera: every pixel looks along the axis, from its own position.
 //!
-//! The ideal of a lens that is telecentric on the side of the scene, with everything sharp: all its pencils have the same
-//! working f-number N on the sensor's side, so E = π τ L/(4 N²) over the whole picture (small-pupil limit). Sizes do not
-//! depend on distance: a length in the picture is the width of the field over that of the picture times as long. The camera's
-//! position is the middle of a plane across the axis from which the rays begin; it sees nothing behind that plane.
+//! The ideal of an object-side telecentric lens, with everything sharp: all its pencils have the same working f-number N on the sensor's side, so E =
+//! π τ L/(4 N²) over the whole image (small-pupil limit). Sizes do not depend on distance: lengths in the scene and in the image have a constant
+//! ratio, the width of the field over that of the image. The camera's position is the centre of a plane perpendicular to the axis from which the rays
+//! begin; it sees nothing behind that plane.
 
 use core::f64::consts::PI;
 
@@ -36,7 +33,7 @@ use crate::error::OpticsError;
 use crate::overlap::{PRINCIPAL_NM, f_number, positive};
 use crate::pupil::{Pencil, PupilView, concentric_disc};
 
-/// What a pinhole is made of.
+/// Parameters of a pinhole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PinholeParameters {
     /// Distance from sensor to pinhole, mm.
@@ -52,15 +49,15 @@ pub struct PinholeParameters {
 pub struct Pinhole {
     pub(super) properties: ParaxialProperties,
     parameters: PinholeParameters,
-    /// The nominal pupil, used in the limit of small pupils only.
+    /// The nominal pupil, used in the small-pupil limit only.
     pupil: PupilView,
 }
 
 impl Pinhole {
-    /// A pinhole.
+    /// Creates a pinhole.
     ///
     /// # Errors
-    /// Where a parameter is outside its range.
+    /// If a parameter is outside its range.
     pub fn new(parameters: PinholeParameters) -> Result<Self, OpticsError> {
         let distance_mm = positive("focal_length_mm", parameters.focal_length_mm)?;
         let radius_mm = distance_mm / (2.0 * f_number(parameters.f_number)?);
@@ -68,7 +65,7 @@ impl Pinhole {
         Ok(Self { properties, parameters, pupil: PupilView { distance_mm, radius_mm } })
     }
 
-    /// What the pinhole was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &PinholeParameters {
         &self.parameters
@@ -93,7 +90,7 @@ impl Pinhole {
     }
 }
 
-/// What a thin lens is made of.
+/// Parameters of a thin lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinParameters {
     /// Focal length, mm.
@@ -116,17 +113,17 @@ pub struct Thin {
 }
 
 impl Thin {
-    /// A thin lens.
+    /// Creates a thin lens.
     ///
     /// # Errors
-    /// Where a parameter is outside its range or the focus distance not beyond the focal length.
+    /// If a parameter is outside its range or the focus distance not beyond the focal length.
     pub fn new(parameters: ThinParameters) -> Result<Self, OpticsError> {
         let size = PupilSize::new(parameters.focal_length_mm, parameters.f_number)?;
         let conjugates = Conjugates::new(parameters.focal_length_mm, 1.0, parameters.focus_distance_m)?;
         Ok(Self { properties: ParaxialProperties::new(parameters.transmittance)?, parameters, conjugates, size })
     }
 
-    /// What the lens was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &ThinParameters {
         &self.parameters
@@ -164,10 +161,10 @@ impl Thin {
     }
 }
 
-/// What a telecentric camera is made of.
+/// Parameters of a telecentric camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TelecentricParameters {
-    /// Length in the scene that one millimetre of the sensor sees, m.
+    /// Length in the scene per millimetre of the sensor, m.
     pub metres_per_mm: f64,
     /// f-number N on the sensor's side.
     pub f_number: f64,
@@ -183,10 +180,10 @@ pub struct Telecentric {
 }
 
 impl Telecentric {
-    /// A telecentric camera.
+    /// Creates a telecentric camera.
     ///
     /// # Errors
-    /// Where a parameter is outside its range.
+    /// If a parameter is outside its range.
     pub fn new(parameters: TelecentricParameters) -> Result<Self, OpticsError> {
         positive("field_width_m", parameters.metres_per_mm)?;
         let n = f_number(parameters.f_number)?;
@@ -194,7 +191,7 @@ impl Telecentric {
         Ok(Self { parameters, weight_sr: transmittance * PI / (4.0 * n * n) })
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &TelecentricParameters {
         &self.parameters

@@ -1,4 +1,4 @@
-//! A thick lens to first order: two principal planes, two pupils, two rims.
+//! A thick lens to first order: two principal planes, two pupils, two apertures.
 //!
 //! # Parameters (keys of `[lens]`)
 //!
@@ -14,36 +14,34 @@
 //! | `entrance_pupil_mm` | position p of the entrance pupil | one of these three |
 //! | `exit_pupil_mm` | position of the exit pupil, p′ behind H′: separation + p′ | at most; without |
 //! | `pupil_magnification` | m_p = exit / entrance diameter, > 0 | any, m_p = 1 |
-//! | `constant_pupil` | `"entrance"` or `"exit"`: which pupil keeps its area over the field | required |
-//! | `front_aperture`, `rear_aperture` | `{ position_mm, radius_mm }`: round openings before and behind the lens that clip | none |
+//! | `constant_pupil` | `"entrance"` or `"exit"`: the pupil that keeps its area over the field | required |
+//! | `front_aperture`, `rear_aperture` | `{ position_mm, radius_mm }`: round clipping apertures before and behind the lens | none |
 //!
 //! # Consistency
 //!
-//! Both pupils are images of one stop, so each is the image of the other: p′ = p f/(f + p) and m_p = p′/p = f/(f + p) =
-//! 1 − p′/f. One of the three keys therefore fixes the others: p = f (1/m_p − 1), p′ = f (1 − m_p). Giving more than one is
-//! legal where they agree (to 1e-6 in m_p); else it is a contradiction and is refused.
+//! Both pupils are images of one stop, so each is the image of the other: p′ = p f/(f + p) and m_p = p′/p = f/(f + p) = 1 − p′/f. One of the three
+//! keys therefore determines the others: p = f (1/m_p − 1), p′ = f (1 − m_p). Several keys are legal if they agree (to 1e-6 in m_p); a contradiction
+//! is refused.
 //!
 //! # Light
 //!
-//! A point of the exit pupil is imaged to the point of the entrance pupil 1/m_p times as far from the axis; a sensor point
-//! to the point in the plane in focus; the ray joins both. The exit pupil stands m_p c from the sensor (c of `focus.rs`), so
-//! on the axis E = π τ L / (1 + 4N²(1 − m/m_p)²) with m < 0 for a real image: the classical form with
-//! the **flat-disc convention** tan θ′ = 1/(2N (1 − m/m_p)).
+//! A point of the exit pupil is imaged to the point of the entrance pupil 1/m_p times as far from the axis; a sensor point is imaged to the plane in
+//! focus; the ray joins both image points. The exit pupil is m_p c from the sensor (c of `focus.rs`), so on the axis E = π τ L / (1 + 4N²(1 −
+//! m/m_p)²) with m < 0 for a real image: the classical form with the **flat-disc convention** tan θ′ = 1/(2N (1 − m/m_p)).
 //!
-//! Off the axis a flat disc of fixed size cannot be both pupils at once (étendue would not be conserved; the two choices
-//! part by 1.52 at 30° for m_p = 2), so the lens says which pupil keeps its area:
-//! - `exit`: the exit pupil has its radius everywhere; irradiance falls with cos⁴ θ′ of the angle in image space.
-//! - `entrance`: the entrance pupil has its radius everywhere; irradiance falls with cos⁴ θ of the field angle (times
-//!   the area ratio of the distortion).
+//! Off the axis a flat disc of fixed size cannot be both pupils at once (étendue would not be conserved; the two choices differ by a factor of 1.52
+//! at 30° for m_p = 2), so the lens states the pupil that keeps its area:
+//! - `exit`: the exit pupil keeps its radius; irradiance falls with cos⁴ θ′ of the angle in image space.
+//! - `entrance`: the entrance pupil keeps its radius; irradiance falls with cos⁴ θ of the field angle (times the area ratio of the distortion).
 //!
 //! The other pupil's radius is then scaled by √g or 1/√g, g = cos⁴θ · (ideal area per observed area) / cos⁴θ′, which
 //! conserves étendue along the chief ray.
 //!
-//! Rims clip the straight rays (object-side ray at the front rim, image-side ray at the rear rim): mechanical vignetting is
-//! the common part of pupil and projected rims, three circles whose centres lie on one line. A rim that clips on the axis is
-//! refused, for the f-number would not be what it says.
+//! The apertures clip the straight rays (object-side ray at the front aperture, image-side ray at the rear aperture). Mechanical vignetting is the
+//! intersection of the pupil and the projected apertures, three circles whose centres lie on one line. An aperture that clips on the axis is refused,
+//! because the f-number would not hold.
 //!
-//! With m_p = 1, no rims and no distortion this is the thin lens. Left out: aberrations, dispersion, diffraction, and
+//! With m_p = 1, no apertures and no distortion this is the thin lens. Left out: aberrations, dispersion, diffraction, and
 //! telecentric lenses (a pupil at infinity).
 
 use etendue_core::ray::PupilRay;
@@ -54,7 +52,7 @@ use crate::error::OpticsError;
 use crate::overlap::{Disc, PRINCIPAL_NM, clipped_etendue_sr, finite, open_centroid, positive};
 use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
 
-/// What a thick lens is made of. Positions: mm from the front principal plane, positive towards the sensor.
+/// Parameters of a thick lens. Positions: mm from the front principal plane, positive towards the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThickParameters {
     /// Focal length, mm.
@@ -67,13 +65,13 @@ pub struct ThickParameters {
     pub transmittance: f64,
     /// Position of the rear principal plane, mm.
     pub principal_separation_mm: f64,
-    /// What is known about the pupils.
+    /// Statements about the pupils.
     pub pupils: PupilStatements,
-    /// Which pupil keeps its area over the field.
+    /// The pupil that keeps its area over the field.
     pub constant_pupil: ConstantPupil,
-    /// An opening before the lens.
+    /// Aperture before the lens.
     pub front_aperture: Option<Rim>,
-    /// An opening behind the lens.
+    /// Aperture behind the lens.
     pub rear_aperture: Option<Rim>,
 }
 
@@ -86,7 +84,7 @@ pub enum ConstantPupil {
     Exit,
 }
 
-/// A round opening centred on the axis.
+/// A round aperture centred on the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rim {
     /// Position, mm.
@@ -106,7 +104,7 @@ pub struct Thick {
     rims: Rims,
 }
 
-/// The rims as the pupils see them; distances in mm.
+/// The front and rear apertures relative to the pupils; distances in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rims {
     /// Distance from the entrance pupil towards the scene, and radius.
@@ -115,19 +113,19 @@ struct Rims {
     rear: Option<[f64; 2]>,
 }
 
-/// Everything about one sensor point.
+/// The bundle of one sensor point.
 struct Bundle {
     pencil: Pencil,
-    /// The exit pupil from the sensor point.
+    /// The exit pupil as seen from the sensor point.
     view: PupilView,
     entrance_radius_mm: f64,
 }
 
 impl Thick {
-    /// A thick lens.
+    /// Creates a thick lens.
     ///
     /// # Errors
-    /// Where a parameter is outside its range, statements contradict each other, or a rim clips on the axis.
+    /// If a parameter is outside its range, statements contradict each other, or an aperture clips on the axis.
     pub fn new(parameters: ThickParameters) -> Result<Self, OpticsError> {
         let p = &parameters;
         let size = PupilSize::new(p.focal_length_mm, p.f_number)?;
@@ -148,7 +146,7 @@ impl Thick {
         Ok(lens)
     }
 
-    /// What the lens was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &ThickParameters {
         &self.parameters
@@ -191,14 +189,14 @@ impl Thick {
         self.through(sensor_mm, DVec2::ZERO, PRINCIPAL_NM)
     }
 
-    /// The ray through the centroid of what the rims leave open of the pupil.
+    /// The ray through the centroid of the unvignetted part of the pupil.
     pub(super) fn centroid_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
         let bundle = self.bundle(sensor_mm)?;
         let centroid = open_centroid(self.rim_discs(&bundle, sensor_mm.length()))?;
         self.through(sensor_mm, sensor_mm.normalize_or(DVec2::X) * centroid, PRINCIPAL_NM)
     }
 
-    /// The ray through the point `q` of the unit disc that both pupils are; `None` where a rim stops it.
+    /// The ray through the point `q` of the unit disc that maps to both pupils; `None` if an aperture stops it.
     fn through(&self, sensor_mm: DVec2, q: DVec2, nm: f64) -> Option<PupilRay> {
         let bundle = self.bundle(sensor_mm)?;
         let axis = sensor_mm.normalize_or(DVec2::X);
@@ -231,7 +229,7 @@ impl Thick {
         Some(self.properties.ideal_at(sensor_mm, nm)? / self.conjugates.principal_distance_mm)
     }
 
-    /// At 587.56 nm, as rims and pupils stay where they are at other wavelengths.
+    /// The bundle at 587.56 nm; apertures and pupils do not depend on the wavelength.
     fn bundle(&self, sensor_mm: DVec2) -> Option<Bundle> {
         let tangent = self.tangent(sensor_mm, PRINCIPAL_NM)?;
         let entrance_mm = self.size.entrance_radius_mm;
@@ -248,14 +246,14 @@ impl Thick {
         })
     }
 
-    /// √g: the exit pupil's radius where the entrance pupil is constant, over its radius on the axis.
+    /// √g: the radius of the exit pupil over its radius on the axis, where the entrance pupil is constant.
     fn exit_growth(&self, sensor_mm: DVec2, tangent: DVec2) -> Option<f64> {
         let image_tangent = sensor_mm / self.exit_distance_mm();
         let secants = (1.0 + image_tangent.length_squared()) / (1.0 + tangent.length_squared());
         Some(secants * self.properties.ideal_area_per_observed(sensor_mm)?.sqrt())
     }
 
-    /// The rims as discs in the plane of the unit disc, centres along the direction of the sensor point.
+    /// The apertures as discs in the plane of the unit disc, centres along the direction of the sensor point.
     fn rim_discs(&self, bundle: &Bundle, sensor_radius_mm: f64) -> [Option<Disc>; 2] {
         let front = self.rims.front.map(|[towards_scene, radius]| {
             let scale = bundle.entrance_radius_mm * (1.0 - towards_scene * self.conjugates.inverse_focus_per_mm);
@@ -302,7 +300,7 @@ impl Thick {
     }
 }
 
-/// Rounding that a rim as wide as the bundle may have.
+/// Tolerance for an aperture as wide as the bundle.
 const RIM_ROUNDING: f64 = 1e-12;
 
 fn rim_is_wide_enough(rim: &'static str, radius_mm: f64, needed_mm: f64) -> Result<(), OpticsError> {

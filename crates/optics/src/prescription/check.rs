@@ -1,4 +1,4 @@
-//! From what a maker states to a checked prescription, open and in focus: what makes a list of surfaces a lens.
+//! Checks of a prescription, and the steps from the stated surfaces to a lens that is opened and focused.
 
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;
@@ -10,7 +10,7 @@ use super::trace::{self, LensRay, Loss, Lost, Rims, Way, walk};
 use super::{Prescription, PrescriptionParameters, coating::Coating, focus, indices::IndexTable};
 use crate::error::PrescriptionError;
 
-/// Checks every surface by itself and counts the stops: the stop's place, from 0.
+/// Checks every surface by itself and counts the stops; returns the index of the stop, from 0.
 pub(super) fn check_surfaces(surfaces: &[Surface]) -> Result<usize, PrescriptionError> {
     if surfaces.is_empty() {
         return Err(PrescriptionError::Empty);
@@ -26,7 +26,7 @@ fn finite_number(surface: usize, name: &'static str, value: f64) -> Result<f64, 
     if value.is_finite() { Ok(value) } else { Err(PrescriptionError::Number { surface, name, value, expected }) }
 }
 
-/// A wavelength that the tables of indices know.
+/// A wavelength within the range of the index tables.
 fn reference(nm: f64) -> Result<f64, PrescriptionError> {
     if (SHORTEST_NM..=MAX_NM).contains(&nm) { Ok(nm) } else { Err(PrescriptionError::Wavelength { nm }) }
 }
@@ -61,13 +61,13 @@ fn rim(surface: usize, s: &Surface) -> Result<(), PrescriptionError> {
     if ends { Err(PrescriptionError::Equator { surface, semi_aperture_mm }) } else { Ok(()) }
 }
 
-/// Heights at which neighbours are compared.
+/// Heights at which neighbouring surfaces are compared.
 const HEIGHTS: usize = 64;
-/// Rounding of a sag, mm: surfaces may touch.
+/// Tolerance of a sag, mm: surfaces may touch.
 const TOUCHING_MM: f64 = 1e-9;
 
-/// Neighbouring refracting surfaces must not cross within both their clear apertures. Surfaces that do not refract (a stop
-/// in air, a dummy) may stand where they like.
+/// Checks that neighbouring refracting surfaces do not cross within both their clear apertures. Surfaces that do not refract (a stop in air, a dummy)
+/// may be anywhere.
 pub(super) fn overlaps(surfaces: &[Surface]) -> Result<(), PrescriptionError> {
     let mut z_mm = 0.0;
     let mut before: Option<(usize, f64)> = None;
@@ -99,15 +99,15 @@ fn overlap(pair: [&Surface; 2], gap_mm: f64, first: usize, second: usize) -> Res
     Ok(())
 }
 
-/// How much of the entrance pupil, from its centre, must be open on the axis: published apertures are rounded.
+/// Fraction of the entrance pupil, from its centre, that must be open on the axis: published apertures are rounded.
 const OPEN: f64 = 0.99;
-/// The same where other rims may clip: what is less is rounding.
+/// The same if other clear apertures may clip: below it the difference is more than rounding.
 const OPEN_OR_CLIPPED: f64 = 0.999;
 const STEPS: usize = 32;
-/// Halvings of a step: to its rounding.
+/// Bisections of a step, down to rounding.
 const HALVINGS: usize = 50;
 
-/// The bundle of the axial point in focus must come through: without total reflection, and stopped by the stop alone unless other rims
+/// Checks that the bundle of the axial point in focus passes: without total reflection, and limited by the stop alone unless other clear apertures
 /// may clip it.
 fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result<AxialOpening, PrescriptionError> {
     let open = if other_rims == OtherRims::Clip { OPEN_OR_CLIPPED } else { OPEN };
@@ -131,13 +131,13 @@ fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result<AxialOpeni
     Ok(AxialOpening::STOP)
 }
 
-/// The loss of the ray at a share of the entrance pupil's radius, at the reference wavelength; `None` where it comes through.
+/// The loss of the ray at a fraction of the entrance pupil's radius, at the reference wavelength; `None` if it passes.
 fn lost_at(lens: &Prescription, share: f64) -> Option<Lost> {
     let ray = axial_ray(lens, share * lens.paraxial.entrance_radius_mm);
     walk(&lens.elements, 0, Way::ToSensor, &lens.media(lens.reference_nm), ray, &mut Rims::Clip).err()
 }
 
-/// The largest share that comes through, between one that does and one that does not.
+/// The largest passing fraction, between one that passes and one that does not.
 fn edge(lens: &Prescription, mut passes: f64, mut lost: f64) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (passes + lost);
@@ -150,7 +150,7 @@ fn edge(lens: &Prescription, mut passes: f64, mut lost: f64) -> f64 {
     passes
 }
 
-/// From the axial point in focus through a height of the entrance pupil.
+/// The ray from the axial point in focus through a height of the entrance pupil.
 fn axial_ray(lens: &Prescription, height_mm: f64) -> LensRay {
     let pupil = DVec3::new(height_mm, 0.0, lens.paraxial.entrance_pupil_position_mm);
     let slope = height_mm / (lens.focus_distance_m * 1e3);
@@ -158,10 +158,10 @@ fn axial_ray(lens: &Prescription, height_mm: f64) -> LensRay {
 }
 
 impl Prescription {
-    /// A checked and focused lens.
+    /// Creates a checked and focused lens.
     ///
     /// # Errors
-    /// Where the surfaces are no lens, or it cannot be focused as asked.
+    /// If the surfaces do not form a lens, or it cannot be focused as requested.
     pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
         let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm, reference_nm, other_rims } = parameters;
         let stop = check_surfaces(&surfaces)?;

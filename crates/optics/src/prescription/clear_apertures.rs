@@ -1,10 +1,10 @@
-//! Clear semi-apertures where a lens file states none: as large as the light of its field points needs.
+//! Clear semi-apertures for a lens file that states none: as large as the light of its field points needs.
 //!
-//! Lens programs find them so: from the chief ray and the marginal rays of every field, real ones, aimed at the real stop. Here the rays lie in the
-//! meridional plane. Each begins at its point of the stop, and its slope there is sought for which it goes to the field point; a surface's
-//! semi-aperture is the largest height at which one of them crosses it. Vignetting factors take off part of the stop at its upper and its lower
-//! end, field by field. Rays beside the meridional plane are not traced: where both ends of the bundle are vignetted by more
-//! than some nine tenths, they might need a little more.
+//! The method of lens-design programs: chief and marginal rays of every field, real ones, aimed at the real stop. Here the rays lie in the meridional
+//! plane. Each begins at its point of the stop, and its slope there is searched so that it reaches the field point; a surface's semi-aperture is the
+//! largest height at which one of them crosses it. Vignetting factors remove part of the stop at its upper and lower ends, field by field. Rays
+//! outside the meridional plane are not traced: where both ends of the bundle are vignetted by more than about nine tenths, they might need a little
+//! more.
 
 use core::f64::consts::PI;
 
@@ -27,26 +27,26 @@ pub enum FieldPoint {
         /// Distance of the plane before the first vertex, mm.
         distance_mm: f64,
     },
-    /// What is imaged at this distance from the axis, mm, in the sensor's plane.
+    /// Image height in the sensor plane, mm.
     Image(f64),
 }
 
-/// A field point and how much of the stop's radius it lights.
+/// A field point and the lit fraction of the stop's radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldBundle {
-    /// Where its light comes from.
+    /// Origin of its light.
     pub point: FieldPoint,
-    /// Shares of the stop's radius from its centre to the upper and to the lower marginal ray.
+    /// Fractions of the stop's radius from its centre to the upper and to the lower marginal ray.
     pub reach: [f64; 2],
 }
 
-/// Steps of the search for a slope, rad, and its end on either side of the axis.
+/// Step of the slope search, rad, and its limit on either side of the axis.
 const STEP: f64 = 0.25 * PI / 180.0;
 const STEEPEST: f64 = 85.0 * PI / 180.0;
-/// Halvings of that step: to its rounding.
+/// Bisections of that step, down to rounding.
 const HALVINGS: usize = 50;
 
-/// The heights that rays need at every surface, mm; the stop's is `stop_mm`.
+/// The heights of the rays at every surface, mm; the stop's is `stop_mm`.
 struct Heights {
     most_mm: Vec<f64>,
 }
@@ -59,11 +59,11 @@ impl Journey for Heights {
     }
 }
 
-/// The clear semi-apertures, mm, that bundles need at some wavelengths where the stop opens to `stop_mm`. Clear apertures of the lens itself do not
-/// count: it may be nearly closed. Of a bundle that does not come through, the place in the list is returned.
+/// The clear semi-apertures, mm, that bundles need at some wavelengths with the stop open to `stop_mm`. Clear apertures of the lens itself are
+/// ignored: it may be nearly closed. For a bundle that does not pass, returns its index in the list.
 ///
 /// # Errors
-/// Where a chief or marginal ray misses a surface or is totally reflected, or no ray goes to the field point.
+/// If a chief or marginal ray misses a surface or is totally reflected, or no ray reaches the field point.
 pub fn clear_apertures_mm(
     lens: &Prescription,
     stop_mm: f64,
@@ -114,7 +114,7 @@ impl FromStop<'_> {
         walk(before, 0, Way::ToScene, &self.media, self.ray(height_mm, angle)?, journey).ok()
     }
 
-    /// Where it meets the sensor's plane, mm.
+    /// Position where it meets the sensor plane, mm.
     fn image(&self, height_mm: f64, angle: f64, journey: &mut impl Journey) -> Option<f64> {
         let mut ray = self.ray(height_mm, angle)?;
         ray.direction = -ray.direction;
@@ -123,7 +123,7 @@ impl FromStop<'_> {
         Some(out.point.x + (self.lens.sensor_position_mm - out.point.z) * out.direction.x / out.direction.z)
     }
 
-    /// How far a ray passes its field point: an angle, or mm.
+    /// The distance by which a ray misses its field point: an angle, or mm.
     fn missed(&self, point: FieldPoint, height_mm: f64, angle: f64) -> Option<f64> {
         let missed = match point {
             FieldPoint::Angle(rad) => {
@@ -139,7 +139,7 @@ impl FromStop<'_> {
         Some(missed).filter(|x| x.is_finite())
     }
 
-    /// The angle at the stop at which a ray goes to the field point: of several the one nearest to a guess.
+    /// The angle at the stop at which a ray reaches the field point: of several the one nearest to a guess.
     fn aimed(&self, point: FieldPoint, height_mm: f64, guess: f64) -> Option<f64> {
         let missed = |angle: f64| self.missed(point, height_mm, angle);
         let at_guess = missed(guess);
@@ -167,7 +167,7 @@ impl FromStop<'_> {
     }
 }
 
-/// The root between two places; `b` is the value at the second.
+/// The root between two positions by bisection; `b` is the value at the second.
 fn halved(mut ends: [f64; 2], b: f64, f: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (ends[0] + ends[1]);
@@ -176,10 +176,10 @@ fn halved(mut ends: [f64; 2], b: f64, f: impl Fn(f64) -> Option<f64>) -> Option<
     Some(ends[1])
 }
 
-/// A clear semi-aperture, mm, that every surface can have while first-order quantities are found.
+/// A clear semi-aperture, mm, valid for every surface while first-order quantities are computed.
 #[must_use]
 pub fn provisional_mm(surfaces: &[Surface]) -> f64 {
-    /// Part of the strongest curvature's radius, or of a millimetre.
+    /// Fraction of the smallest radius of curvature, or of a millimetre.
     const PART: f64 = 0.01;
     surfaces.iter().map(|s| s.radius_mm.abs()).fold(1.0, f64::min) * PART
 }

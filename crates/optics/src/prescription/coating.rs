@@ -1,18 +1,17 @@
-//! What a surface lets through: unpolarised light, no absorption.
+//! Transmittance of a surface: unpolarised light, no absorption.
 //!
 //! - [`Coating::Uncoated`]: Fresnel (1823), the mean of both polarisations.
-//! - [`Coating::Constant`]: a number, whatever angle and wavelength.
-//! - [`Coating::QuarterWave`]: one layer of magnesium fluoride (n = 1.38, its dispersion left out), a quarter of the design
-//!   wavelength thick at normal incidence: R = |r₁ + r₂ e^{2iδ}|²/|1 + r₁ r₂ e^{2iδ}|², δ = (π/2)(λ₀/λ) cos θ in the
-//!   layer (Airy 1833). Where no layer could be there (both sides alike) the surface is open. Between
-//!   two denser glasses, beyond the layer's own critical angle, cos θ is imaginary and light tunnels.
+//! - [`Coating::Constant`]: a constant for all angles and wavelengths.
+//! - [`Coating::QuarterWave`]: one layer of magnesium fluoride (n = 1.38, its dispersion left out), a quarter of the design wavelength thick at
+//!   normal incidence: R = |r₁ + r₂ e^{2iδ}|²/|1 + r₁ r₂ e^{2iδ}|², δ = (π/2)(λ₀/λ) cos θ in the layer (Airy 1833). If both sides are the same medium
+//!   there is no layer and no reflection. Between two denser glasses, beyond the layer's own critical angle, cos θ is imaginary and light tunnels.
 //!
-//! An interference filter in front of the sensor: an IR-cut whose edge moves towards the blue with the angle.
+//! An interference filter in front of the sensor: an IR-cut filter whose edge shifts towards the blue with the angle.
 //!
-//! In the filter's layers light runs at θ′ with sin θ′ = sin θ/n_eff, and the phase between its layers goes with cos θ′/λ: at
-//! the angle θ the filter does to λ what it does at normal incidence to λ/√(1 − sin²θ/n_eff²), so an edge at λ₀ stands at
-//! λ₀ √(1 − sin²θ/n_eff²) (Macleod 1986). n_eff is 1.5 to 2.2 for usual stacks. Left out: what polarisation does to the edge's
-//! form, and the plate's thickness (give it as two plane surfaces of the prescription).
+//! In the filter's layers light propagates at θ′ with sin θ′ = sin θ/n_eff, and the phase between layers is proportional to cos θ′/λ. At the angle θ
+//! the filter therefore acts on λ as it does at normal incidence on λ/√(1 − sin²θ/n_eff²), so an edge at λ₀ shifts to λ₀ √(1 − sin²θ/n_eff²) (Macleod
+//! 1986). n_eff is 1.5 to 2.2 for usual stacks. Left out: the effect of polarisation on the edge's form, and the plate's thickness (give it as two
+//! plane surfaces of the prescription).
 
 use core::f64::consts::PI;
 
@@ -78,7 +77,7 @@ impl Crossing {
         0.5 * (a * a + b * b) / (both * both)
     }
 
-    /// With a layer of a quarter wave at normal incidence, at λ₀/λ.
+    /// Reflectance with a layer of a quarter wave at normal incidence, at λ₀/λ.
     fn layered_reflectance(&self, ratio: f64) -> f64 {
         let sine = self.n[0] / LAYER * (1.0 - self.cosine[0] * self.cosine[0]).max(0.0).sqrt();
         if sine >= 1.0 {
@@ -92,8 +91,8 @@ impl Crossing {
         0.5 * (airy(front[0], back[0]) + airy(front[1], back[1]))
     }
 
-    /// The same where the cosine in the layer is i κ: each side turns the phase by φ with tan(φ/2) = n_L κ/(n cos θ) (s) or
-    /// n κ/(n_L cos θ) (p), and the wave fades by e^{−π κ λ₀/λ} there and back.
+    /// The same for a cosine i κ in the layer: each side shifts the phase by φ with tan(φ/2) = n_L κ/(n cos θ) (s) or n κ/(n_L cos θ) (p), and the
+    /// wave decays by e^{−π κ λ₀/λ} over a round trip.
     fn tunnelled_reflectance(&self, ratio: f64, kappa: f64) -> f64 {
         let fades = exp(-PI * ratio * kappa);
         let polarised = |half: [f64; 2]| {
@@ -109,7 +108,7 @@ impl Crossing {
     }
 }
 
-/// A filter known by its transmittance at normal incidence.
+/// A filter given by its transmittance at normal incidence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InterferenceFilter {
     normal: Spectrum,
@@ -117,10 +116,10 @@ pub struct InterferenceFilter {
 }
 
 impl InterferenceFilter {
-    /// A filter of a transmittance at normal incidence and an effective index above 1.
+    /// Creates a filter from a transmittance at normal incidence and an effective index above 1.
     ///
     /// # Errors
-    /// Where the index is not above 1 or the transmittance leaves 0 to 1.
+    /// If the index is not above 1 or the transmittance leaves 0 to 1.
     pub fn new(normal: Spectrum, effective_index: f64) -> Result<Self, OpticsError> {
         if finite("effective_index", effective_index)? <= 1.0 {
             return Err(OpticsError::FilterIndex { value: effective_index });
@@ -132,13 +131,13 @@ impl InterferenceFilter {
         }
     }
 
-    /// Transmittance at a wavelength for light that arrives at an angle of this cosine (in air).
+    /// Transmittance at a wavelength for light incident at an angle of this cosine (in air).
     #[must_use]
     pub fn transmittance(&self, nm: f64, cosine: f64) -> f64 {
         f64::from(self.normal.at((nm / self.shift(cosine)) as f32))
     }
 
-    /// Where the edge stands at an angle of this cosine, over where it stands at normal incidence.
+    /// Wavelength of the edge at an angle of this cosine, relative to that at normal incidence.
     #[must_use]
     pub fn shift(&self, cosine: f64) -> f64 {
         let sine = (1.0 - cosine * cosine) / (self.effective_index * self.effective_index);
@@ -174,7 +173,7 @@ mod tests {
         // ((n₁ n₂ − n²)/(n₁ n₂ + n²))² at the design wavelength: 1.3 %.
         let exact: f64 = (1.52 - LAYER * LAYER) / (1.52 + LAYER * LAYER);
         assert!((1.0 - coated(550.0, 1.0) - exact * exact).abs() < 1e-15);
-        // At half the design wavelength the layer is half a wave thick and does nothing.
+        // At half the design wavelength the layer is half a wave thick and has no effect.
         assert!((coated(275.0, 1.0) - Coating::Uncoated.transmittance(&crossing(1.0, 1.52, 1.0), 275.0)).abs() < 1e-15);
         assert!(coated(400.0, 1.0) < coated(550.0, 1.0) && coated(550.0, 0.5) < coated(550.0, 1.0));
     }
@@ -184,7 +183,7 @@ mod tests {
         let coating = Coating::QuarterWave { design_nm: 550.0 };
         let at = |sine: f64| coating.transmittance(&crossing(1.7, 1.72, (1.0 - sine * sine).sqrt()), 550.0);
         let critical = LAYER / 1.7;
-        // Continuous there (the square root of the distance from it is what both sides go with), fading beyond.
+        // Continuous there (both sides vary with the square root of the distance from it), decaying beyond.
         assert!(
             (at(critical - 1e-12) - at(critical + 1e-12)).abs() < 1e-4,
             "{} {}",

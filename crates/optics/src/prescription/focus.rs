@@ -1,8 +1,8 @@
-//! Opening the stop, and bringing a distance into focus.
+//! Opening the stop, and focusing at a distance.
 //!
 //! In focus means: the paraxial image, at the lens's reference wavelength, of the axial point at the focus distance lies on the sensor (plus the
-//! defocus that the prescription asks for). Distances are from the entrance pupil, as for every lens; moving a group moves
-//! the pupil and changes the focal length (focus breathing), both of which the search takes into account.
+//! defocus that the prescription states). Distances are from the entrance pupil, as for every lens. Moving a group moves the pupil and changes the
+//! focal length (focus breathing); the search takes both into account.
 
 use etendue_spectra::glass::Dispersion;
 
@@ -14,10 +14,10 @@ use crate::error::PrescriptionError;
 /// Millimetres in a metre.
 const M: f64 = 1e3;
 
-/// What is in focus, and how.
+/// Focus of a lens and its mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Focus {
-    /// The sensor stands a given distance behind the last vertex.
+    /// The sensor is at a given distance behind the last vertex.
     Fixed {
         /// The distance, mm.
         back_focus_mm: f64,
@@ -41,7 +41,7 @@ pub enum Focus {
 /// A focused lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Focused {
-    /// Where the sensor stands without defocus, mm behind the last vertex.
+    /// Sensor position without defocus, mm behind the last vertex.
     pub(super) image_mm: f64,
     /// Distance of the plane in focus from the entrance pupil, m.
     pub(super) distance_m: f64,
@@ -49,7 +49,7 @@ pub(super) struct Focused {
     pub(super) magnification: f64,
 }
 
-/// First-order facts that focusing needs.
+/// First-order quantities for focusing.
 struct State {
     matrix: Matrix,
     entrance_mm: f64,
@@ -77,7 +77,7 @@ impl State {
     }
 }
 
-/// Closes the stop to an f-number; without one checks that the lens has an image at all.
+/// Closes the stop to an f-number; without one, checks that the lens forms an image.
 pub(super) fn open(
     surfaces: &mut [Surface],
     stop: usize,
@@ -101,7 +101,7 @@ pub(super) fn open(
     }
     let open_mm = surfaces[stop].semi_aperture_mm;
     let needed_mm = focal_length_mm / (2.0 * f_number) * magnified.abs();
-    // A prescription's own f-number, rounded, opens the stop fully.
+    // Tolerance for a prescription's own rounded f-number, which opens the stop fully.
     if needed_mm > open_mm * 1.001 {
         let least = focal_length_mm * magnified.abs() / (2.0 * open_mm);
         return Err(PrescriptionError::TooFast { f_number, needed_mm, open_mm, least });
@@ -110,7 +110,7 @@ pub(super) fn open(
     Ok(())
 }
 
-/// Brings `focus` into focus, moving `surfaces` where a group moves.
+/// Focuses the lens; moves `surfaces` if a group moves.
 pub(super) fn focused(
     surfaces: &mut [Surface],
     stop: usize,
@@ -148,12 +148,12 @@ fn at(state: &State, distance_m: f64) -> Result<Focused, PrescriptionError> {
     Ok(Focused { image_mm, distance_m, magnification: state.magnification(distance_m) })
 }
 
-/// The distance from the entrance pupil that a sensor at `image_mm` sees sharp: infinity where that is nowhere in front.
+/// The distance from the entrance pupil that is sharp on a sensor at `image_mm`: infinity if there is none in front.
 fn conjugate_m(state: &State, image_mm: f64) -> f64 {
     let m = state.matrix;
     let inverse = -(m.a + image_mm * m.c) / (m.b + image_mm * m.d);
     let distance_mm = 1.0 / inverse + state.entrance_mm;
-    // Rounding of an image of infinity counts as infinity.
+    // An image of infinity may be off by rounding.
     if inverse > 1e-12 && distance_mm > 0.0 { distance_mm / M } else { f64::INFINITY }
 }
 
@@ -161,9 +161,9 @@ fn conjugate_m(state: &State, image_mm: f64) -> f64 {
 struct Group {
     first: usize,
     last: usize,
-    /// The sensor from the first vertex as given, mm.
+    /// Sensor position from the first vertex as given, mm.
     sensor_position_mm: f64,
-    /// Room towards the scene and the sensor, mm.
+    /// Travel towards the scene and the sensor, mm.
     low_mm: f64,
     high_mm: f64,
     /// The last spaces before and behind the group.
@@ -192,7 +192,7 @@ impl Group {
         })
     }
 
-    /// Moves the group by `shift_mm` towards the sensor; where the sensor then stands behind the last vertex.
+    /// Moves the group by `shift_mm` towards the sensor; returns the sensor's distance behind the last vertex.
     fn shift(&self, surfaces: &mut [Surface], shift_mm: f64) -> f64 {
         let count = surfaces.len();
         if self.first > 0 {
@@ -202,12 +202,12 @@ impl Group {
             surfaces[self.last].thickness_mm = self.spaces_mm[1] - shift_mm;
         }
         let total: f64 = surfaces[..count - 1].iter().map(|s| s.thickness_mm).sum();
-        // Where the first surface moves, the lens frame moves with it.
+        // The lens frame moves with the first surface.
         let origin = if self.first == 0 { shift_mm } else { 0.0 };
         self.sensor_position_mm - origin - total
     }
 
-    /// The shift nearest to none that brings the distance into focus, by scanning outwards and bisection.
+    /// The smallest shift that focuses the distance, by scanning outwards and bisection.
     fn bring(
         &self,
         surfaces: &mut [Surface],
@@ -220,7 +220,7 @@ impl Group {
             state(surfaces).image_mm(focus_m) - back_mm
         };
         let start = error(0.0);
-        // Fine near the start, where most lenses focus, coarse at the ends.
+        // Fine steps near the start, where most lenses focus, coarse at the ends.
         let reach = |limit: f64, i: i32| limit * (f64::from(i) / f64::from(STEPS)) * (f64::from(i) / f64::from(STEPS));
         let found = (1..=STEPS).flat_map(|i| [(self.low_mm, i), (self.high_mm, i)]).find_map(|(limit, i)| {
             let bracket = [reach(limit, i - 1), reach(limit, i)];

@@ -1,14 +1,13 @@
-//! Ghosts: light that two surfaces reflect on its way to the sensor.
+//! Ghosts: light reflected by two surfaces on its way to the sensor.
 //!
-//! Of n surfaces that reflect, each of the n (n − 1)/2 pairs has a path: through the lens to the `rear` surface, back to the
-//! `front` one, and on to the sensor. A surface reflects what its coating does not let through (coatings do not absorb): by
-//! Fresnel's equations bare, everything beyond the critical angle. The sensor itself may be the rear one: a mirror in its
-//! plane.
+//! Each of the n (n − 1)/2 pairs of n reflecting surfaces has a path: through the lens to the `rear` surface, back to the `front` one, and on to the
+//! sensor. A surface reflects what its coating does not transmit (coatings do not absorb): by Fresnel's equations if uncoated, everything beyond the
+//! critical angle. The sensor itself may be the rear one: a mirror in its plane.
 //!
-//! **First order** (Gauss): with signed indices, negative for light that runs back, a mirror is a surface at which n turns
-//! into −n, of power −2 n c, and reduced distances stay positive.
+//! **First order** (Gauss): with signed indices, negative for light that travels back, a mirror is a surface at which n becomes −n, of power −2 n c,
+//! and reduced distances stay positive.
 //!
-//! **Left out**: four reflections and more (some R² of these), polarisation between the surfaces, light off rims and barrel.
+//! **Left out**: four reflections and more (about R² of these), polarisation between the surfaces, light reflected by lens edges and barrel.
 
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
@@ -19,36 +18,36 @@ use super::{Prescription, coating::Crossing, indices::Media, paraxial::Matrix, s
 /// Two surfaces, counted from 0 at the scene, between which light is reflected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GhostPair {
-    /// Reflects second: the one nearer to the scene.
+    /// Second reflecting surface: the one nearer to the scene.
     pub front: usize,
-    /// Reflects first: the one nearer to the sensor; the number of surfaces stands for the sensor.
+    /// First reflecting surface: the one nearer to the sensor; the number of surfaces stands for the sensor.
     pub rear: usize,
 }
 
 /// A ray after two reflections.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GhostRay {
-    /// Behind the last surface.
+    /// The ray behind the last surface.
     pub ray: LensRay,
-    /// The share of the light that comes this way, as if no rim clipped it.
+    /// The transmitted fraction of the light, ignoring clear apertures.
     pub weight: f64,
-    /// Greatest square of a distance from the axis over that of the rim there: above 1 the ray is clipped.
+    /// Largest squared distance from the axis over that of the clear aperture: above 1 the ray is clipped.
     pub filling: f64,
 }
 
-/// First order of a ghost of a far source: a ray that enters the first vertex's plane at a height h with a slope u lands at
-/// [`Self::spread`] h + [`Self::throw_mm`] u.
+/// First-order ghost of a source at infinity: a ray that enters the plane of the first vertex at a height h with a slope u lands at [`Self::spread`]
+/// h + [`Self::throw_mm`] u.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GhostFirstOrder {
-    /// Height on the sensor by height on the first vertex's plane.
+    /// Height on the sensor per height on the plane of the first vertex.
     pub spread: f64,
-    /// Height on the sensor by slope of the entering ray, mm.
+    /// Height on the sensor per slope of the entering ray, mm.
     pub throw_mm: f64,
-    /// Where the ghost comes to focus, mm behind the sensor.
+    /// Focus of the ghost, mm behind the sensor.
     pub focus_mm: f64,
 }
 
-/// Takes note of weights and of how far rims are filled; nothing is clipped.
+/// Records weights and the filling of clear apertures; nothing is clipped.
 struct Note {
     nm: f64,
     weight: f64,
@@ -82,7 +81,7 @@ impl Note {
 }
 
 impl Prescription {
-    /// All pairs of surfaces that reflect; with the sensor where it does.
+    /// All pairs of reflecting surfaces; with the sensor if it reflects.
     #[must_use]
     pub fn ghost_pairs(&self, with_sensor: bool) -> Vec<GhostPair> {
         let reflects = |e: &Element| e.media[0] != e.media[1];
@@ -94,11 +93,11 @@ impl Prescription {
         list.iter().enumerate().flat_map(pairs).collect()
     }
 
-    /// A ray from the scene (its direction towards the sensor) by two reflections behind the last surface. A sensor that is
-    /// the rear surface reflects everything: the caller multiplies by its reflectance.
+    /// Traces a ray from the scene (its direction towards the sensor) through two reflections to behind the last surface. A sensor as rear surface
+    /// reflects everything: the caller multiplies by its reflectance.
     ///
     /// # Errors
-    /// Where it misses a surface or is totally reflected where it should pass.
+    /// If it misses a surface or is totally reflected where it should pass.
     pub fn ghost(&self, pair: GhostPair, ray: LensRay, nm: f64) -> Result<GhostRay, Lost> {
         self.ghost_in(pair, ray, nm, &self.media(nm))
     }
@@ -124,16 +123,16 @@ impl Prescription {
         LensRay { point: point + d * t, direction: DVec3::new(d.x, d.y, -d.z) }
     }
 
-    /// What both surfaces of a pair reflect, the product of the means at normal incidence and at n sin θ = 0.6: how a ghost's
-    /// colour goes with wavelength, apart from its geometry.
+    /// The reflectance of both surfaces of a pair: the product of the means at normal incidence and at n sin θ = 0.6. It gives the variation of a
+    /// ghost's colour with wavelength, apart from its geometry.
     pub(crate) fn ghost_colour(&self, pair: GhostPair, nm: f64) -> f64 {
         let media = self.media(nm);
         let reflects = |i: usize| self.elements.get(i).map_or(1.0, |element| typical(element, &media, nm));
         reflects(pair.front) * reflects(pair.rear)
     }
 
-    /// A box of half the first surface's opening (v ≥ 0) as light at an angle to the axis sees it, mm from its vertex: u in
-    /// the meridional plane, v across it.
+    /// A box about half of the first surface's clear aperture (v ≥ 0) as seen by light at an angle to the axis, mm from its vertex: u in the
+    /// meridional plane, v across it.
     pub(crate) fn front_box(&self, angle: f64) -> [DVec2; 2] {
         let (sine, cosine) = sin_cos(angle);
         let rim_mm = self.surfaces[0].semi_aperture_mm;
@@ -152,7 +151,7 @@ impl Prescription {
         GhostFirstOrder { spread: m.a, throw_mm: m.b, focus_mm: -m.a / m.c }
     }
 
-    /// From the first vertex's plane by both reflections to the sensor.
+    /// The matrix from the plane of the first vertex through both reflections to the sensor.
     fn folded(&self, pair: GhostPair, media: &Media) -> Matrix {
         let forward = |range: core::ops::Range<usize>| range.map(|i| (i, true));
         let mirrors_and_surfaces = forward(0..pair.rear + 1)

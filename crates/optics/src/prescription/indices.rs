@@ -1,9 +1,8 @@
-//! The indices of all glasses of a lens at one wavelength, quickly.
+//! Fast lookup of the indices of all glasses of a lens at one wavelength.
 //!
-//! Wavelengths are continuous, so every ray asks anew. A Sellmeier equation costs three divisions and a root for each
-//! glass; here each glass is a polynomial of degree 7 in 1/λ on 40 equal pieces, made by interpolation at Chebyshev points,
-//! which keeps 1e-10 from 320 to 1 100 nm for every glass of the catalogue and 1e-7 below (the densest flints resonate at
-//! 288 nm and let nothing through there).
+//! Wavelengths are continuous, so every ray needs a lookup. A Sellmeier equation costs three divisions and a root per glass. Here each glass is a
+//! polynomial of degree 7 in 1/λ on 40 equal pieces, interpolated at Chebyshev points. Its error is 1e-10 from 320 to 1 100 nm for every glass of the
+//! catalogue and 1e-7 below (the densest flints resonate at 288 nm and are opaque there).
 
 use core::f64::consts::PI;
 
@@ -17,7 +16,7 @@ const LOW: f64 = 1.0 / MAX_NM;
 const WIDTH: f64 = (1.0 / SHORTEST_NM - LOW) / PIECES as f64;
 const COEFFICIENTS: usize = 8;
 
-/// Most different media that a lens may have.
+/// Maximum number of different media in a lens.
 pub(crate) const MAX_MEDIA: usize = 16;
 
 /// Indices of a lens's media at one wavelength, in the order of its list.
@@ -41,7 +40,7 @@ impl IndexTable {
         Self { coefficients, media: media.len() }
     }
 
-    /// The indices at a wavelength; those of the nearest legal one outside 300 to 1 100 nm.
+    /// The indices at a wavelength; clamped to the range 300 to 1 100 nm.
     #[inline]
     pub(super) fn at(&self, nm: f64) -> Media {
         let inverse = 1.0 / nm.clamp(SHORTEST_NM, MAX_NM);
@@ -60,11 +59,10 @@ fn centre(piece: usize) -> f64 {
     LOW + WIDTH * (piece as f64 + 0.5)
 }
 
-/// Powers of x in [−1, 1] about `centre` of the polynomial through the index at Chebyshev points: Newton's divided
-/// differences, multiplied out.
+/// Powers of x in [−1, 1] about `centre` of the polynomial through the index at Chebyshev points: Newton's divided differences, expanded.
 fn fit(medium: &Dispersion, centre: f64) -> [f64; COEFFICIENTS] {
     let x: [f64; COEFFICIENTS] = core::array::from_fn(|i| cos(PI * (i as f64 + 0.5) / COEFFICIENTS as f64));
-    // Differences from the centre keep the digits of a curve that is nearly flat.
+    // Differences from the centre keep the digits of a nearly constant curve.
     let base = medium.index(1.0 / centre);
     let mut difference = x.map(|x| medium.index(1.0 / (centre + 0.5 * WIDTH * x)) - base);
     for order in 1..COEFFICIENTS {

@@ -1,13 +1,13 @@
-//! Prescriptions: lenses as their makers describe them, surface by surface, traced in double precision.
+//! Prescriptions: lenses described surface by surface, as published by their designers, and traced in double precision.
 //!
-//! **Modelled**: refraction by Snell's law at spheres, conics, even aspheres and planes; a real stop and real clear
-//! apertures; dispersion of every glass; losses by reflection; focusing by moving the sensor or a group of surfaces. A
-//! wavelength that is totally reflected, misses a surface or falls outside a clear aperture is blocked.
+//! **Modelled**: refraction by Snell's law at spheres, conics, even aspheres and planes; a real stop and real clear apertures; dispersion of every
+//! glass; losses by reflection; focusing by moving the sensor or a group of surfaces. A wavelength that is totally reflected, misses a surface or
+//! falls outside a clear aperture is blocked.
 //!
-//! **Left out**: absorption in glass, light that is reflected twice (see [`ghost`]: a layer of its own) and more, scatter,
-//! diffraction, tilts and decentres.
+//! **Left out**: absorption in glass, light that is reflected twice (see [`ghost`]: a separate layer) or more, scatter, diffraction, tilts and
+//! decentres.
 //!
-//! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
+//! A [`Prescription`] is checked at construction; afterwards only individual rays can fail.
 
 mod check;
 pub mod clear_apertures;
@@ -32,25 +32,25 @@ pub use focus::Focus;
 pub use paraxial::OtherRims;
 pub use surface::Surface;
 
-/// What a prescription is made of.
+/// Parameters of a prescription.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrescriptionParameters {
     /// Surfaces, from the scene to the sensor.
     pub surfaces: Vec<Surface>,
-    /// How far the stop opens: an f-number at infinity focus, or `None` for the stop's own clear aperture.
+    /// Opening of the stop: an f-number at infinity focus, or `None` for the stop's own clear aperture.
     pub f_number: Option<f64>,
-    /// What is in focus, and what moves for it.
+    /// Focus and its mechanism.
     pub focus: Focus,
-    /// How far behind the paraxial image at the reference wavelength the sensor stands, mm: best focus of an aberrated lens.
+    /// Distance of the sensor behind the paraxial image at the reference wavelength, mm: best focus of an aberrated lens.
     pub defocus_mm: f64,
     /// The wavelength of first-order quantities, of focusing and of the f-number, nm.
     pub reference_nm: f64,
-    /// The treatment of a rim other than the stop's that clips the bundle on the axis.
+    /// Treatment of a clear aperture other than the stop's that clips the bundle on the axis.
     pub other_rims: OtherRims,
 }
 
 impl PrescriptionParameters {
-    /// Surfaces as they stand, in focus at 587.56 nm: fully open, without defocus; a rim that clips before the stop is refused.
+    /// Surfaces as given, in focus at 587.56 nm: fully open, without defocus; a clear aperture that clips before the stop is refused.
     #[must_use]
     pub fn new(surfaces: Vec<Surface>, focus: Focus) -> Self {
         Self {
@@ -64,7 +64,7 @@ impl PrescriptionParameters {
     }
 }
 
-/// A lens of surfaces, focused.
+/// A focused lens of surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prescription {
     surfaces: Vec<Surface>,
@@ -81,13 +81,13 @@ pub struct Prescription {
 }
 
 impl Prescription {
-    /// The surfaces as they stand: opened and focused.
+    /// The surfaces after opening and focusing.
     #[must_use]
     pub fn surfaces(&self) -> &[Surface] {
         &self.surfaces
     }
 
-    /// Which surface is the stop, from 0.
+    /// Index of the stop surface, from 0.
     #[must_use]
     pub fn stop(&self) -> usize {
         self.stop
@@ -112,31 +112,31 @@ impl Prescription {
         whole.clipped(self.axial_opening.share)
     }
 
-    /// The surface other than the stop, from 0, whose rim limits the bundle on the axis; `None` where the stop does.
+    /// The surface other than the stop, from 0, whose clear aperture limits the bundle on the axis; `None` if the stop does.
     #[must_use]
     pub fn axial_limit(&self) -> Option<usize> {
         self.axial_opening.limit
     }
 
-    /// Radius of the bundle on the axis over that which the stop alone would let through; 1 where no other rim limits it.
+    /// Radius of the bundle on the axis over that passed by the stop alone; 1 if no other clear aperture limits it.
     #[must_use]
     pub fn axial_share(&self) -> f64 {
         self.axial_opening.share
     }
 
-    /// The sensor's place in the lens frame: mm from the first vertex.
+    /// Sensor position in the lens frame: mm from the first vertex.
     #[must_use]
     pub fn sensor_position_mm(&self) -> f64 {
         self.sensor_position_mm
     }
 
-    /// The last vertex's place in the lens frame, mm.
+    /// Position of the last vertex in the lens frame, mm.
     #[must_use]
     pub fn last_vertex_mm(&self) -> f64 {
         self.elements.last().map_or(0.0, |element| element.z_mm)
     }
 
-    /// Distance of the plane in focus from the entrance pupil, m; infinite where the image is of infinity.
+    /// Distance of the plane in focus from the entrance pupil, m; infinite for focus at infinity.
     #[must_use]
     pub fn focus_distance_m(&self) -> f64 {
         self.focus_distance_m
@@ -148,7 +148,7 @@ impl Prescription {
         self.magnification
     }
 
-    /// The principal distance c, mm: near the axis a tangent t at the entrance pupil is seen at c·t on the sensor.
+    /// The principal distance c, mm: near the axis a tangent t at the entrance pupil is imaged at c·t on the sensor.
     #[must_use]
     pub fn principal_distance_mm(&self) -> f64 {
         self.principal_distance_mm
@@ -160,26 +160,24 @@ impl Prescription {
         self.surfaces[self.stop].semi_aperture_mm
     }
 
-    /// Whether any glass disperses.
+    /// True if any glass disperses.
     #[must_use]
     pub fn disperses(&self) -> bool {
         self.surfaces.iter().any(|surface| surface.glass.disperses())
     }
 
-    /// A ray from the scene (its direction towards the sensor) behind the last surface, with the transmittance of the
-    /// surfaces.
+    /// Traces a ray from the scene (its direction towards the sensor) to behind the last surface; returns it with the transmittance of the surfaces.
     ///
     /// # Errors
-    /// Where the ray is lost.
+    /// If the ray is lost.
     pub fn to_sensor(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
         self.through(ray, Way::ToSensor, nm)
     }
 
-    /// A ray from the sensor (its direction towards the scene) before the first surface, with the transmittance of the
-    /// surfaces.
+    /// Traces a ray from the sensor (its direction towards the scene) to before the first surface; returns it with the transmittance of the surfaces.
     ///
     /// # Errors
-    /// Where the ray is lost.
+    /// If the ray is lost.
     pub fn to_scene(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
         self.through(ray, Way::ToScene, nm)
     }
@@ -190,33 +188,33 @@ impl Prescription {
         Ok((ray, journey.transmittance))
     }
 
-    /// Geometry alone: a ray from the sensor before the first surface, clipped or not.
+    /// Geometry only: traces a ray from the sensor to before the first surface, clipped or not.
     #[inline]
     pub(crate) fn passes(&self, ray: LensRay, media: &Media, mut rims: Rims) -> Result<LensRay, Lost> {
         walk(&self.elements, 0, Way::ToScene, media, ray, &mut rims)
     }
 
-    /// Geometry alone: a ray from the scene behind the last surface, clipped or not.
+    /// Geometry only: traces a ray from the scene to behind the last surface, clipped or not.
     pub(crate) fn arrives(&self, ray: LensRay, media: &Media, mut rims: Rims) -> Result<LensRay, Lost> {
         walk(&self.elements, 0, Way::ToSensor, media, ray, &mut rims)
     }
 
-    /// How far a ray fills the clear apertures on its `way`: the greatest distance from the axis over the rim's, above 1
-    /// where it is clipped. `None` where it misses a surface or is totally reflected.
+    /// Largest ratio of a ray's distance from the axis to the clear aperture's radius over the surfaces on its `way`; above 1 the ray is clipped.
+    /// `None` if it misses a surface or is totally reflected.
     pub(crate) fn filling(&self, ray: LensRay, way: Way, media: &Media) -> Option<f64> {
         let mut fullness = Fullness { most: 0.0 };
         walk(&self.elements, 0, way, media, ray, &mut fullness).ok()?;
         Some(fullness.most.sqrt())
     }
 
-    /// Where the paraxial image of the plane in focus lies at a wavelength, mm behind the last vertex.
+    /// Position of the paraxial image of the plane in focus at a wavelength, mm behind the last vertex.
     #[must_use]
     pub fn image_mm(&self, nm: f64) -> f64 {
         let before = self.focus_distance_m * 1e3 - self.paraxial.entrance_pupil_position_mm;
         paraxial::matrix(&self.elements, &self.media(nm)).image_mm(1.0 / before)
     }
 
-    /// Least and greatest distance of the last surface's opening from the sensor, mm.
+    /// Smallest and largest distance of the last surface's clear aperture from the sensor, mm.
     pub(crate) fn rear_distances_mm(&self) -> [f64; 2] {
         let vertex = self.sensor_position_mm - self.last_vertex_mm();
         let rim = self.surfaces.last().and_then(|s| s.shape().sag(s.semi_aperture_mm)).unwrap_or(0.0);
@@ -232,10 +230,10 @@ impl Prescription {
         self.table.at(nm)
     }
 
-    /// Where a ray from the sensor meets the stop's surface, from its vertex, whatever the clear apertures.
+    /// Intersection of a ray from the sensor with the stop's surface, from its vertex, regardless of clear apertures.
     ///
     /// # Errors
-    /// Where it misses a surface or is totally reflected on the way.
+    /// If it misses a surface or is totally reflected before.
     pub fn at_stop(&self, ray: LensRay, nm: f64) -> Result<DVec3, Lost> {
         self.stop_point(ray, &self.media(nm))
     }

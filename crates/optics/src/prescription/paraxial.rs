@@ -1,13 +1,13 @@
-//! First order: what thin bundles near the axis do (Gauss 1841), by matrices of height and reduced angle.
+//! First order: thin bundles near the axis (Gauss 1841), by matrices of height and reduced angle.
 //!
-//! With ν = n u, a surface of power φ = (n′ − n) c turns (y, ν) into (y, ν − φ y) and a space of thickness t into
-//! (y + t ν/n, ν). For the whole lens in air, M = [[A, B], [C, D]]: f = −1/C, the rear focal point at −A/C behind the last
-//! vertex, the front one at D/C from the first. The pupils are the stop's images through the surfaces before and behind it.
+//! With ν = n u, a surface of power φ = (n′ − n) c maps (y, ν) to (y, ν − φ y) and a space of thickness t maps it to (y + t ν/n, ν). For the whole
+//! lens in air, M = [[A, B], [C, D]]: f = −1/C, the rear focal point at −A/C behind the last vertex, the front one at D/C from the first. The pupils
+//! are the stop's images through the surfaces before and behind it.
 
 use super::{indices::Media, trace::Element};
 
-/// First-order quantities at one wavelength. Positions in mm along the axis towards the sensor: those of the scene's side
-/// from the first vertex, those of the sensor's side from the last.
+/// First-order quantities at one wavelength. Positions in mm along the axis towards the sensor: object-side positions from the first vertex,
+/// image-side positions from the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paraxial {
     /// Focal length, mm.
@@ -22,7 +22,7 @@ pub struct Paraxial {
     pub rear_principal_mm: f64,
     /// Entrance pupil from the first vertex, mm.
     pub entrance_pupil_position_mm: f64,
-    /// Its radius, mm: that of the bundle on the axis, which a rim other than the stop's may limit.
+    /// Its radius, mm: that of the bundle on the axis, which a clear aperture other than the stop's may limit.
     pub entrance_radius_mm: f64,
     /// Exit pupil from the last vertex, mm; infinite for an image-side telecentric lens.
     pub exit_pupil_position_mm: f64,
@@ -33,12 +33,12 @@ pub struct Paraxial {
     pub petzval_radius_mm: f64,
 }
 
-/// The treatment of a rim other than the stop's that clips the bundle on the axis.
+/// Treatment of a clear aperture other than the stop's that clips the bundle on the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OtherRims {
-    /// The surfaces are no lens: that rim would be the stop.
+    /// Refused: that clear aperture would be the stop.
     Refused,
-    /// It clips, as rims and baffles of makers' files do: pupils and f-number are those of the bundle that is left, their places those of the
+    /// It clips, as edges and baffles in manufacturers' files do: pupils and f-number are those of the remaining bundle, their positions those of the
     /// stop's images.
     Clip,
 }
@@ -48,7 +48,7 @@ pub enum OtherRims {
 pub(super) struct AxialOpening {
     /// Its radius at the entrance pupil over that of the stop's image.
     pub(super) share: f64,
-    /// The surface whose rim limits it, where that is not the stop.
+    /// The surface whose clear aperture limits it, if that is not the stop.
     pub(super) limit: Option<usize>,
 }
 
@@ -64,7 +64,7 @@ impl Paraxial {
         self.focal_length_mm / (2.0 * self.entrance_radius_mm)
     }
 
-    /// The same for a bundle of a part of the pupils' radii.
+    /// The same for a bundle reduced to a fraction of the pupil radii.
     pub(super) fn clipped(self, share: f64) -> Self {
         Self {
             entrance_radius_mm: share * self.entrance_radius_mm,
@@ -100,8 +100,8 @@ impl Matrix {
         Self { a: self.a + reduced_mm * self.c, b: self.b + reduced_mm * self.d, ..self }
     }
 
-    /// Distance behind the last vertex of the image of an axial point at `inverse` of its distance before the first
-    /// (1/mm; 0 at infinity).
+    /// Distance behind the last vertex of the image of an axial point; `inverse` is the inverse of its distance before the first vertex (1/mm; 0 at
+    /// infinity).
     pub(super) fn image_mm(&self, inverse: f64) -> f64 {
         -(self.a + self.b * inverse) / (self.c + self.d * inverse)
     }
@@ -113,7 +113,7 @@ fn power(element: &Element, media: &Media) -> f64 {
     (after - before) * element.shape.vertex_curvature()
 }
 
-/// From before the first of `elements` (at its vertex) to behind the last.
+/// The matrix from before the first of `elements` (at its vertex) to behind the last.
 pub(super) fn matrix(elements: &[Element], media: &Media) -> Matrix {
     let mut m = Matrix::IDENTITY;
     for (i, element) in elements.iter().enumerate() {
@@ -138,7 +138,7 @@ pub(super) fn paraxial(elements: &[Element], stop: usize, stop_mm: f64, media: &
     let m = matrix(elements, media);
     let focal_length_mm = -1.0 / m.c;
     let [entrance_pupil_position_mm, magnified] = entrance(elements, stop, media);
-    // From the stop's plane on; the surface that is the stop refracts behind its opening.
+    // From the stop's plane on; a stop on a refracting surface refracts behind its opening.
     let rear = matrix(&elements[stop..], media);
     let petzval = |e: &Element| power(e, media) / (media[e.media[0]] * media[e.media[1]]);
     Paraxial {

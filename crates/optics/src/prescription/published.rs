@@ -1,4 +1,4 @@
-//! Published lenses, each with its source (`data/lenses/`): to try, and to be checked against.
+//! Published lenses, each with its source (`data/lenses/`), as examples and for validation.
 
 use etendue_spectra::glass::{Dispersion, named as catalogue};
 
@@ -7,7 +7,7 @@ use super::surface::Surface;
 /// A published lens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Published {
-    /// Its name here.
+    /// Name in this list.
     pub name: &'static str,
     text: &'static str,
 }
@@ -27,7 +27,7 @@ pub fn named(name: &str) -> Option<&'static Published> {
 }
 
 impl Published {
-    /// What it is and where it comes from.
+    /// Description and source.
     #[must_use]
     pub fn source(&self) -> String {
         let lines = self.text.lines().filter_map(|line| line.strip_prefix("# "));

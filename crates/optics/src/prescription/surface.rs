@@ -1,12 +1,11 @@
-//! A surface of a lens: its shape, and where a ray meets it.
+//! A surface of a lens: its shape, and its intersection with a ray.
 //!
-//! z runs from the scene to the sensor, r² = x² + y² from the vertex. With curvature c = 1/R and conic constant k the
-//! sag is z = c r²/(1 + √(1 − (1 + k) c² r²)) + Σ αᵢ r²ⁱ, i = 1 … 10; k = 0 is a sphere, −1 a paraboloid, below −1 a
-//! hyperboloid, above 0 an oblate ellipsoid.
+//! z runs from the scene to the sensor, r² = x² + y² from the vertex. With curvature c = 1/R and conic constant k the sag is z = c r²/(1 + √(1 − (1 +
+//! k) c² r²)) + Σ αᵢ r²ⁱ, i = 1 … 10; k = 0 is a sphere, −1 a paraboloid, below −1 a hyperboloid, above 0 an oblate ellipsoid.
 //!
-//! **Which of two intersections.** A sequential ray crosses from the scene's side of a surface to the sensor's side, or
-//! back, so the sign of direction · normal is known beforehand and picks the root, also for rays so oblique that they run
-//! backwards along the axis. Only the sheet at the vertex counts, as far as its equator.
+//! **Choice between two intersections.** A sequential ray crosses from the scene's side of a surface to the sensor's side, or back. The sign of
+//! direction · normal is therefore known in advance and selects the root, also for rays so oblique that they run backwards along the axis. Only the
+//! sheet at the vertex counts, up to its equator.
 
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
@@ -19,21 +18,21 @@ pub const ASPHERE_TERMS: usize = 10;
 /// One surface and the space behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// Radius of curvature, mm, positive where the centre lies towards the sensor; infinite for a plane.
+    /// Radius of curvature, mm, positive if the centre lies towards the sensor; infinite for a plane.
     pub radius_mm: f64,
     /// Conic constant k.
     pub conic: f64,
     /// αᵢ of r²ⁱ, mm^(1 − 2i), i = 1 … 10.
     pub asphere: [f64; ASPHERE_TERMS],
-    /// Radius of the opening that lets light through, mm.
+    /// Radius of the clear aperture, mm.
     pub semi_aperture_mm: f64,
-    /// Distance along the axis to the next surface, mm; without meaning for the last.
+    /// Distance along the axis to the next surface, mm; ignored for the last.
     pub thickness_mm: f64,
-    /// What fills the space behind the surface.
+    /// Medium behind the surface.
     pub glass: Dispersion,
-    /// What the surface reflects.
+    /// Reflecting coating.
     pub coating: Coating,
-    /// Whether this is the aperture stop.
+    /// True for the aperture stop.
     pub stop: bool,
 }
 
@@ -57,7 +56,7 @@ impl Surface {
     }
 }
 
-/// The form of a surface, its vertex at the origin.
+/// The shape of a surface, its vertex at the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shape {
     Plane,
@@ -81,10 +80,10 @@ pub(crate) struct Asphere {
     terms: [f64; ASPHERE_TERMS],
 }
 
-/// Where a ray meets a surface.
+/// Intersection of a ray with a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hit {
-    /// From the surface's vertex, mm.
+    /// Position relative to the surface's vertex, mm.
     pub(super) point: DVec3,
     /// Unit normal, towards the sensor at the vertex.
     pub(super) normal: DVec3,
@@ -104,8 +103,8 @@ impl Shape {
         }
     }
 
-    /// Where the ray from `p` (from the vertex) along the unit vector `d` crosses the surface in the `sense` given (1
-    /// towards the sensor, −1 towards the scene); `None` where it does not.
+    /// Intersection of the ray from `p` (relative to the vertex) along the unit vector `d`, in the direction `sense` (1 towards the sensor, −1
+    /// towards the scene); `None` if there is none.
     #[inline]
     pub(super) fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
         match self {
@@ -126,7 +125,7 @@ impl Shape {
         }
     }
 
-    /// Curvature at the vertex, 1/mm: with the r² term of an asphere.
+    /// Curvature at the vertex, 1/mm, including the r² term of an asphere.
     pub(super) fn vertex_curvature(&self) -> f64 {
         match self {
             Self::Plane => 0.0,
@@ -192,19 +191,19 @@ impl Conic {
     }
 }
 
-/// Newton steps after which a ray is taken to miss an asphere; the convergence is quadratic and needs four or five.
+/// Maximum Newton steps before a ray counts as missing an asphere; convergence is quadratic and needs four or five.
 const NEWTON_STEPS: usize = 40;
 
 impl Asphere {
-    /// Safeguarded Newton on f(t) = z(t) − sag(r²(t)) from the conic's own intersection (or the vertex plane's): a step
-    /// that does not lessen |f| is halved.
+    /// Safeguarded Newton on f(t) = z(t) − sag(r²(t)), started at the conic's own intersection (or the vertex plane's). A step that does not lower
+    /// |f| is halved.
     fn hit(&self, p: DVec3, d: DVec3, sense: f64) -> Option<Hit> {
         let start = self.conic.hit(p, d, sense).or_else(|| plane_hit(p, d, sense))?.point;
         let (mut t, mut step) = ((start - p).dot(d), 0.0_f64);
         let mut f = self.residual(p + d * t, d);
         for _ in 0..NEWTON_STEPS {
             let [value, slope] = f?;
-            // A residual of some units in the last place of the coordinates cannot be lessened.
+            // A residual of a few units in the last place of the coordinates cannot be lowered.
             if value.abs() <= 4.0 * f64::EPSILON * (1.0 + t.abs())
                 || (step != 0.0 && step.abs() < 1e-15 * (1.0 + t.abs()))
             {
@@ -275,7 +274,7 @@ mod tests {
             let target = DVec3::new(x, y, sag);
             let d = DVec3::new(dx, dy, sense).normalize();
             let Some(hit) = shape.hit(target - d * back, d, sense) else {
-                // Only where the ray crosses the other way at the target.
+                // Only where the ray crosses in the other sense at the target.
                 let slope = (shape.sag((x * x + y * y).sqrt() + 1e-6).unwrap_or(sag) - sag) / 1e-6;
                 let radial = DVec3::new(x, y, 0.0).normalize_or_zero();
                 prop_assert!(d.dot(DVec3::Z - radial * slope) * sense < 1e-3);
@@ -283,7 +282,7 @@ mod tests {
             };
             prop_assert!((shape.sag((hit.point.x * hit.point.x + hit.point.y * hit.point.y).sqrt()).expect("on it") - hit.point.z).abs() < 1e-12);
             prop_assert!((hit.normal.length() - 1.0).abs() < 1e-12 && d.dot(hit.normal) * sense > 0.0);
-            // A quadric has one crossing in this sense; an asphere may have more.
+            // A quadric has one crossing in this sense; an asphere may have several.
             if form < 3 {
                 prop_assert!((hit.point - target).length() < 1e-8, "{:?} {:?}", hit.point, target);
             }

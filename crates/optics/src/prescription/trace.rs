@@ -1,8 +1,7 @@
 //! Rays through the surfaces of a lens, in either direction.
 //!
-//! Lens frame: mm, z along the axis from the scene to the sensor, origin at the vertex of the first surface. Between
-//! surfaces rays run straight, also backwards where surfaces are so curved that their vertices' order is not the order in
-//! which an oblique ray meets them.
+//! Lens frame: mm, z along the axis from the scene to the sensor, origin at the vertex of the first surface. Rays are straight between surfaces. They
+//! may run backwards where surfaces are so curved that the order of their vertices is not the order in which an oblique ray meets them.
 
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
@@ -15,33 +14,33 @@ use crate::error::PrescriptionError;
 /// A ray in the lens frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LensRay {
-    /// A point of it, mm.
+    /// A point on the ray, mm.
     pub point: DVec3,
     /// Unit direction.
     pub direction: DVec3,
 }
 
-/// Why a ray does not come through.
+/// Reason for the loss of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loss {
-    /// It does not meet a surface.
+    /// The ray misses a surface.
     Missed,
-    /// It meets a surface outside its clear aperture.
+    /// The ray meets a surface outside its clear aperture.
     Clipped,
-    /// It is totally reflected.
+    /// The ray is totally reflected.
     TotalReflection,
 }
 
-/// Where, and why, a ray is lost.
+/// Surface and reason of a lost ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lost {
     /// The surface, counted from 0 at the scene.
     pub surface: usize,
-    /// Why.
+    /// Reason.
     pub loss: Loss,
 }
 
-/// A surface, ready to be traced.
+/// A surface prepared for tracing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Element {
     pub(super) shape: Shape,
@@ -49,7 +48,7 @@ pub(super) struct Element {
     pub(super) z_mm: f64,
     /// Square of the clear semi-aperture, mm².
     pub(super) open_mm2: f64,
-    /// Places in the table of media, of the scene's side and the sensor's.
+    /// Indices into the table of media: the scene's side and the sensor's side.
     pub(super) media: [usize; 2],
     pub(super) coating: Coating,
 }
@@ -60,21 +59,21 @@ impl Element {
         DVec3::new(0.0, 0.0, self.z_mm)
     }
 
-    /// Indices before and behind the surface, for a ray that comes this way.
+    /// Refractive indices before and behind the surface, for a ray in this direction.
     #[inline]
     pub(super) fn indices(&self, way: Way, media: &Media) -> [f64; 2] {
         let [a, b] = self.media.map(|i| media[i]);
         if way == Way::ToSensor { [a, b] } else { [b, a] }
     }
 
-    /// Square of a hit's distance from the axis over that of the rim.
+    /// Squared distance of a hit from the axis over the squared radius of the clear aperture.
     #[inline]
     pub(super) fn filling(&self, hit: &Hit) -> f64 {
         hit.point.truncate().length_squared() / self.open_mm2
     }
 }
 
-/// Which way rays run.
+/// Direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
     ToSensor,
@@ -88,20 +87,20 @@ impl Way {
     }
 }
 
-/// Whether clear apertures stop rays.
+/// Treatment of clear apertures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rims {
     Clip,
     Ignore,
 }
 
-/// What a ray has met: it is told of every surface it crosses, and may stop it.
+/// Visitor of a ray's surface crossings; may stop the ray.
 pub(super) trait Journey {
     /// The ray crosses `element` at `hit` with these indices and cosines; false stops it.
     fn crosses(&mut self, index: usize, element: &Element, hit: &Hit, crossing: &Crossing) -> Result<(), Loss>;
 }
 
-/// Clear apertures clip, coatings take their part.
+/// Clear apertures clip, coatings attenuate.
 pub(super) struct Through {
     pub(super) nm: f64,
     pub(super) transmittance: f64,
@@ -116,7 +115,7 @@ impl Journey for Through {
     }
 }
 
-/// Apertures alone, or nothing: geometry.
+/// Geometry: clear apertures only, or none.
 impl Journey for Rims {
     #[inline]
     fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, _: &Crossing) -> Result<(), Loss> {
@@ -124,9 +123,9 @@ impl Journey for Rims {
     }
 }
 
-/// How far the ray fills the rims it passes; nothing is clipped.
+/// The largest filling of the clear apertures on the way; nothing is clipped.
 pub(super) struct Fullness {
-    /// Greatest square of a distance from the axis over that of the rim there: above 1 the ray is clipped.
+    /// Largest squared distance from the axis over that of the clear aperture; above 1 the ray is clipped.
     pub(super) most: f64,
 }
 
@@ -144,7 +143,7 @@ fn inside(element: &Element, hit: &Hit) -> Result<(), Loss> {
     if r2 <= element.open_mm2 { Ok(()) } else { Err(Loss::Clipped) }
 }
 
-/// `ray` after the surfaces `elements` (numbered from `first`), in the order of its way.
+/// Traces `ray` through the surfaces `elements` (numbered from `first`), in the order of its direction.
 #[inline]
 pub(super) fn walk(
     elements: &[Element],
@@ -180,13 +179,13 @@ fn cross(
     Ok(LensRay { point: hit.point + element.vertex(), direction })
 }
 
-/// Where a ray meets a surface, from its vertex.
+/// Intersection of a ray with a surface, relative to its vertex.
 #[inline]
 fn meet(element: &Element, way: Way, ray: LensRay) -> Result<Hit, Loss> {
     element.shape.hit(ray.point - element.vertex(), ray.direction, way.sense()).ok_or(Loss::Missed)
 }
 
-/// A ray that comes this `way` and is reflected by a surface: d′ = d − 2 (d·n) n; with the share that is reflected.
+/// A ray in direction `way` reflected by a surface: d′ = d − 2 (d·n) n; with the reflectance.
 #[inline]
 pub(super) fn bounce(
     element: &Element,
@@ -221,7 +220,7 @@ pub(super) fn refract(d: DVec3, hit: &Hit, mu: f64, sense: f64) -> Option<(DVec3
     Some((d * mu + hit.normal * (sense * beyond - mu * along), [along.abs(), beyond]))
 }
 
-/// The different media of a lens, air first, and for each surface its places in that list: before it, and behind it.
+/// The different media of a lens, air first, and for each surface its indices in that list: before it, and behind it.
 pub(super) fn media(surfaces: &[Surface]) -> Result<(Vec<Dispersion>, Vec<[usize; 2]>), PrescriptionError> {
     let mut list = vec![Dispersion::AIR];
     let mut before = 0;
@@ -242,7 +241,7 @@ pub(super) fn media(surfaces: &[Surface]) -> Result<(Vec<Dispersion>, Vec<[usize
     if before == 0 { Ok((list, places)) } else { Err(PrescriptionError::LastMedium) }
 }
 
-/// Surfaces ready to be traced.
+/// Surfaces prepared for tracing.
 pub(super) fn elements(surfaces: &[Surface], places: &[[usize; 2]]) -> Vec<Element> {
     let mut z_mm = 0.0;
     let element = |(surface, media): (&Surface, &[usize; 2])| {

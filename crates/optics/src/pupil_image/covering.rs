@@ -1,12 +1,12 @@
-//! The geometry that holds all that a picture looks at, fine enough for it.
+//! The geometry that contains all directions of a sensor image at sufficient resolution.
 //!
-//! - Up to [`WIDEST_RECTILINEAR_RAD`] from the axis one rectilinear view, none of whose pixels is wider than a pixel of the
-//!   picture anywhere. A lens without distortion or lateral colour gets the picture's own pixels.
-//! - Beyond that six views, none of whose pixels is wider than the longer side of a pixel of the picture anywhere. (Near the
-//!   pole of an equirectangular panorama pixels are as narrow as one likes, but no less tall.)
+//! - Up to [`WIDEST_RECTILINEAR_RAD`] from the axis: one rectilinear view, none of whose pixels is wider than a pixel of the sensor image anywhere. A
+//!   lens without distortion or lateral colour has the sensor image's own pixels.
+//! - Beyond that: six views, none of whose pixels is wider than the longer side of a pixel of the sensor image anywhere. (Near the pole of an
+//!   equirectangular panorama the width of pixels tends to zero, but not their height.)
 //!
-//! Extremes of what is seen lie on the picture's border, which is looked at pixel by pixel, on the edge of the image
-//! circle, which is found to a step of the survey and that step added, or on a face's edge.
+//! The extreme directions lie on the sensor image's border, which is sampled pixel by pixel; on the edge of the image circle, which is found to a
+//! step of the survey, and that step is added; or on a face's edge.
 
 use etendue_core::WavelengthRange;
 use etendue_projection::Raster;
@@ -17,15 +17,15 @@ use super::projection::{PupilProjection, WIDEST_RECTILINEAR_RAD};
 use super::{survey::Survey, view::Face};
 use crate::{error::OpticsError, lens::Lens};
 
-/// Rounding that a position in pixels may have before it counts as another pixel.
+/// Rounding tolerance of a position in pixels.
 const ROUNDING_PX: f64 = 1e-6;
 
 impl PupilProjection {
-    /// The geometry that holds every direction of a picture and of `margin_px` more columns and rows on all its sides, at the
-    /// wavelengths of a range (nm).
+    /// The geometry that contains every direction of a sensor image with `margin_px` more columns and rows on all sides, at the wavelengths of a
+    /// range (nm).
     ///
     /// # Errors
-    /// Where the lens has no single viewpoint or cannot image the picture.
+    /// If the lens has no single viewpoint or cannot form the sensor image.
     pub fn covering(
         lens: &Lens,
         raster: &Raster,
@@ -47,7 +47,7 @@ impl PupilProjection {
     }
 }
 
-/// Refuses lenses without a single viewpoint, or whose viewpoints are not known well enough.
+/// Refuses lenses without a single viewpoint, or whose viewpoints are not known accurately.
 pub(super) fn serves(lens: &Lens) -> Result<(), OpticsError> {
     match lens {
         Lens::Telecentric(_) | Lens::RayTransfer(_) => Err(OpticsError::NoPupilRoute { kind: lens.kind() }),
@@ -55,7 +55,7 @@ pub(super) fn serves(lens: &Lens) -> Result<(), OpticsError> {
     }
 }
 
-/// Whether the picture is rectilinear itself.
+/// True if the sensor image is rectilinear itself.
 fn is_plain(lens: &Lens) -> bool {
     let paraxial = matches!(lens, Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_));
     paraxial && lens.distortion().is_none() && !lens.spreads_colours()
@@ -68,7 +68,7 @@ fn one_view(lens: &Lens, raster: &Raster, survey: &Survey) -> Result<PupilProjec
     let pitch_tan = if plain { central } else { sides().fold(central, f64::min) };
     let [low, high] = bounds(survey, Face::Front, f64::INFINITY).ok_or(OpticsError::SeesNothing)?;
     let margin = if plain { 0.0 } else { 1.0 };
-    // The lattice keeps the fraction of the principal point, so that pixels coincide where nothing is distorted.
+    // The lattice keeps the fraction of the principal point, so that pixels coincide without distortion.
     let fraction = raster.principal_px() - raster.principal_px().floor();
     let before = (-low / pitch_tan - fraction - ROUNDING_PX).ceil() + margin;
     let principal_px = before + fraction;
@@ -86,11 +86,11 @@ fn six_views(survey: &Survey) -> Result<PupilProjection, OpticsError> {
     Cube::new(face_px, Face::ALL.map(|face| window(survey, face, face_px))).map(PupilProjection::Cube)
 }
 
-/// What is to be stored of a face.
+/// The stored window of a face.
 fn window(survey: &Survey, face: Face, face_px: usize) -> Option<Window> {
     let half = 0.5 * face_px as f64;
     let [low, high] = bounds(survey, face, 1.0)?.map(|tangent| tangent * half + half);
-    // A picture that crosses the face's edge was sampled beyond it; one that ends before needs a pixel for rounding.
+    // A sensor image that crosses the face's edge was sampled beyond it; one that ends before needs a pixel for rounding.
     let first = |t: f64| if t < 1.0 { -BORDER_PX } else { t.floor() as i64 - 1 };
     let last = face_px as f64 - 1.0;
     let end = |t: f64| if t > last { face_px as i64 + BORDER_PX } else { t.ceil() as i64 + 1 };
@@ -104,15 +104,15 @@ fn window(survey: &Survey, face: Face, face_px: usize) -> Option<Window> {
     })
 }
 
-/// The rectangle of tangents of a face that the picture sees, among those within `reach` of the axis and a step of the survey
-/// about them; `None` where it sees none of it.
+/// The rectangle of tangents of a face seen by the sensor image, among those within `reach` of the axis and a step of the survey about them; `None`
+/// if it sees none of the face.
 fn bounds(survey: &Survey, face: Face, reach: f64) -> Option<[DVec2; 2]> {
     let step = survey.step_px as f64;
     let mut bounds: Option<[DVec2; 2]> = None;
     for look in &survey.looks {
         let Some(tangent) = face.tangent(look.direction) else { continue };
         let side = look.sides_tan(face).map_or(0.0, |[a, b]| a.max(b));
-        // Sides grow without end towards a right angle from the face's axis.
+        // Sides grow without limit towards a right angle from the face's axis.
         if tangent.abs().max_element() > reach + (step * side).min(1.0) {
             continue;
         }

@@ -1,24 +1,24 @@
-//! Six perspective views: the pixel grid of a cube map, as far as it is needed.
+//! Six perspective views: the pixel grid of a cube map, limited to the part needed.
 //!
 //! # Layout
 //!
-//! Each face of the cube about the entrance pupil has `face_px` × `face_px` pixels over the tangents −1 to 1, so the pitch is
-//! 2/`face_px`; pixel (i, j) of a face has its centre at the tangents (i + 0.5, j + 0.5) · pitch − 1. Of each face a window is
-//! stored: an upright rectangle that may reach some pixels beyond the face ([`BORDER_PX`]), so that whatever lies across an
-//! edge can be read from either side. Faces at which nothing looks have no window.
+//! Each face of the cube about the entrance pupil has `face_px` × `face_px` pixels over the tangents −1 to 1, so the pitch is 2/`face_px`; pixel (i,
+//! j) of a face has its centre at the tangents (i + 0.5, j + 0.5) · pitch − 1. A window of each face is stored: an upright rectangle that may extend
+//! some pixels beyond the face ([`BORDER_PX`]), so that points across an edge can be read from either side. Faces that no direction needs have no
+//! window.
 //!
-//! Windows lie in the stored image in the order front, right, left, top, bottom, back: side by side from the left as long
-//! as they get no wider than 5/4 of the widest window, then in a new row below the tallest. Pixels between them belong to none.
+//! Windows are stored in the image in the order front, right, left, top, bottom, back: side by side from the left up to a total width of 5/4 of the
+//! widest window, then in a new row below the tallest. Pixels between them belong to no window.
 
 use glam::DVec2;
 
 use super::view::{Face, View};
 use crate::error::OpticsError;
 
-/// Pixels beyond a face's edge that are stored of it. Cells of the resampling are two pixels wide at most.
+/// Stored pixels beyond a face's edge. Cells of the resampling are two pixels wide at most.
 pub(super) const BORDER_PX: i64 = 4;
 
-/// What is stored of a face, in its own pixels.
+/// The stored part of a face, in its own pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
     /// First column; may be negative.
@@ -41,10 +41,10 @@ pub struct Cube {
 }
 
 impl Cube {
-    /// Faces of `face_px` × `face_px` pixels of which the given windows are stored, in the order of [`Face::ALL`].
+    /// Creates faces of `face_px` × `face_px` pixels with the given stored windows, in the order of [`Face::ALL`].
     ///
     /// # Errors
-    /// Where there is no window, or one is empty.
+    /// If there is no window, or one is empty.
     pub fn new(face_px: usize, windows: [Option<Window>; 6]) -> Result<Self, OpticsError> {
         let empty = |w: &Window| w.width == 0 || w.height == 0;
         if face_px == 0 || windows.iter().all(Option::is_none) || windows.iter().flatten().any(empty) {
@@ -94,7 +94,7 @@ impl Cube {
         &self.views
     }
 
-    /// What is stored of each face, in the order of [`Face::ALL`].
+    /// The stored part of each face, in the order of [`Face::ALL`].
     #[must_use]
     pub fn windows(&self) -> [Option<Window>; 6] {
         self.views.map(|view| {
@@ -107,7 +107,7 @@ impl Cube {
         })
     }
 
-    /// The same with each window wider and taller by `columns` and `rows` on either side, as far as its face goes.
+    /// The same with each window wider and taller by `columns` and `rows` on either side, at most to its face.
     pub(super) fn widened(&self, columns: usize, rows: usize) -> Result<Self, OpticsError> {
         let grown = |w: Window| {
             let [left, width] = grown(w.left, w.width, columns, self.face_px);
@@ -118,7 +118,7 @@ impl Cube {
     }
 }
 
-/// First pixel and length of an interval of pixels, longer at both ends, but not longer than a face with its border.
+/// First pixel and length of an interval of pixels, extended at both ends, but not beyond a face with its border.
 fn grown(first: i64, length: usize, by: usize, face_px: usize) -> [i64; 2] {
     let start = (first - by as i64).max(first.min(-BORDER_PX));
     let old_end = first + length as i64;

@@ -1,11 +1,11 @@
 //! Radiance to irradiance: the lens's étendue at each pixel.
 //!
-//! E = L · Ω(x), with Ω = [`Lens::projected_solid_angle_sr`] at the pixel's centre. Ω varies over a pixel of pitch p by about (p/c)² of
-//! itself, so its mean over the pixel is the same to f32 rounding for pitches below a thousandth of the principal distance;
-//! at the very edge of mechanical vignetting the difference is that of one pixel's width.
+//! E = L · Ω(x), with Ω = [`Lens::projected_solid_angle_sr`] at the pixel's centre. The relative variation of Ω over a pixel of pitch p is about
+//! (p/c)², so its mean over the pixel is equal to f32 rounding for pitches below a thousandth of the principal distance; at the very edge of
+//! mechanical vignetting the difference is that of one pixel's width.
 //!
-//! A prescription's Ω is a quadrature over traced rays; it is taken from a table over the radius (`radial.rs`), and where
-//! coatings, a filter or glasses make it depend on the wavelength, by the middle of each band.
+//! A prescription's Ω is a quadrature over traced rays; it is taken from a table over the radius (`radial.rs`), and where coatings, a filter or
+//! glasses make it depend on the wavelength, at the centre of each band.
 
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Irradiance, Quantity, Radiance};
@@ -16,10 +16,10 @@ use rayon::prelude::*;
 use super::survey::RadialEtendue;
 use crate::{error::OpticsError, lens::Lens};
 
-/// Irradiance on the sensor of a radiance image that already is in the sensor's raster.
+/// Irradiance on the sensor of a radiance image that is already in the sensor's raster.
 ///
 /// # Errors
-/// Where the image's size is not the raster's.
+/// If the image's size is not the raster's.
 pub fn irradiance(
     radiance: &SpectralCube<Radiance>,
     lens: &Lens,
@@ -50,12 +50,12 @@ pub fn irradiance(
     Ok(result)
 }
 
-/// The same for one band at a time, with the memory of that band alone: the étendue is found anew for each, row by row on the caller's threads.
+/// The same for one band at a time, with the memory of that band only: the étendue is recomputed for each, row by row on the caller's threads.
 #[derive(Debug)]
 pub struct BandEtendue<'a> {
     lens: &'a Lens,
     raster: &'a Raster,
-    /// Of a prescription.
+    /// Table of a prescription.
     table: Option<RadialEtendue>,
 }
 
@@ -70,10 +70,10 @@ impl<'a> BandEtendue<'a> {
         Self { lens, raster, table }
     }
 
-    /// Irradiance of the band about `centre_nm` of a radiance in the raster: the numbers that [`irradiance`] has.
+    /// Irradiance of the band about `centre_nm` of a radiance in the raster; equal to [`irradiance`].
     ///
     /// # Errors
-    /// Where the plane's size is not the raster's.
+    /// If the plane's size is not the raster's.
     pub fn irradiance(&self, radiance: &Plane<Radiance>, centre_nm: f64) -> Result<Plane<Irradiance>, OpticsError> {
         let (width, height) = (self.raster.width(), self.raster.height());
         check_plane(radiance, width, height)?;

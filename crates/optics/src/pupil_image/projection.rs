@@ -2,13 +2,12 @@
 //!
 //! # Contract
 //!
-//! - A stored image is one perspective view or several ([`View`]). Pixel coordinates are of the stored image (raster
-//!   convention, centres at + 0.5); a pixel that belongs to no view looks nowhere.
+//! - A stored image is one perspective view or several ([`View`]). Pixel coordinates are those of the stored image (raster convention, centres at +
+//!   0.5); a pixel outside all views has no direction.
 //! - [`PupilProjection::Rectilinear`]: one view about the optical axis, direction = ((px − principal) · pitch, 1) with the
 //!   tangents X/Z and Y/Z of the camera frame. Without distortion and with square pixels an image made by
-//!   [`PupilProjection::covering`] has exactly the pixels of the picture.
-//! - [`PupilProjection::Cube`]: six views (`cube.rs`), for pictures that look further than [`WIDEST_RECTILINEAR_RAD`] from
-//!   the axis.
+//!   [`PupilProjection::covering`] has exactly the pixels of the sensor image.
+//! - [`PupilProjection::Cube`]: six views (`cube.rs`), for sensor images that extend farther than [`WIDEST_RECTILINEAR_RAD`] from the axis.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -20,8 +19,8 @@ use super::view::{Face, View};
 use crate::error::OpticsError;
 use crate::overlap::{finite, positive};
 
-/// The angle from the axis up to which one rectilinear view is used: 65°, where its pixels are 2.4 times as dense along the
-/// radius as a direction needs, and 5.6 times as many.
+/// The angle from the axis up to which one rectilinear view is used: 65°. There its pixels are 2.4 times as dense along the radius as a direction
+/// needs, and 5.6 times as many.
 pub const WIDEST_RECTILINEAR_RAD: f64 = 65.0 * core::f64::consts::PI / 180.0;
 
 /// The geometry of a radiance image as seen from the entrance pupil: the closed list.
@@ -35,10 +34,10 @@ pub enum PupilProjection {
 }
 
 impl PupilProjection {
-    /// One view of `width` × `height` pixels, each `pitch_tan` wide in tangent, with the optical axis at `principal_px`.
+    /// Creates one view of `width` × `height` pixels, each `pitch_tan` wide in tangent, with the optical axis at `principal_px`.
     ///
     /// # Errors
-    /// Where a number is not finite, or size or pitch not positive.
+    /// If a number is not finite, or size or pitch not positive.
     pub fn rectilinear(width: usize, height: usize, pitch_tan: f64, principal_px: DVec2) -> Result<Self, OpticsError> {
         positive("width", width as f64)?;
         positive("height", height as f64)?;
@@ -48,8 +47,8 @@ impl PupilProjection {
         Ok(Self::Rectilinear(View { face: Face::Front, pitch_tan, principal_px, first: [0, 0], size: [width, height] }))
     }
 
-    /// The same image with `columns` more on the left and on the right of each view, and `rows` more above and below: room
-    /// for other lenses and sensors. A view of a cube grows as far as its face does.
+    /// The same image with `columns` more on the left and on the right of each view, and `rows` more above and below, as room for other lenses and
+    /// sensors. A view of a cube grows at most to its face.
     #[must_use]
     pub fn widened(&self, columns: usize, rows: usize) -> Self {
         match self {
@@ -62,7 +61,7 @@ impl PupilProjection {
         }
     }
 
-    /// [`Self::widened`] by a share of the view, or of the cube's faces.
+    /// [`Self::widened`] by a fraction of the view, or of the cube's faces.
     #[must_use]
     pub fn overscanned(&self, share: f64) -> Self {
         let [columns, rows] = match self {
@@ -100,7 +99,7 @@ impl PupilProjection {
         }
     }
 
-    /// The views, those stored first in front.
+    /// The views, in the order of storage.
     pub fn views(&self) -> impl Iterator<Item = &View> {
         match self {
             Self::Rectilinear(view) => core::slice::from_ref(view).iter().chain([].iter().flatten()),
@@ -114,7 +113,7 @@ impl PupilProjection {
         self.views().find(|view| view.holds(px)).map(|view| view.direction(px))
     }
 
-    /// The view that shows a direction; `None` where none does.
+    /// The view that shows a direction; `None` if none does.
     #[must_use]
     pub fn view(&self, direction: DVec3) -> Option<&View> {
         match self {
@@ -126,10 +125,10 @@ impl PupilProjection {
         }
     }
 
-    /// Refuses a direction that the image does not hold, but for rounding.
+    /// Refuses a direction outside the image, except for rounding.
     ///
     /// # Errors
-    /// Names the edge beyond which the direction lies and by how much, or the view that is missing.
+    /// Names the edge beyond which the direction lies and by how much, or the missing view.
     pub(super) fn check_holds(&self, direction: DVec3) -> Result<(), OpticsError> {
         match self {
             Self::Rectilinear(view) => check_view(view, direction),
@@ -141,11 +140,11 @@ impl PupilProjection {
     }
 }
 
-/// How far a picture may reach beyond an image before directions count as missing: rounding of the same geometry
-/// written down and read back.
+/// Distance by which a sensor image may reach beyond a stored image before directions count as missing: rounding of the same geometry written and
+/// read back.
 const EDGE_PX: f64 = 1e-3;
 
-/// Pixels that stand for what lies behind a view.
+/// Pixel coordinate that stands for points behind a view.
 const FAR_PX: f64 = 1e12;
 
 fn check_view(view: &View, direction: DVec3) -> Result<(), OpticsError> {

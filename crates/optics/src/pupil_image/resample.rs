@@ -1,18 +1,16 @@
 //! Distortion, lateral colour and raster by resampling a stored radiance image.
 //!
-//! A pixel of the picture is cut into cells, n × n with n = 2 or as many as it takes for a cell to be no wider than two stored
-//! pixels. Each cell is read from the view that shows its middle: its footprint is taken as the upright rectangle of the
-//! cell's own second moments there (for a cell with edges a and b: √(a_x² + b_x²) wide and √(a_y² + b_y²) high), and the
-//! cell's radiance is the mean over that rectangle of the stored image, whose pixels count as uniform. Weights sum to one,
-//! so a uniform radiance stays uniform.
+//! A pixel of the sensor image is cut into n × n cells, with n = 2 or as many as keep a cell at most two stored pixels wide. Each cell is read from
+//! the view that shows its centre. Its footprint is the upright rectangle of the cell's own second moments there (for a cell with edges a and b:
+//! √(a_x² + b_x²) wide and √(a_y² + b_y²) high). The cell's radiance is the mean of the stored image over that rectangle, whose pixels count as
+//! uniform. Weights sum to one, so a uniform radiance stays uniform.
 //!
-//! Blur: the picture's own pixel box, widened by the stored pixel's box. Where both grids have one pitch this is exactly
-//! linear interpolation of the stored pixels (the identity where the grids coincide: then nothing is blurred); where the
-//! stored image is finer it tends to the exact pixel mean. Views overlap by a few pixels, so that across the edges of a cube
-//! the radiance is as continuous as within a face.
+//! Blur: the pixel box of the sensor image, widened by that of the stored image. Where both grids have one pitch this is exactly linear interpolation
+//! of the stored pixels (the identity where the grids coincide: then nothing is blurred); where the stored image is finer it tends to the exact pixel
+//! mean. Views overlap by a few pixels, so the radiance is as continuous across the edges of a cube as within a face.
 //!
-//! A pixel is the mean of its cells that see something; where none does it is dark. With lateral colour every band is
-//! resampled by the chief rays of its own middle.
+//! A pixel is the mean of its lit cells; a pixel without one is dark. With lateral colour every band is resampled by the chief rays of its own
+//! centre.
 
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Quantity, Radiance};
@@ -27,25 +25,25 @@ use super::view::{Face, View};
 use super::{covering::serves, projection::PupilProjection};
 use crate::{error::OpticsError, lens::Lens};
 
-/// Cells a pixel along each axis, at least and at most.
+/// Minimum and maximum number of cells per pixel along each axis.
 const CELLS: (usize, usize) = (2, 64);
-/// Stored pixels that a cell may be wide.
+/// Maximum width of a cell, stored pixels.
 const CELL_PX: f64 = 2.0;
-/// The least side of a cell's footprint, stored pixels: two make the box of a linear interpolation.
+/// The minimum side of a cell's footprint, stored pixels: two such cells make the box of a linear interpolation.
 const MIN_PX: f64 = 0.5;
 
-/// The map from a stored radiance image to the picture of a lens and a raster, with a margin about it.
+/// The map from a stored radiance image to the sensor image of a lens and a raster, with a margin about it.
 #[derive(Clone, Debug)]
 pub struct Resampling<'a> {
     stored: PupilProjection,
     lens: &'a Lens,
-    /// The picture with its margin.
+    /// The sensor image with its margin.
     raster: Raster,
-    /// Cells a pixel along each axis.
+    /// Cells per pixel along each axis.
     cells: usize,
 }
 
-/// A share of one stored pixel in a pixel of the picture.
+/// The fraction of one stored pixel in a pixel of the sensor image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Tap {
     index: usize,
@@ -56,10 +54,10 @@ struct Tap {
 type Corners<'a> = [&'a [Option<DVec3>]; 2];
 
 impl<'a> Resampling<'a> {
-    /// A resampling of images of geometry `stored` into the raster of the picture with `margin_px` more columns and rows on all sides.
+    /// Creates a resampling of images of geometry `stored` into the raster of the sensor image with `margin_px` more columns and rows on all sides.
     ///
     /// # Errors
-    /// Where the picture needs directions that the image does not hold, or the lens cannot image the picture.
+    /// If the sensor image needs directions that the stored image does not hold, or the lens cannot image it.
     pub fn new(
         stored: PupilProjection,
         lens: &'a Lens,
@@ -81,16 +79,16 @@ impl<'a> Resampling<'a> {
         Ok(Self { stored, lens, raster, cells })
     }
 
-    /// The pixels of the result: those of the picture and of its margin.
+    /// The pixels of the result: those of the sensor image and of its margin.
     #[must_use]
     pub fn raster(&self) -> &Raster {
         &self.raster
     }
 
-    /// The radiance image in the raster of the picture.
+    /// The radiance image in the raster of the sensor image.
     ///
     /// # Errors
-    /// Where the image's size is not that of its geometry, or directions are missing after all.
+    /// If the image's size is not that of its geometry, or directions are missing.
     pub fn apply(&self, radiance: &SpectralCube<Radiance>) -> Result<SpectralCube<Radiance>, OpticsError> {
         check_size(radiance, self.stored.width(), self.stored.height())?;
         let bands = radiance.bands();
@@ -98,11 +96,10 @@ impl<'a> Resampling<'a> {
         Ok(SpectralCube::from_planes(bands, planes).expect("a plane a band, all of the raster's size"))
     }
 
-    /// Some bands of a radiance image in the raster of the picture, each of the wavelength in its middle, nm: the numbers that
-    /// [`apply`](Self::apply) has.
+    /// Some bands of a radiance image in the raster of the sensor image, each of the wavelength at its centre, nm; equal to [`apply`](Self::apply).
     ///
     /// # Errors
-    /// Where a band's size is not that of the geometry, or directions are missing after all.
+    /// If a band's size is not that of the geometry, or directions are missing.
     pub fn apply_to_bands(
         &self,
         radiance: &[Plane<Radiance>],
@@ -124,11 +121,11 @@ impl<'a> Resampling<'a> {
         Ok(result)
     }
 
-    /// A stored plane in the raster of the picture, each pixel the stored one nearest to its centre's chief ray (587.56 nm):
-    /// never averaged. `nothing` where no ray is.
+    /// A stored plane in the raster of the sensor image: each pixel is the stored one nearest to its centre's chief ray (587.56 nm), never averaged.
+    /// `nothing` where there is no ray.
     ///
     /// # Errors
-    /// Where the plane's size is not that of the geometry.
+    /// If the plane's size is not that of the geometry.
     pub fn nearest<Q: Quantity>(&self, plane: &Plane<Q>, nothing: Q::Sample) -> Result<Plane<Q>, OpticsError> {
         check_plane(plane, self.stored.width(), self.stored.height())?;
         let aim = Aim::principal(self.lens, self.raster.max_radius_mm() * REACH);
@@ -156,7 +153,7 @@ impl<'a> Resampling<'a> {
         Ok(())
     }
 
-    /// A row of the picture in all planes, plane after plane.
+    /// A row of the sensor image in all planes, plane after plane.
     fn row(&self, aim: &Aim<'_>, y: usize, from: &[Plane<Radiance>]) -> Result<Vec<f32>, OpticsError> {
         let (n, width) = (self.cells, self.raster.width());
         let lines: Vec<Vec<Option<DVec3>>> = (0..=n).map(|i| self.corner_row(aim, y * n + i)).collect();
@@ -187,8 +184,8 @@ impl<'a> Resampling<'a> {
         (0..=self.raster.width() * self.cells).map(at).collect()
     }
 
-    /// Adds the stored pixels of one row of a pixel's cells, from the cell `first` on, each cell's weights summing to one. How
-    /// many cells see something.
+    /// Adds the stored pixels of one row of a pixel's cells, from the cell `first` on; the weights of each cell sum to one. Returns the number of lit
+    /// cells.
     fn add_cells(&self, rows: Corners<'_>, first: usize, taps: &mut Vec<Tap>) -> Result<usize, OpticsError> {
         let mut seen = 0;
         for i in first..first + self.cells {
@@ -222,7 +219,7 @@ impl<'a> Resampling<'a> {
         }
     }
 
-    /// The one stored pixel of a pixel at the image circle's edge, of which no whole cell sees anything but its centre does.
+    /// The stored pixel for a pixel at the edge of the image circle whose centre is lit but none of whose cells is.
     fn single_tap(&self, aim: &Aim<'_>, raster_px: DVec2) -> Option<Tap> {
         self.nearest_index(aim, raster_px).map(|index| Tap { index, weight: 1.0 })
     }
@@ -237,7 +234,7 @@ impl<'a> Resampling<'a> {
     }
 }
 
-/// Refuses a picture that looks where the image holds nothing.
+/// Refuses a sensor image that needs directions outside the stored image.
 fn check_covers(stored: &PupilProjection, survey: &Survey) -> Result<(), OpticsError> {
     let mut worst: Option<(f64, OpticsError)> = None;
     for look in &survey.looks {
@@ -251,7 +248,7 @@ fn check_covers(stored: &PupilProjection, survey: &Survey) -> Result<(), OpticsE
     worst.map_or(Ok(()), |(_, error)| Err(error))
 }
 
-/// The upright rectangle (px of the stored image) of a cell in a view that shows its middle: its second moments about it.
+/// The upright rectangle (px of the stored image) of a cell in a view that shows its centre: its second moments about it.
 fn footprint(view: &View, corners: [DVec3; 4], middle: DVec3) -> Option<[DVec2; 2]> {
     let middle = view.px(middle)?;
     let [a, b, c, d] = corners.map(|corner| view.px(corner));
@@ -260,14 +257,14 @@ fn footprint(view: &View, corners: [DVec3; 4], middle: DVec3) -> Option<[DVec2; 
         let moment = |x: f64, y: f64| (x * x + y * y).sqrt().max(MIN_PX);
         (0.25 * ((a + d) + (b + c)), DVec2::new(moment(across.x, down.x), moment(across.y, down.y)))
     } else {
-        // A cell of a right angle and more.
+        // A cell of a right angle or more.
         (middle, DVec2::splat(MIN_PX))
     };
     Some([centre - 0.5 * size, centre + 0.5 * size])
 }
 
-/// The pixels from `first` on, `count` of them, that the interval [low, high] touches, with the length in each. Pixels at the
-/// edge stand for what lies beyond (rounding only: the picture lies inside).
+/// The pixels from `first` on, `count` of them, that the interval [low, high] touches, with the length in each. Edge pixels stand for what lies
+/// beyond (rounding only: the sensor image lies inside).
 fn overlaps(low: f64, high: f64, first: usize, count: usize) -> impl Iterator<Item = (usize, f64)> {
     let index = move |p: f64| (p.floor().max(first as f64) as usize).min(first + count - 1);
     let (start, end) = (index(low), index(high));

@@ -1,16 +1,16 @@
-//! Where a picture looks, in samples: what decides the geometry of a stored image.
+//! Samples of the viewing directions of a sensor image, which decide the geometry of a stored image.
 //!
-//! Where the points of a picture look, by wavelength, at the cost of a table where the lens itself is dear.
+//! Chief-ray directions by wavelength, tabulated if the lens itself is expensive.
 //!
-//! A prescription's chief rays (through the centre of the stop, of the wavelength) are traced at [`KNOTS`] radii; their field
-//! angles are interpolated by cubics through the neighbours' slopes (Catmull and Rom 1974). The angle is a smooth function
-//! of the radius, and the error is tested to stay below 1e-7 rad, a thousandth of any pixel.
+//! A prescription's chief rays (through the centre of the stop, per wavelength) are traced at [`KNOTS`] radii. Their field angles are interpolated by
+//! cubics through the neighbours' slopes (Catmull and Rom 1974). The angle is a smooth function of the radius; tests hold the error below 1e-7 rad, a
+//! thousandth of any pixel.
 //!
 //! The étendue of a prescription over the radius.
 //!
-//! Ω at 587.56 nm stands at [`KNOTS`] radii, its ratio at another wavelength at one in [`STRIDE`] of them; both are
-//! interpolated linearly. The error is tested to stay below 1e-3 of the étendue on the axis (2e-4 where no aperture begins
-//! or ends to clip); where the lens gets dark the last step is one of 1/256 of the picture's radius.
+//! Ω at 587.56 nm is tabulated at [`KNOTS`] radii, its ratio at another wavelength at one in [`STRIDE`] of them; both are interpolated linearly.
+//! Tests hold the error below 1e-3 of the étendue on the axis (2e-4 where no aperture begins or ends to clip); where the lens becomes dark the last
+//! step is 1/256 of the radius of the sensor image.
 
 use core::f64::consts::PI;
 
@@ -23,16 +23,16 @@ use super::view::Face;
 use crate::lens::{DIRECTIONS, FieldAngles, Lens, Prescribed};
 use crate::overlap::PRINCIPAL_NM;
 
-/// Samples along a side of the picture, at least; its border is looked at pixel by pixel.
+/// Minimum number of samples along a side of the sensor image; its border is sampled pixel by pixel.
 const SAMPLES: usize = 256;
-/// Wavelengths at which a lens is asked whose chief rays depend on them.
+/// Number of wavelengths sampled for a lens whose chief rays depend on them.
 const WAVELENGTHS: usize = 5;
 
-/// A sample of a picture.
+/// One sample of a sensor image.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     pub(super) direction: DVec3,
-    /// Directions half a pixel to the left, right, above, below, where all are.
+    /// Directions half a pixel to the left, right, above and below, if all exist.
     around: Option<[DVec3; 4]>,
 }
 
@@ -45,18 +45,18 @@ impl Look {
     }
 }
 
-/// Samples of a picture.
+/// Samples of a sensor image.
 #[derive(Clone, Debug)]
 pub(super) struct Survey {
     pub(super) looks: Vec<Look>,
-    /// Pixels between samples inside the picture.
+    /// Pixels between samples inside the sensor image.
     pub(super) step_px: usize,
-    /// Whether some samples look nowhere.
+    /// True if some samples have no direction.
     pub(super) dark: bool,
 }
 
 impl Survey {
-    /// Of a lens and a raster, at the wavelengths of a range where they matter.
+    /// Samples a lens and a raster, at several wavelengths of a range if they differ.
     pub(super) fn new(lens: &Lens, raster: &Raster, range: WavelengthRange) -> Self {
         let step_px = raster.width().max(raster.height()).div_ceil(SAMPLES);
         let mut survey = Self { looks: Vec::new(), step_px, dark: false };
@@ -78,14 +78,14 @@ impl Survey {
         self.looks.push(Look { direction, around });
     }
 
-    /// The greatest angle from the axis, rad.
+    /// The largest angle from the axis, rad.
     pub(super) fn widest_rad(&self) -> f64 {
         let angle = |look: &Look| atan2(look.direction.truncate().length(), look.direction.z);
         self.looks.iter().map(angle).fold(0.0, f64::max).min(PI)
     }
 }
 
-/// Tables reach a little beyond the picture.
+/// Tables extend slightly beyond the sensor image.
 pub(super) const REACH: f64 = 1.02;
 
 /// The wavelengths whose chief rays differ.
@@ -96,7 +96,7 @@ fn wavelengths(lens: &Lens, range: WavelengthRange) -> Vec<f64> {
     (0..WAVELENGTHS).map(|i| range.low_nm + range.width_nm() * i as f64 / (WAVELENGTHS - 1) as f64).collect()
 }
 
-/// Pixel corners: a lattice inside the picture, all along its border.
+/// Pixel corners: a lattice inside the sensor image, and all along its border.
 fn points(raster: &Raster, step_px: usize) -> impl Iterator<Item = DVec2> {
     let (w, h) = (raster.width(), raster.height());
     let row = move |y: usize| {
@@ -114,7 +114,7 @@ const KNOTS: usize = 512;
 /// The chief rays of a wavelength.
 #[derive(Clone, Debug)]
 pub(crate) enum Aim<'a> {
-    /// Asked of the lens, point by point.
+    /// Queried from the lens, point by point.
     Lens {
         /// The lens.
         lens: &'a Lens,
@@ -126,7 +126,7 @@ pub(crate) enum Aim<'a> {
 }
 
 impl<'a> Aim<'a> {
-    /// Of points as far as `reach_mm` from the axis.
+    /// Creates the chief rays of points up to `reach_mm` from the axis.
     pub(crate) fn new(lens: &'a Lens, reach_mm: f64, nm: f64) -> Self {
         match lens {
             Lens::Prescription(prescribed) => Self::Table(prescribed.field_angles(reach_mm, nm, KNOTS)),
@@ -134,12 +134,12 @@ impl<'a> Aim<'a> {
         }
     }
 
-    /// Of the wavelength of ground truth.
+    /// Chief rays at the wavelength of ground truth.
     pub(crate) fn principal(lens: &'a Lens, reach_mm: f64) -> Self {
         Self::new(lens, reach_mm, PRINCIPAL_NM)
     }
 
-    /// The unit direction seen at a sensor point; `None` where there is none.
+    /// The unit direction seen at a sensor point; `None` if there is none.
     pub(crate) fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
         match self {
             Self::Lens { lens, nm } => lens.direction_at(sensor_mm, *nm).map(DVec3::normalize),
@@ -148,11 +148,11 @@ impl<'a> Aim<'a> {
     }
 }
 
-/// Radii at which the quadrature is done.
+/// Radii of the quadrature.
 const RADIAL_KNOTS: usize = 257;
-/// Of which every so many serve for the ratio of other wavelengths.
+/// Step between the radii used for the ratio at other wavelengths.
 const STRIDE: usize = 8;
-/// Directions of the quadrature where only the ratio counts: its own error is nearly the same at both wavelengths.
+/// Directions of the quadrature if only the ratio matters: its own error is nearly the same at both wavelengths.
 const FEWER: usize = 24;
 
 /// Étendue (sr) at radii 0, step, 2 step, … mm.
@@ -163,25 +163,25 @@ pub(super) struct RadialEtendue {
 }
 
 impl RadialEtendue {
-    /// At 587.56 nm, as far as `reach_mm` from the axis.
+    /// Étendue at 587.56 nm, up to `reach_mm` from the axis.
     pub(super) fn new(lens: &Prescribed, reach_mm: f64) -> Self {
         let step_mm = reach_mm / (RADIAL_KNOTS - 1) as f64;
         let at = |i: usize| lens.projected_solid_angle_at_sr(step_mm * i as f64, PRINCIPAL_NM, DIRECTIONS);
         Self { step_mm, values: (0..KNOTS).into_par_iter().map(at).collect() }
     }
 
-    /// The same at another wavelength: each radius that is lit at 587.56 nm.
+    /// The same at another wavelength, for each radius that is lit at 587.56 nm.
     pub(super) fn at_wavelength(&self, lens: &Prescribed, nm: f64) -> Self {
         let at = |i: usize, nm: f64| lens.projected_solid_angle_at_sr(self.step_mm * i as f64, nm, FEWER);
         let lit = |i: usize| Some(at(i, PRINCIPAL_NM)).filter(|sr| *sr > 0.0);
         let knots = (0..KNOTS).into_par_iter().step_by(STRIDE);
         let found: Vec<Option<f64>> = knots.map(|i| Some(at(i, nm) / lit(i)?)).collect();
         if found.iter().all(Option::is_none) {
-            // A filter that is shut at 587.56 nm says nothing of other wavelengths.
+            // A filter that is opaque at 587.56 nm gives no information on other wavelengths.
             let values = (0..KNOTS).into_par_iter().map(|i| at(i, nm)).collect();
             return Self { step_mm: self.step_mm, values };
         }
-        // Where it is dark at 587.56 nm nothing depends on the ratio but its neighbour's interpolation.
+        // At radii that are dark at 587.56 nm the ratio only serves the interpolation of their neighbours.
         let ratios: Vec<f64> = found
             .into_iter()
             .scan(0.0, |last, ratio| {
@@ -193,7 +193,7 @@ impl RadialEtendue {
         Self { step_mm: self.step_mm, values: self.values.iter().enumerate().map(|(i, v)| v * ratio(i)).collect() }
     }
 
-    /// Étendue at radii, mm; at the last one beyond it.
+    /// Étendue at radii, mm; clamped to the last one.
     pub(super) fn at_radii(&self, radii_mm: &[f64]) -> Vec<f64> {
         radii_mm.iter().map(|r| linear(&self.values, r / self.step_mm)).collect()
     }
@@ -246,13 +246,13 @@ mod tests {
             let radii: Vec<f64> = (0..12).map(|i| 19.2 * (f64::from(i) + 0.61) / 12.0).collect();
             for (r, sr) in radii.iter().zip(band.at_radii(&radii)) {
                 let exact = lens.projected_solid_angle_at_sr(*r, nm, DIRECTIONS);
-                // The edge of 20 nm crosses the field within a few of the 33 knots.
+                // The filter edge of 20 nm crosses the field within a few of the 33 knots.
                 assert!((sr - exact).abs() < 4e-3 * table.values[0], "{nm} nm at {r} mm: {sr} for {exact}");
             }
         }
     }
 
-    /// A band-pass filter of the near infrared: dark at 587.56 nm, and yet light comes.
+    /// A near-infrared band-pass filter: dark at 587.56 nm, but other light passes.
     #[test]
     fn a_filter_that_is_shut_at_the_reference_shuts_no_other_wavelength() {
         let points = [(800.0, 0.0), (820.0, 1.0), (880.0, 1.0), (900.0, 0.0)];

@@ -5,7 +5,7 @@
 
 use glam::{DVec2, DVec3};
 
-/// A face of the cube about the entrance pupil: the way a view looks.
+/// A face of the cube about the entrance pupil: the direction of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Face {
     /// Along the optical axis, +z.
@@ -39,7 +39,7 @@ impl Face {
         }
     }
 
-    /// Unit vectors (camera frame) to the right, down and ahead in the face's picture.
+    /// Unit vectors (camera frame) to the right, down and ahead in the face's sensor image.
     #[must_use]
     pub fn axes(self) -> [DVec3; 3] {
         let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
@@ -53,7 +53,7 @@ impl Face {
         }
     }
 
-    /// The face through which a direction leaves the cube; where two share an edge the earlier one.
+    /// The face through which a direction leaves the cube; of two that share an edge, the earlier one.
     #[must_use]
     pub fn towards(direction: DVec3) -> Self {
         let most = direction.abs().max_element();
@@ -72,7 +72,7 @@ impl Face {
         }
     }
 
-    /// The direction's point on the plane at unit distance; `None` where it does not look ahead.
+    /// The direction's point on the plane at unit distance; `None` if it does not look ahead.
     #[must_use]
     pub fn tangent(self, direction: DVec3) -> Option<DVec2> {
         let [right, down, ahead] = self.axes();
@@ -91,11 +91,11 @@ impl Face {
 /// A view within a stored image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// Where it looks.
+    /// Direction of the view.
     pub(super) face: Face,
     /// A pixel's side on the plane at unit distance.
     pub(super) pitch_tan: f64,
-    /// Where the face's axis is, in pixel coordinates of the stored image.
+    /// Position of the face's axis, in pixel coordinates of the stored image.
     pub(super) principal_px: DVec2,
     /// First column and row of its pixels in the stored image.
     pub(super) first: [usize; 2],
@@ -104,13 +104,13 @@ pub struct View {
 }
 
 impl View {
-    /// Where it looks.
+    /// Direction of the view.
     #[must_use]
     pub fn face(&self) -> Face {
         self.face
     }
 
-    /// Where the face's axis is, in pixel coordinates of the stored image.
+    /// Position of the face's axis, in pixel coordinates of the stored image.
     #[must_use]
     pub fn principal_px(&self) -> DVec2 {
         self.principal_px
@@ -134,7 +134,7 @@ impl View {
         self.face.direction((px - self.principal_px) * self.pitch_tan)
     }
 
-    /// The pixel coordinates of a direction, within the view's pixels or not; `None` where it does not look ahead.
+    /// The pixel coordinates of a direction, within the view's pixels or not; `None` if it does not look ahead.
     #[must_use]
     pub fn px(&self, direction: DVec3) -> Option<DVec2> {
         self.face.tangent(direction).map(|t| t / self.pitch_tan + self.principal_px)
@@ -146,7 +146,7 @@ impl View {
         [low, low + DVec2::new(self.size[0] as f64, self.size[1] as f64)]
     }
 
-    /// Whether a pixel of the stored image belongs to the view.
+    /// True if a pixel of the stored image belongs to the view.
     #[must_use]
     pub fn holds(&self, px: DVec2) -> bool {
         let [low, high] = self.bounds();

@@ -1,12 +1,13 @@
-//! A lens known by its ray-transfer functions alone: from a ray on a plane before the lens to the ray that leaves it.
+//! A lens known only by its ray-transfer functions: from a ray on a plane before the lens to the ray that leaves it.
 //!
-//! T. Goossens, Z. Lyu, J. Ko, G. C. Wan, J. Farrell and B. Wandell, "Ray-transfer functions for camera simulation of 3D scenes with hidden lens design",
-//! Optics Express 30 (2022) 24031. A lens of revolution has three numbers for a ray from the sensor: its height ρ on the input plane, and dx and dy of
-//! its unit direction in the frame whose y axis goes through the point of that height. Polynomials in them give the point and the direction
-//! behind the lens, in the same frame, wavelength by wavelength; a region of a plane tells which rays pass.
+//! T. Goossens, Z. Lyu, J. Ko, G. C. Wan, J. Farrell and B. Wandell, "Ray-transfer functions for camera simulation of 3D scenes with hidden lens
+//! design", Optics Express 30 (2022) 24031. For a lens of revolution three numbers describe a ray from the sensor: its height ρ on the input plane,
+//! and dx and dy of its unit direction in the frame whose y axis goes through the point of that height. Polynomials in them give the point and the
+//! direction behind the lens, in the same frame, wavelength by wavelength; a region of a plane defines the rays that pass.
 //!
-//! Frame: z from the sensor to the scene, mm, x right and y up as seen from behind. The **rear vertex** is the last surface of the lens before the sensor; the input plane lies
-//! `input_offset_mm` before it towards the sensor, the front vertex `thickness_mm` behind it. A fitted point's z counts from the front vertex.
+//! Frame: z from the sensor to the scene, mm, x right and y up as seen from behind. The **rear vertex** is the last surface of the lens before the
+//! sensor; the input plane lies `input_offset_mm` before it towards the sensor, the front vertex `thickness_mm` behind it. A fitted point's z counts
+//! from the front vertex.
 
 mod error;
 
@@ -19,13 +20,13 @@ pub use error::RayTransferError;
 pub struct Transfer {
     /// Wavelength, nm.
     pub wavelength_nm: f64,
-    /// Which rays pass.
+    /// The rays that pass.
     pub pass: RayPass,
     /// x, y and z of the point (mm), z from the front vertex.
     pub point: [Polynomial; 3],
     /// dx and dy of the unit direction.
     pub direction: [Polynomial; 2],
-    /// A polynomial whose sign is that of dz; `None` where all rays go forwards.
+    /// A polynomial with the sign of dz; `None` if all rays go forwards.
     pub forwards: Option<Polynomial>,
 }
 
@@ -38,20 +39,20 @@ pub struct RayTransfer {
     greatest_power: usize,
 }
 
-/// A ray from the sensor's origin, mm.
+/// A ray from the sensor, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TransferRay {
-    /// A point of it.
+    /// A point on the ray.
     pub point_mm: DVec3,
     /// Unit direction.
     pub direction: DVec3,
 }
 
 impl RayTransfer {
-    /// Of functions of rising wavelengths.
+    /// Creates the functions from transfers by rising wavelength.
     ///
     /// # Errors
-    /// Where there are none, or their wavelengths do not rise.
+    /// If there are none, or their wavelengths do not rise.
     pub fn new(thickness_mm: f64, input_offset_mm: f64, transfers: Vec<Transfer>) -> Result<Self, RayTransferError> {
         let rising = transfers.windows(2).all(|pair| pair[1].wavelength_nm > pair[0].wavelength_nm);
         let first = transfers.first().is_some_and(|t| t.wavelength_nm > 0.0);
@@ -65,13 +66,13 @@ impl RayTransfer {
         Ok(Self { thickness_mm, input_offset_mm, transfers, greatest_power })
     }
 
-    /// From the rear vertex to the front vertex, mm.
+    /// Distance from the rear vertex to the front vertex, mm.
     #[must_use]
     pub fn thickness_mm(&self) -> f64 {
         self.thickness_mm
     }
 
-    /// The input plane from the rear vertex towards the sensor, mm.
+    /// Distance from the rear vertex to the input plane, towards the sensor, mm.
     #[must_use]
     pub fn input_offset_mm(&self) -> f64 {
         self.input_offset_mm
@@ -90,12 +91,12 @@ impl RayTransfer {
         (0..self.transfers.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)
     }
 
-    /// The distance of the plane on which pupil points are chosen from a sensor that stands `sensor_mm` behind the rear vertex, mm.
+    /// Distance from the sensor to the plane on which pupil points are chosen, mm; the sensor is `sensor_mm` behind the rear vertex.
     pub(crate) fn pupil_distance_mm(&self, sensor_mm: f64) -> f64 {
         sensor_mm - self.input_offset_mm + self.transfers[0].pass.plane_mm
     }
 
-    /// Whether the functions of an index let a ray through, from a point of the sensor to one of the pupil's plane (mm).
+    /// True if the functions of an index pass a ray from a sensor point to a point of the pupil plane (mm).
     #[inline]
     pub(crate) fn passes(&self, index: usize, from: &Entry) -> bool {
         let pass = &self.transfers[index].pass;
@@ -103,8 +104,8 @@ impl RayTransfer {
         pass.passes(from.height_mm, at)
     }
 
-    /// The ray that leaves the lens at a wavelength, passed or not; of wavelengths between two it is linear between theirs, beyond them theirs. `None` where the
-    /// functions give no direction.
+    /// The ray that leaves the lens at a wavelength, whether it passes or not. Linear between two wavelengths, constant beyond the ends. `None` if
+    /// the functions give no direction.
     #[inline]
     pub(crate) fn leaving(&self, from: &Entry, sensor_mm: f64, nm: f64) -> Option<TransferRay> {
         let numbers = [from.height_mm, from.direction.x, from.direction.y];
@@ -126,7 +127,7 @@ impl RayTransfer {
         (point_mm.is_finite() && direction.is_finite()).then_some(TransferRay { point_mm, direction })
     }
 
-    /// Where a ray from a point of the sensor (mm) to one of the pupil's plane comes to the input plane.
+    /// The point on the input plane of a ray from a sensor point (mm) to a point of the pupil plane.
     #[inline]
     pub(crate) fn entry(&self, sensor_point_mm: DVec2, pupil_mm: DVec2, sensor_mm: f64) -> Entry {
         let distance_mm = self.pupil_distance_mm(sensor_mm);
@@ -156,20 +157,20 @@ impl Transfer {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Entry {
     height_mm: f64,
-    /// The y axis of its frame.
+    /// The y axis of the frame.
     meridian: DVec2,
-    /// Its unit direction in that frame.
+    /// Unit direction in that frame.
     pub(crate) direction: DVec3,
 }
 
 impl Entry {
-    /// A vector of its frame in that of the lens.
+    /// Transforms a vector from this frame to that of the lens.
     fn turned_back(&self, v: DVec2) -> DVec2 {
         DVec2::new(self.meridian.y, -self.meridian.x) * v.x + self.meridian * v.y
     }
 }
 
-/// An ellipse that rays of a height pass, its axes along the meridian (y) and across it (x), mm.
+/// The ellipse passed by rays of one height, its axes along the meridian (y) and across it (x), mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassEllipse {
     /// Height on the input plane, mm.
@@ -180,7 +181,7 @@ pub struct PassEllipse {
     pub radii_mm: DVec2,
 }
 
-/// A circle that rays pass, its centre on the meridian in proportion to the height.
+/// A circle passed by rays, its centre on the meridian in proportion to the height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassCircle {
     /// Radius, mm.
@@ -189,28 +190,28 @@ pub struct PassCircle {
     pub sensitivity: f64,
 }
 
-/// What of the plane passes.
+/// The open region of the plane.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PassRegion {
-    /// One ellipse, its numbers linear between the heights at which it is known; nothing passes beyond the last.
+    /// One ellipse, interpolated linearly between the tabulated heights; nothing passes beyond the last.
     Ellipses(Vec<PassEllipse>),
-    /// All of some circles.
+    /// The intersection of circles.
     Circles(Vec<PassCircle>),
 }
 
-/// Which rays pass.
+/// The rays that pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayPass {
-    /// The plane, from the input plane towards the scene, mm.
+    /// Position of the plane, from the input plane towards the scene, mm.
     plane_mm: f64,
     region: PassRegion,
 }
 
 impl RayPass {
-    /// Of a region of the plane at `plane_mm` from the input plane.
+    /// Creates the region of the plane at `plane_mm` from the input plane.
     ///
     /// # Errors
-    /// Where the heights do not rise from 0, the region is empty or a number is none.
+    /// If the heights do not rise from 0, the region is empty or a value is not a number.
     pub fn new(plane_mm: f64, region: PassRegion) -> Result<Self, RayTransferError> {
         let legal = match &region {
             PassRegion::Ellipses(list) => {
@@ -229,7 +230,7 @@ impl RayPass {
         if legal && plane_mm.is_finite() { Ok(Self { plane_mm, region }) } else { Err(RayTransferError::Pass) }
     }
 
-    /// Whether a ray of a height passes that meets the plane there (y along the meridian).
+    /// True if a ray of a height passes that meets the plane at this point (y along the meridian).
     #[inline]
     fn passes(&self, height_mm: f64, at_mm: DVec2) -> bool {
         match &self.region {
@@ -242,7 +243,7 @@ impl RayPass {
         }
     }
 
-    /// The height on the input plane from which on nothing passes, mm; infinite where there is none.
+    /// The height on the input plane beyond which nothing passes, mm; infinite if there is none.
     #[must_use]
     pub fn greatest_height_mm(&self) -> f64 {
         match &self.region {
@@ -251,7 +252,7 @@ impl RayPass {
         }
     }
 
-    /// How far from the axis the region reaches on the axis, mm.
+    /// Radius of the region for rays of height 0, mm.
     pub(crate) fn radius_on_axis_mm(&self) -> f64 {
         match &self.region {
             PassRegion::Ellipses(list) => list.first().map_or(0.0, |e| e.radii_mm.max_element() + e.centre_mm.length()),
@@ -289,16 +290,16 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    /// The sum of terms.
+    /// Creates the sum of terms.
     ///
     /// # Errors
-    /// Where a coefficient is not finite or a power is above [`MAX_POWER`].
+    /// If a coefficient is not finite or a power is above [`MAX_POWER`].
     pub fn new(terms: Vec<Term>) -> Result<Self, RayTransferError> {
         let legal = |t: &Term| t.coefficient.is_finite() && t.powers.iter().all(|p| usize::from(*p) <= MAX_POWER);
         if terms.iter().all(legal) { Ok(Self { terms }) } else { Err(RayTransferError::Polynomial) }
     }
 
-    /// A number.
+    /// A constant.
     #[must_use]
     pub fn constant(value: f64) -> Self {
         Self { terms: vec![Term { coefficient: value, powers: [0; 3] }] }

@@ -1,4 +1,4 @@
-//! Calibrated and telecentric cameras: what the contract of all lenses promises.
+//! Calibrated and telecentric cameras: the contract of all lenses.
 
 use core::f64::consts::PI;
 use etendue_core::WavelengthRange;
@@ -42,7 +42,7 @@ fn points() -> impl Iterator<Item = DVec2> {
     })
 }
 
-/// Without distortion it is the pinhole: the same rays, the same light.
+/// Without distortion it is equal to the pinhole: the same rays, the same light.
 #[test]
 fn a_calibration_without_distortion_is_the_pinhole() {
     let lens = Lens::calibrated(parameters(Model::Perspective(Perspective::pinhole()), 400.0)).expect("a camera");
@@ -87,7 +87,7 @@ fn ideal_projections_fall_off_by_their_closed_forms() {
     }
 }
 
-/// The light that a whole-sphere picture collects from a uniform surround: L A_p times the sphere's 4π.
+/// The light collected by a whole-sphere image from a uniform surround: L A_p times the sphere's 4π.
 #[test]
 fn a_sphere_s_worth_of_solid_angle_lands_on_a_panorama() {
     let f_px = 640.0 / (2.0 * PI);

@@ -1,4 +1,4 @@
-//! Depth of field in image space: uniform light, points, edges, against formulas and against rays through the lens.
+//! Depth of field in image space: uniform light, points, edges, compared with formulas and with rays through the lens.
 
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Bands, Plane, SpectralCube};
@@ -20,7 +20,7 @@ fn thin() -> Lens {
     Lens::thin(parameters).expect("legal")
 }
 
-/// The same as a thick lens whose rims clip off the axis.
+/// The same as a thick lens whose apertures clip off the axis.
 fn clipped() -> Lens {
     Lens::thick(ThickParameters {
         focal_length_mm: 50.0,
@@ -36,7 +36,7 @@ fn clipped() -> Lens {
     .expect("legal")
 }
 
-/// A picture seen along principal rays: what stands where, by the tangents of the direction.
+/// An image seen along principal rays: the scene by the tangents of the direction.
 fn seen(
     lens: &Lens,
     raster: &Raster,
@@ -69,7 +69,7 @@ fn physical(
     DepthOfField::Physical.apply(&view)
 }
 
-/// Sum, mean and root of the mean variance along both axes, px, of the light of a picture.
+/// Sum, mean and root of the mean variance along both axes, px, of the light of an image.
 fn spot(cube: &SpectralCube<Radiance>) -> (f64, DVec2, f64) {
     let at = |i: usize| DVec2::new((i % cube.width()) as f64 + 0.5, (i / cube.width()) as f64 + 0.5);
     let light: Vec<f64> = cube.planes()[0].samples().iter().map(|l| f64::from(*l)).collect();
@@ -79,7 +79,7 @@ fn spot(cube: &SpectralCube<Radiance>) -> (f64, DVec2, f64) {
     (sum, mean, (0.5 * square / sum).sqrt())
 }
 
-/// The share of a pixel's pupil through which a half plane x < edge in front is seen, by the lens's own rays.
+/// The fraction of a pixel's pupil that sees past a half plane x < edge in front, by the lens's own rays.
 fn covered(lens: &Lens, sensor_mm: DVec2, near_m: f64, edge_m: f64) -> f64 {
     const SIDE: usize = 48;
     let sample = |i: usize| DVec2::new((i % SIDE) as f64 + 0.5, (i / SIDE) as f64 + 0.5) / SIDE as f64;
@@ -143,8 +143,8 @@ impl SinLike for f64 {
 
 #[test]
 fn a_point_s_blur_has_the_diameter_of_the_formula() {
-    // A lone bright pixel among dark ones at its distance. A disc's standard deviation is a quarter of its diameter; the
-    // pixel's square adds a twelfth to the variance, 48 vertices and lines leave a hundredth of the diameter.
+    // A single bright pixel among dark ones at its distance. A disc's standard deviation is a quarter of its diameter; the pixel's square adds a
+    // twelfth to the variance, 48 vertices and lines leave a hundredth of the diameter.
     let raster = Raster::centred(81, 81, 0.02).expect("legal");
     for depth_m in [1.2, 1.5, 2.0, 6.0, 20.0, 1e6] {
         let point = |t: DVec2| (depth_m, if t.length() < 1e-6 { 1.0 } else { 0.0 });
@@ -159,7 +159,7 @@ fn a_point_s_blur_has_the_diameter_of_the_formula() {
 
 #[test]
 fn the_cat_s_eye_of_the_rims_points_the_other_way_behind_the_focus() {
-    // A point off the axis, before and behind the plane in focus, against the mean and spread of its own rays.
+    // A point off the axis, in front of and behind the plane in focus, compared with the mean and spread of its own rays.
     let raster = Raster::new(61, 61, DVec2::splat(0.02), DVec2::new(-300.0, 30.5)).expect("legal");
     let lens = clipped();
     let at = lens.tangent(raster.sensor_mm(DVec2::splat(30.5))).expect("a picture");
@@ -186,8 +186,8 @@ fn the_cat_s_eye_of_the_rims_points_the_other_way_behind_the_focus() {
     assert!(sides[0].abs() > 0.3, "{sides:?}");
 }
 
-/// Largest and mean difference between the filter and rays through the lens at an edge at x = 0 of something black at
-/// `near_m` in front of something white at `far_m`.
+/// Largest and mean difference between the filter and rays through the lens at an edge at x = 0 of a black object at `near_m` in front of a white one
+/// at `far_m`.
 fn edge_errors(near_m: f64, far_m: f64) -> (f64, f64) {
     let raster = Raster::centred(80, 9, 0.02).expect("legal");
     let lens = thin();
@@ -205,8 +205,8 @@ fn edge_errors(near_m: f64, far_m: f64) -> (f64, f64) {
 
 #[test]
 fn an_edge_in_front_of_a_wall_is_as_through_the_lens() {
-    // A blurred edge before a sharp wall and before blurred ones, and a sharp edge before a blurred wall. A quarter of a
-    // pixel of the ramp, which is as wide as the blur (20 to 60 px), is what pixels leave open.
+    // A blurred edge in front of a sharp wall and of blurred ones, and a sharp edge in front of a blurred wall. The tolerance is a quarter of a pixel
+    // of the ramp, which is as wide as the blur (20 to 60 px).
     for (near_m, far_m, most) in [(1.2, 3.0, 0.01), (1.2, 20.0, 0.03), (2.0, 6.0, 0.03)] {
         let (largest, mean) = edge_errors(near_m, far_m);
         assert!(largest < most && mean < 0.003, "{near_m} m before {far_m} m: {largest}, mean {mean}");

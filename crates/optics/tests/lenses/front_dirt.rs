@@ -1,4 +1,4 @@
-//! Dirt in front of the lens, against closed forms.
+//! Dirt in front of the lens, compared with closed forms.
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::acos;
@@ -29,7 +29,7 @@ fn lens() -> Lens {
     Lens::thin(p).expect("a lens")
 }
 
-/// Share of a disc of radius 1 to the left of the line x = h.
+/// Fraction of a disc of radius 1 to the left of the line x = h.
 fn left_of(h: f64) -> f64 {
     if h >= 1.0 {
         1.0
@@ -50,8 +50,8 @@ fn an_edge_has_the_penumbra_of_the_pupil() {
         // The bundle crosses the mask as a disc of the pupil's size about distance × tangent.
         let expected = left_of(-DISTANCE_MM * tangent / radius_mm);
         let shade = dirt.shade(&lens, at);
-        // 1 024 even samples across an edge (some 4 · 1 024^(−3/4)/2π), a texel of 0.02 mm of 3.1, and z²/d⁴, which
-        // off the axis varies by ± 2 % over the pupil.
+        // 1 024 uniform samples across an edge (about 4 · 1 024^(−3/4)/2π), a texel of 0.02 mm of 3.1, and z²/d⁴, which off the axis varies by ± 2 %
+        // over the pupil.
         assert!((shade - expected).abs() < 8e-3, "{tangent}: {shade} against {expected}");
     }
     assert!((dirt.shade(&lens, DVec2::ZERO) - 0.5).abs() < 2e-3);
@@ -81,7 +81,7 @@ fn beyond_the_mask_the_glass_is_clean_and_a_mask_is_upright() {
     let placement = Placement::turned(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
     let dirt = Dirt::new(DirtParameters { placement, size_mm: DVec2::splat(8.0), mask }).expect("dirt");
     let front = Front::new(Some(dirt), None).expect("dirt");
-    // Close to a pinhole: what the middle of the pupil sees.
+    // Close to a pinhole: the view of the pupil's centre.
     let p = ThinParameters {
         focal_length_mm: FOCAL_MM,
         f_number: 4.0,
@@ -94,7 +94,7 @@ fn beyond_the_mask_the_glass_is_clean_and_a_mask_is_upright() {
         let bare = lens.ray(at, DVec2::splat(0.5), 550.0).expect("light").weight_sr;
         front.ray(&lens, at, DVec2::splat(0.5), 550.0).map_or(0.0, |ray| ray.ray.weight_sr / bare)
     };
-    // Right is right and down is down, as in the picture.
+    // Right is right and down is down, as in the image.
     for (x, y, expected) in [(-3.0, -3.0, 0.0), (3.0, -3.0, 0.25), (-3.0, 3.0, 0.5), (3.0, 3.0, 1.0), (-5.0, -3.0, 1.0)]
     {
         assert!((seen(x, y) - expected).abs() < 1e-12, "{x} {y}: {}", seen(x, y));

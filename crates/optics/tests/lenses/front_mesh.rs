@@ -1,4 +1,4 @@
-//! Mirrors by triangles beside the quadrics they stand for.
+//! Triangle-mesh mirrors compared with the quadrics they approximate.
 
 use core::f64::consts::TAU;
 use etendue_core::maths::f64::sin_cos;
@@ -54,7 +54,7 @@ fn lens() -> Lens {
     Lens::pinhole(PinholeParameters { focal_length_mm: 5.3, f_number: 4.0, transmittance: 1.0 }).expect("a lens")
 }
 
-/// Largest and mean angle between what the mesh and the quadric show, rad, over the middle nine tenths.
+/// Largest and mean angle between the directions of the mesh and of the quadric, rad, over the inner nine tenths.
 fn errors(mesh: MeshMirror) -> (f64, f64) {
     let quadric = QuadricKind::Conic { radius_mm: RADIUS_MM, conic: CONIC };
     let exact = front(MirrorShape::Quadric(Quadric::new(quadric, RIM_MM, 0.0).expect("a mirror")), [0.0; 3]);
@@ -79,9 +79,9 @@ fn a_mesh_shows_what_the_quadric_shows_to_the_square_of_its_triangles() {
     for with_normals in [true, false] {
         let [coarse, middle, fine] = [12, 24, 48].map(|rings| errors(mesh(rings, 4 * rings, with_normals)));
         for (a, b) in [(coarse, middle), (middle, fine)] {
-            // Half the size: a quarter of the error; the largest also hangs on where the samples fall.
+            // Half the size gives a quarter of the error; the largest error also depends on the sample positions.
             assert!((3.4..4.8).contains(&(a.1 / b.1)), "{with_normals}: mean {a:?} {b:?}");
-            // At the rim, mean normals of triangles on one side only err by the first power.
+            // At the edge, mean normals of triangles on one side only have a first-order error.
             assert!(!with_normals || (2.4..6.0).contains(&(a.0 / b.0)), "largest {a:?} {b:?}");
         }
         assert!(coarse.1 < 0.01, "{with_normals}: {coarse:?}");
@@ -95,7 +95,7 @@ fn nothing_leaks_through_edges_and_corners() {
     for ring in 0..48 {
         for spoke in 0..64 {
             let (s, c) = sin_cos(TAU * f64::from(spoke) / 64.0);
-            // Within the octagon that the rim is.
+            // Within the octagon of the outer edge.
             let r = RIM_MM * 0.85 * f64::from(ring) / 48.0;
             let (p, _) = surface(r * c, r * s);
             let at = p.truncate() / (p.z + 100.0) * 5.3;

@@ -1,4 +1,4 @@
-//! Mirrors in front of the lens, against closed forms.
+//! Mirrors in front of the lens, compared with closed forms.
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{acos, atan2, sin, sin_cos};
@@ -68,7 +68,7 @@ fn a_hyperboloid_whose_outer_focus_is_the_pupil_has_one_viewpoint() {
     for s_mm in points(4.0) {
         let ray = seen(&front, &lens, s_mm);
         assert!(ray.mirror_m.is_some() && off(&ray, viewpoint_m) < 1e-12, "{s_mm}: {}", off(&ray, viewpoint_m));
-        // It leaves away from the viewpoint, and what it weighs is the lens's weight by the reflectance.
+        // It leaves away from the viewpoint, and its weight is the lens's weight times the reflectance.
         assert!((ray.ray.origin_m - viewpoint_m).dot(ray.ray.direction) > 0.0);
         let bare = lens.ray(s_mm, DVec2::splat(0.5), 550.0).expect("a ray").weight_sr;
         assert!((ray.ray.weight_sr / bare - 0.8).abs() < 1e-15);
@@ -107,7 +107,7 @@ fn a_sphere_reflects_where_alhazen_says() {
 
 #[test]
 fn a_cone_reflects_as_the_plane_that_touches_it() {
-    // At 45° a ray along the axis leaves across it.
+    // At 45° a ray along the axis leaves perpendicular to it.
     let (front, lens) = (front(QuadricKind::Cone { half_angle_deg: 45.0 }, on_axis(50.0), 30.0, 0.0), telecentric());
     for s_mm in points(2.9) {
         let ray = seen(&front, &lens, s_mm);

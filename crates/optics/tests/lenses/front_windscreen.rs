@@ -1,4 +1,4 @@
-//! Wind-screens in front of the lens, against closed forms.
+//! Windscreens in front of the lens, compared with closed forms.
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{asin, pow, sin_cos};
@@ -39,13 +39,13 @@ fn axis(parameters: WindscreenParameters) -> FrontRay {
     front(parameters).ray(&pinhole(), DVec2::ZERO, DVec2::splat(0.5), 550.0).expect("a ray")
 }
 
-/// The axis seen in the double image alone.
+/// The axial ray of the double image alone.
 fn doubled_axis(parameters: WindscreenParameters) -> FrontRay {
     let front = front(WindscreenParameters { double_image_fraction: Some(0.5), ..parameters });
     front.ray(&pinhole(), DVec2::ZERO, DVec2::new(0.25, 0.5), 550.0).expect("a ray")
 }
 
-/// Share of the light that passes on the axis.
+/// Fraction of the light that passes on the axis.
 fn share(ray: &FrontRay) -> f64 {
     ray.ray.weight_sr / pinhole().principal_ray(DVec2::ZERO).expect("a ray").weight_sr
 }
@@ -66,7 +66,7 @@ fn radians(degrees: f64) -> f64 {
 fn a_flat_plate_shifts_rays_by_the_closed_form() {
     for tilt in [0.0, 20.0, 45.0, 60.0, 75.0] {
         let ray = axis(plate(tilt));
-        // t sin θ (1 − cos θ/√(n² − sin² θ)), the way the light comes: a glass whose upper edge leans back lifts the view.
+        // t sin θ (1 − cos θ/√(n² − sin² θ)), towards the incoming light: a glass whose upper edge leans back raises the view.
         let (s, c) = sin_cos(radians(tilt));
         let shift_m = 1e-3 * THICK_MM * s * (1.0 - c / (INDEX * INDEX - s * s).sqrt());
         assert!((ray.ray.direction - DVec3::Z).length() < 1e-14, "the direction stays");
@@ -92,7 +92,7 @@ fn bare_glass_lets_through_what_fresnel_says() {
     for tilt in [0.0, 30.0, 60.0, 70.0] {
         let r = fresnel(INDEX, radians(tilt));
         assert!((share(&axis(plate(tilt))) - (1.0 - r) * (1.0 - r)).abs() < 1e-13, "{tilt}");
-        // Two reflections more, at half the samples.
+        // Two more reflections, at half the samples.
         let doubled = share(&doubled_axis(plate(tilt)));
         assert!((doubled - 2.0 * (1.0 - r) * (1.0 - r) * r * r).abs() < 1e-13, "{tilt}");
     }
@@ -129,7 +129,7 @@ fn absorption_follows_the_path_in_the_glass() {
     let longer = 1.0 / (1.0 - s * s / (INDEX * INDEX)).sqrt();
     let ratio = share(&axis(tinted.clone())) / share(&axis(plate(60.0)));
     assert!((ratio - pow(0.8, longer)).abs() < 1e-13, "{ratio}");
-    // The double image goes through three times.
+    // The double image passes three times.
     let ratio = share(&doubled_axis(tinted)) / share(&doubled_axis(plate(60.0)));
     assert!((ratio - pow(0.8, 3.0 * longer)).abs() < 1e-13);
     let half = Some(Tint { transmittance: Curve::Constant(0.8), thickness_mm: Some(2.0 * THICK_MM) });
@@ -155,7 +155,7 @@ fn under_uniform_light_a_pixel_gets_both_ways_whatever_their_shares() {
         let samples = (0..side * side).map(|i| DVec2::new(at(i % side), at(i / side)));
         samples.filter_map(|u| lens.ray(s_mm, u, 550.0)).map(|ray| ray.weight_sr).sum::<f64>() / f64::from(side * side)
     };
-    // A face that lets everything through leaves the étendue as it is.
+    // A face that transmits everything preserves the étendue.
     let open = WindscreenParameters { coating: Coating::Constant(1.0), ..plate(55.0) };
     assert!((mean_sr(&front(open.clone()), &lens, s_mm, 32) / clear(32) - 1.0).abs() < 1e-12);
     // A constant coating of transmittance T: T² (1 + (1 − T)²).
@@ -165,7 +165,7 @@ fn under_uniform_light_a_pixel_gets_both_ways_whatever_their_shares() {
             WindscreenParameters { coating: Coating::Constant(t), double_image_fraction: share, ..open.clone() };
         let mean = mean_sr(&front(coated), &lens, s_mm, 64) / clear(64);
         let expected = t * t * (1.0 + (1.0 - t) * (1.0 - t));
-        // The strata of the stretched sample are not quite even where the share is none of them: 1/64 of the split.
+        // The strata of the rescaled sample are not exactly uniform if the fraction is not a multiple of them: 1/64 of the split.
         assert!((mean / expected - 1.0).abs() < 0.003, "{share:?}: {mean} against {expected}");
     }
 }
@@ -179,8 +179,8 @@ fn curved_glass_of_constant_thickness_is_a_weak_negative_lens() {
     let power = -(INDEX - 1.0) * THICK_MM / (INDEX * radius_mm * (radius_mm + THICK_MM));
     let slope = 1e-3;
     let ray = front.ray(&pinhole(), DVec2::new(6.0 * slope, 0.0), DVec2::splat(0.5), 550.0).expect("a ray").ray;
-    // Both principal planes go through the common centre of curvature, 2 700 mm behind the pupil: there the ray has the
-    // height −2 700 mm · slope, and its slope changes by −power times that (to third order in the slope).
+    // Both principal planes go through the common centre of curvature, 2 700 mm behind the pupil: there the ray has the height −2 700 mm · slope, and
+    // its slope changes by −power times that (to third order in the slope).
     let change = ray.direction.x / ray.direction.z - slope;
     let expected = power * (radius_mm - 300.0) * slope;
     assert!((change / expected - 1.0).abs() < 1e-4, "{change} against {expected}");
@@ -194,7 +194,7 @@ fn rays_that_do_not_meet_the_glass_pass_it() {
         ..plate(0.0)
     };
     let (front, lens) = (front(sideways), pinhole());
-    // 15° downwards is 5° from the other side of glass that stands 10° from the axis.
+    // 15° downwards is 5° from the other side of glass at 10° to the axis.
     let down = DVec2::new(0.0, 6.0 * 0.268);
     let seen = |u: f64| front.ray(&lens, down, DVec2::new(u, 0.5), 550.0);
     assert!(seen(0.1).is_none(), "no double image of what passes by");

@@ -1,4 +1,4 @@
-//! Ghosts against closed forms, first order and plain sums over rays.
+//! Ghosts compared with closed forms, first order and plain sums over rays.
 
 use etendue_core::quantity::Irradiance;
 use etendue_core::{Bands, SpectralCube};
@@ -43,14 +43,13 @@ fn every_two_surfaces_that_refract_are_a_pair() {
     assert!(pairs.iter().all(|p| p.front < p.rear && p.front != lens.stop() && p.rear != lens.stop()));
 }
 
-/// On the axis a ghost's light is that of the direct ray, times both reflectances, times the squared transmittance of all
-/// that lies between them.
+/// On the axis a ghost's light is that of the direct ray, times both reflectances, times the squared transmittance of everything between them.
 #[test]
 fn weights_on_the_axis_are_products() {
     for coating in [Coating::Uncoated, Coating::QuarterWave { design_nm: 550.0 }, Coating::Constant(0.98)] {
         let lens = double_gauss(coating);
         let (_, direct) = lens.to_sensor(parallel(0.0, 0.0), NM).expect("through");
-        // A surface's transmittance by itself: the whole lens's over that of the lens with this surface fully open.
+        // A surface's transmittance alone: the whole lens's over that of the lens with this surface fully transmitting.
         let alone = |i: usize| {
             let mut surfaces = lens.surfaces().to_vec();
             surfaces[i].coating = Coating::Constant(1.0);
@@ -82,7 +81,7 @@ fn a_plate_sends_r_squared_beside_its_light() {
     let ghost = lens.ghost(plate, parallel(0.0, 0.0), NM).expect("through");
     let (_, direct) = lens.to_sensor(parallel(0.0, 0.0), NM).expect("through");
     assert!((ghost.weight / direct - 0.04 * 0.04).abs() < 1e-12);
-    // Both faces reflect the light back into its own direction: the ghost of a far source lies on its image.
+    // Both faces reflect the light back into its own direction: the ghost of a source at infinity lies on its image.
     let first = lens.ghost_first_order(plate, NM);
     assert!(first.spread.abs() < 1e-12 && (first.throw_mm / lens.paraxial().focal_length_mm - 1.0).abs() < 1e-12);
     let ray = lens.ghost(plate, parallel(3.0, 0.1), NM).expect("through").ray;
@@ -90,7 +89,7 @@ fn a_plate_sends_r_squared_beside_its_light() {
     assert!((ray.direction.length() - 1.0).abs() < 1e-12 && ray.direction.dot(straight.direction) > 0.99);
 }
 
-/// A thin lens of focal length f and index n: light reflected twice inside comes to focus f (n − 1)/(3n − 1) behind it.
+/// A thin lens of focal length f and index n: light reflected twice inside focuses f (n − 1)/(3n − 1) behind it.
 #[test]
 fn a_thin_lenss_ghost_focuses_where_it_should() {
     let n = 1.6;
@@ -101,7 +100,7 @@ fn a_thin_lenss_ghost_focuses_where_it_should() {
         Surface::sphere(60.0, thickness, glass, 5.0),
         Surface::sphere(-90.0, 0.0, Dispersion::AIR, 5.0),
     ];
-    // Surfaces of a lens this thin would cross: they are apart by what their sags need.
+    // Surfaces of a lens this thin would cross: they are spaced as their sags require.
     let sags = 16.0 / 60.0 + 16.0 / 90.0;
     let mut surfaces = surfaces;
     surfaces[1].thickness_mm = sags;
@@ -111,7 +110,7 @@ fn a_thin_lenss_ghost_focuses_where_it_should() {
     let expected = f * (n - 1.0) / (3.0 * n - 1.0);
     let first = lens.ghost_first_order(GhostPair { front: 1, rear: 2 }, NM);
     let behind_lens = lens.sensor_position_mm() + first.focus_mm - sags;
-    // The thickness moves it by about as much as it is.
+    // The thickness moves the focus by about its own amount.
     assert!((behind_lens - expected).abs() < 1.5 * sags, "{behind_lens} {expected}");
 }
 
@@ -126,7 +125,7 @@ fn rays_near_the_axis_follow_first_order() {
                 let ray: LensRay = lens.ghost(pair, ray, NM).expect("near the axis").ray;
                 (ray.point + ray.direction * ((lens.sensor_position_mm() - ray.point.z) / ray.direction.z)).x / step
             };
-            // The third order is some 1e-12 of the first at this height and slope.
+            // The third order is about 1e-12 of the first at this height and slope.
             let (height, slope) = (lands(parallel(step, 0.0)), lands(parallel(0.0, step)));
             let scale = 1.0 + first.spread.abs();
             assert!((height - first.spread).abs() < 1e-7 * scale, "{name} {pair:?} {height} {}", first.spread);
@@ -139,7 +138,7 @@ fn rays_near_the_axis_follow_first_order() {
 const PIXELS: usize = 120;
 const PITCH_MM: f64 = 0.3;
 
-/// A picture of 36 mm with one bright pixel, and its ghosts, for two bands.
+/// An image of 36 mm with one bright pixel, and its ghosts, for two bands.
 fn ghosts_of(lens: &Prescribed, pixel: [usize; 2], sensor: f64) -> SpectralCube<Irradiance> {
     let raster = Raster::centred(PIXELS, PIXELS, PITCH_MM).expect("a raster");
     let bands = Bands::new(560.0, 20.0, 2).expect("bands");
@@ -152,8 +151,8 @@ fn prescribed(lens: Prescription) -> Prescribed {
     Prescribed::new(lens, None, 26.0).expect("lit")
 }
 
-/// Light of the pixel's ghosts on the picture by a plain sum over a fine grid of rays over the whole front, without tables:
-/// its sum and centroid, over the light of the pixel.
+/// Light of the pixel's ghosts on the image by a plain sum over a fine grid of rays over the whole front, without tables: its sum and centroid,
+/// relative to the light of the pixel.
 fn plain_sum(lens: &Prescribed, at_mm: DVec2, nm: f64, sensor: f64) -> (f64, DVec2) {
     const SIDE: i32 = 160;
     let p = lens.prescription();
@@ -178,7 +177,7 @@ fn plain_sum(lens: &Prescribed, at_mm: DVec2, nm: f64, sensor: f64) -> (f64, DVe
             let Ok(ghost) = p.ghost(pair, LensRay { point, direction: travel }, nm) else { continue };
             let end = ghost.ray.point
                 + ghost.ray.direction * ((p.sensor_position_mm() - ghost.ray.point.z) / ghost.ray.direction.z);
-            // The picture is erect.
+            // The image is erect.
             let end = -end.truncate();
             if ghost.filling <= 1.0 && end.abs().max_element() < edge {
                 sum += ghost.weight * mirrored * step * step;
@@ -209,7 +208,7 @@ fn a_layer_holds_the_light_of_a_plain_sum_over_rays() {
         let at = (DVec2::new(pixel[0] as f64, pixel[1] as f64) + 0.5 - PIXELS as f64 / 2.0) * PITCH_MM;
         let (sum, centre) = measured(&cube);
         let (expected, middle) = plain_sum(&lens, at, 590.0, sensor);
-        // 0.5 % of pairs are left out; grids, edges of the picture and tables by angle take as much.
+        // 0.5 % of pairs are omitted; grids, edges of the image and tables by angle contribute a similar error.
         assert!((sum / expected - 1.0).abs() < 0.02, "{sum} {expected}");
         assert!((centre - middle).length() < 0.3, "{centre} {middle}");
     }
@@ -223,7 +222,7 @@ fn a_layer_turns_with_its_source_and_grows_with_it() {
     let most = a.samples().iter().copied().fold(0.0, f32::max);
     for y in 0..PIXELS {
         for x in 0..PIXELS {
-            // Rounding of single precision in points' places.
+            // Single-precision rounding of point positions.
             let difference = a.at(x, y) - b.at(PIXELS - 1 - y, x);
             assert!(difference.abs() < 2e-3 * most, "{x} {y}: {} {}", a.at(x, y), b.at(PIXELS - 1 - y, x));
         }
@@ -235,9 +234,9 @@ fn coatings_make_ghosts_faint() {
     let light = |coating| strongest(&prescribed(double_gauss(coating)), 8.0, settings(), 100);
     let sum = |coating| light(coating).iter().map(|g| g.light).sum::<f64>();
     let (bare, coated) = (sum(Coating::Uncoated), sum(Coating::QuarterWave { design_nm: 550.0 }));
-    // 5 to 8 % of bare flints and crowns against 1 % or less: a twentieth or less of the product.
+    // 5 to 8 % of uncoated flints and crowns compared with 1 % or less: a twentieth or less of the product.
     assert!(bare > 10.0 * coated && coated > 0.0, "{bare} {coated}");
-    // Far less than all light is reflected twice: Σ R² of 45 pairs of some 5 %.
+    // Only a small fraction of light is reflected twice: Σ R² of 45 pairs of about 5 %.
     assert!(bare < 45.0 * 0.07 * 0.07, "{bare}");
     let reports = light(Coating::Uncoated);
     assert!(reports.windows(2).all(|pair| pair[0].light >= pair[1].light));

@@ -1,4 +1,4 @@
-//! Veiling glare against closed forms.
+//! Veiling glare compared with closed forms.
 
 use etendue_core::Plane;
 use etendue_core::WavelengthRange;
@@ -19,7 +19,7 @@ fn effects(glare: Glare, margin: f64, width: usize, height: usize) -> (Effects, 
     (Effects::new(parameters, &picture).expect("legal"), picture)
 }
 
-/// The picture of a film that is filled by a function of its pixels.
+/// The image of a film that is filled by a function of its pixels.
 fn picture(effects: &Effects, raster: &Raster, light: impl Fn(usize, usize) -> f32) -> Plane<Irradiance> {
     let film = effects.film(raster);
     let samples = (0..film.width() * film.height()).map(|i| light(i % film.width(), i / film.width())).collect();
@@ -32,7 +32,7 @@ fn picture(effects: &Effects, raster: &Raster, light: impl Fn(usize, usize) -> f
 
 #[test]
 fn a_black_spot_in_a_white_field_is_veiled_by_its_closed_form() {
-    // The field ends 256 px from the middle: its share of the kernel is counted out.
+    // The field ends 256 px from the centre: the fraction of the kernel beyond is subtracted.
     for (core_um, exponent, reach_mm) in [(4.0, 3.0, Some(1.9)), (30.0, 2.0, Some(1.5)), (100.0, 1.2, Some(1.0))] {
         let glare = glare(0.03, core_um, exponent, reach_mm);
         let (effects, raster) = effects(glare, 0.0, 513, 513);
@@ -50,7 +50,7 @@ fn a_black_spot_in_a_white_field_is_veiled_by_its_closed_form() {
 
 #[test]
 fn a_square_outside_the_picture_lights_it() {
-    // Between the middles of square and pixel the density is nearly linear over the square.
+    // Between the centres of square and pixel the density is nearly linear over the square.
     let glare = glare(0.02, 20.0, 2.6, None);
     let (effects, raster) = effects(glare, 0.25, 200, 120);
     assert_eq!(effects.margin_px(), [50, 30]);

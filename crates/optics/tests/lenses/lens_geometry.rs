@@ -1,4 +1,4 @@
-//! Where rays go: focus, conjugates, projection.
+//! Ray geometry: focus, conjugates, projection.
 
 use etendue_core::ray::PupilRay;
 use etendue_optics::{
@@ -64,7 +64,7 @@ fn the_meeting_point_is_the_lens_equation_s() {
     let lens = thin(0.6);
     let magnification = 16.0 / (600.0 - 16.0);
     let meeting = at_depth(&lens.principal_ray(DVec2::new(2.0, 0.0)).expect("open"), 0.6);
-    // The erect picture: a point on its right is an object on the right.
+    // The erect image: a point on its right is an object on the right.
     assert!((meeting.x - 2e-3 / magnification).abs() < 1e-14);
     assert!((lens.sensor_plane_m() + 0.016 * (1.0 + magnification)).abs() < 1e-16);
 }
@@ -80,7 +80,7 @@ fn rays_to_infinity_are_parallel() {
 
 #[test]
 fn both_sides_of_a_thick_lens_meet_its_principal_planes_at_one_height() {
-    // Gauss: object-side ray at H and image-side ray at H′ are equally far from the axis.
+    // Gauss: the object-side ray at H and the image-side ray at H′ are equally far from the axis.
     let lens = thick();
     let wrapped = Lens::Thick(lens.clone());
     let exit_mm = lens.exit_pupil_position_mm();
@@ -199,7 +199,7 @@ fn a_clipped_chief_ray_is_none_where_light_may_still_come() {
     let at = DVec2::new(2.1, 0.0);
     assert!(lens.principal_ray(at).is_none());
     assert!(lens.projected_solid_angle_sr(at) > 0.0);
-    // To look right through a rim in front, a ray must start on the left.
+    // To look right through an aperture in front, a ray must start on the left.
     let truth = lens.truth_ray(at).expect("light comes");
     assert!(truth.off_centre && truth.ray.origin_m.x < 0.0 && truth.ray.weight_sr > 0.0, "{truth:?}");
     assert!(!lens.truth_ray(DVec2::ZERO).expect("open").off_centre);

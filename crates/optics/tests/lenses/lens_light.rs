@@ -1,4 +1,4 @@
-//! How much light a lens lets through: pupil sampling against closed forms.
+//! Light through a lens: pupil sampling compared with closed forms.
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{acos, cos, tan};
@@ -127,7 +127,7 @@ fn close_focus_costs_light() {
         assert!((lens.projected_solid_angle_sr(DVec2::ZERO) / expected - 1.0).abs() < 1e-12);
         assert!((lens.working_f_number() / (2.0 * bellows) - 1.0).abs() < 1e-12);
     }
-    // m = −0.02 costs 3.9 %, m = −0.1 costs 17 % (small pupils).
+    // m = −0.02 loses 3.9 %, m = −0.1 loses 17 % (small pupils).
     let slow = |m: f64| thin(100.0, FOCAL_MM * (1.0 + 1.0 / m) / 1000.0).projected_solid_angle_sr(DVec2::ZERO);
     let far = thin(100.0, f64::INFINITY).projected_solid_angle_sr(DVec2::ZERO);
     assert!((1.0 - slow(0.02) / far - 0.039).abs() < 5e-4);
@@ -176,7 +176,7 @@ fn the_constant_pupil_rules_the_fall_off() {
     assert!((entrance / cos4(degrees(30.0)) - 1.0).abs() < 2e-3, "{entrance}");
     let t = tan(degrees(30.0)) / 2.0;
     assert!((exit * (1.0 + t * t) * (1.0 + t * t) - 1.0).abs() < 2e-3, "{exit}");
-    // They part by 1.52 at 30° for a pupil magnification of 2; (16/13)² = 1.5148, and the disc's excess.
+    // They differ by a factor of 1.52 at 30° for a pupil magnification of 2; (16/13)² = 1.5148, and the disc's excess.
     assert!((exit / entrance / (256.0 / 169.0) - 1.0).abs() < 1e-3, "{}", exit / entrance);
 }
 
@@ -222,7 +222,7 @@ fn a_rim_cuts_the_area_of_two_circles() {
 
 #[test]
 fn a_rear_rim_cuts_from_the_other_side() {
-    // Small pupil, telescope-like: the rear rim's projection from the sensor point, by similar triangles.
+    // Small pupil, telescope-like: the rear aperture's projection from the sensor point, by similar triangles.
     let rim = Rim { position_mm: 10.0, radius_mm: 0.2 };
     let lens = thick(ThickParameters { rear_aperture: Some(rim), ..thick_parameters(64.0) });
     let open = thick(thick_parameters(64.0));
@@ -249,7 +249,7 @@ fn samples_of_a_clipped_pupil_have_the_quadrature_s_mean() {
     for field_mm in [0.5, 2.0, 4.0, 6.0, 8.0, 10.0] {
         let at = DVec2::new(0.28, 0.96) * field_mm;
         let exact = lens.projected_solid_angle_sr(at);
-        // 512² cells, of which some 4 · 512 lie on an edge, half in: √2048/512² · ½ of the disc, times ten for patterns.
+        // 512² cells, about 4 · 512 of them on an edge, half inside: √2048/512² · ½ of the disc, times ten for patterns.
         let scale = thick(ThickParameters { front_aperture: None, rear_aperture: None, ..parameters })
             .projected_solid_angle_sr(at);
         assert!((sampled_sr(&lens, at, 512) - exact).abs() < 1e-3 * scale, "{field_mm} mm");

@@ -1,4 +1,4 @@
-//! The published prescriptions against optiland and rayoptics (tests/oracles/lenses.py, ghosts.py).
+//! The published prescriptions compared with optiland and rayoptics (tests/oracles/lenses.py, ghosts.py).
 
 use etendue_optics::prescription::coating::Coating;
 use etendue_optics::prescription::ghost::GhostPair;
@@ -73,7 +73,7 @@ fn real_rays_agree() {
         let mut compared = 0;
         for row in figures["rays"].as_array().expect("rays") {
             let ray = LensRay { point: vector(&row["point_mm"]), direction: vector(&row["direction"]).normalize() };
-            // The programs looked at no clear apertures: clipped rays have nothing to compare.
+            // The programs ignored clear apertures: clipped rays have no counterpart.
             let Ok((out, _)) = lens.to_sensor(ray, number(&row["nm"])) else { continue };
             let at = out.point + out.direction * ((lens.sensor_position_mm() - out.point.z) / out.direction.z);
             compared += 1;
@@ -92,7 +92,7 @@ fn real_rays_agree() {
     }
 }
 
-/// Compares a ray's end behind the last surface with both programs' to 1e-6 mm.
+/// Checks that a ray's end behind the last surface agrees with both programs' to 1e-6 mm.
 fn agrees(lens: &Prescription, out: LensRay, row: &Value) {
     let at = out.point + out.direction * ((lens.sensor_position_mm() - out.point.z) / out.direction.z);
     for program in ["optiland", "rayoptics"] {
@@ -103,7 +103,7 @@ fn agrees(lens: &Prescription, out: LensRay, row: &Value) {
     }
 }
 
-/// An aspheric surface of the figures.
+/// An aspheric surface of the reference data.
 fn aspheric_surface(row: &Value, stop: bool) -> Surface {
     let glass = match &row["glass"] {
         Value::Null => glass::Dispersion::AIR,

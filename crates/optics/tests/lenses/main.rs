@@ -1,4 +1,4 @@
-//! Lenses, their image and what they add to light: closed forms, other programs, conservation.
+//! Lenses, their image and their effect on light: closed forms, other programs, conservation.
 
 mod calibrated;
 mod defocus;

@@ -1,4 +1,4 @@
-//! Light that reaches a sensor point by several openings of a lens is in its étendue and in its samples.
+//! Light that reaches a sensor point through several openings of a lens is included in its étendue and in its samples.
 
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, Surface};
@@ -14,8 +14,8 @@ fn lens(surfaces: Vec<Surface>, back_focus_mm: f64, radius_mm: f64) -> Lens {
     Lens::prescription(Prescribed::new(Prescription::new(parameters).expect("a lens"), None, radius_mm).expect("lit"))
 }
 
-/// A singlet far behind its stop, of so much spherical aberration that light by its edge finds the stop again: about the pupil, a sensor point sees a
-/// ring of light, or parts of one.
+/// A singlet far behind its stop, with so much spherical aberration that light through its edge reaches the stop again: a sensor point sees a ring of
+/// light about the pupil, or parts of one.
 fn folded(stop_mm: f64) -> Lens {
     let glass = Dispersion::Constant { n: 1.5168 };
     let surfaces = vec![
@@ -26,7 +26,7 @@ fn folded(stop_mm: f64) -> Lens {
     lens(surfaces, 9.7, 3.0)
 }
 
-/// ∫ τ cos⁴ θ dt over a fine grid of all slopes at which the last surface can be met, and how many parts of its middle row pass.
+/// ∫ τ cos⁴ θ dt over a fine grid of all slopes at which the last surface can be reached, and the number of open parts of its middle row.
 fn counted(lens: &Lens, s_mm: f64, side: usize) -> (f64, usize) {
     let Lens::Prescription(prescribed) = lens else { panic!("a prescription") };
     let lens = prescribed.prescription();
@@ -67,7 +67,7 @@ fn etendue_and_samples_hold_every_opening() {
             let (exact, parts) = counted(&lens, s_mm, 1600);
             assert_eq!(parts, openings, "parts of the meridian");
             let told = format!("stop at {stop_mm} mm, {s_mm} mm from the axis: {exact} sr");
-            // The grid counts a thin ring to some 1e-3, samples scatter by 2e-3.
+            // The grid counts a thin ring to about 1e-3, samples scatter by 2e-3.
             let projected_solid_angle_sr = lens.projected_solid_angle_sr(DVec2::new(s_mm, 0.0));
             assert!(
                 (projected_solid_angle_sr / exact - 1.0).abs() < 2e-3,

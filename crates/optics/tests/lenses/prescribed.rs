@@ -1,4 +1,4 @@
-//! Prescriptions as a camera's lens: what the contract of all lenses promises.
+//! Prescriptions as a camera lens: the contract of all lenses.
 
 use core::f64::consts::PI;
 use etendue_optics::prescription::coating::Coating;
@@ -11,7 +11,7 @@ use etendue_spectra::glass::{Dispersion, LINE_C_NM, LINE_F_NM};
 use etendue_spectra::{Outside, Spectrum};
 use glam::{DVec2, DVec3};
 
-/// The published lenses with the radius of picture that each is for, mm.
+/// The published lenses with the image radius of each, mm.
 const LENSES: [(&str, f64); 4] = [("double-gauss", 21.6), ("wide-angle", 19.2), ("fisheye", 12.75), ("telephoto", 6.3)];
 
 fn focused(surfaces: Vec<Surface>, focus: Focus) -> Prescription {
@@ -32,7 +32,7 @@ fn points(count: u32) -> impl Iterator<Item = DVec2> {
     (0..count).map(move |i| (step * f64::from(i) + 0.5).fract())
 }
 
-/// A singlet of no loss, stopped down so far that first order is all.
+/// A lossless singlet, stopped down until first order is sufficient.
 fn stopped_singlet(focus: Focus) -> Lens {
     let clear = |surface: Surface| Surface { coating: Coating::Constant(1.0), ..surface };
     let glass = Dispersion::Constant { n: 1.5 };
@@ -60,7 +60,7 @@ fn few_proposals_fail_and_the_mean_weight_is_the_etendue() {
                 failed += f64::from(u8::from(lens.ray(sensor_mm, pupil, nm).is_none()));
                 mean_sr += lens.ray(sensor_mm, pupil, 587.56).map_or(0.0, |ray| ray.weight_sr) / 4000.0;
             }
-            // Quasi-random points: the share of the region's edge that they miscount, some 1/√4000^(3/2) of a few.
+            // Quasi-random points: the fraction of the region's edge that they miscount, about 1/√4000^(3/2) of a few.
             let projected_solid_angle_sr = lens.projected_solid_angle_sr(sensor_mm);
             assert!(
                 (mean_sr / projected_solid_angle_sr - 1.0).abs() < 6e-3,
@@ -74,8 +74,7 @@ fn few_proposals_fail_and_the_mean_weight_is_the_etendue() {
 
 #[test]
 fn no_light_is_lost_outside_the_region() {
-    // Every ray of a brute-force search that comes through must be near one that the samples find: the light that all
-    // slopes carry is the light that the region carries.
+    // Every passing ray of a brute-force search must be near one that the samples find: the light of all slopes equals the light of the region.
     for (name, radius_mm) in LENSES {
         let lens = published(name, radius_mm);
         let Lens::Prescription(prescribed) = &lens else { panic!("a prescription") };
@@ -97,7 +96,7 @@ fn no_light_is_lost_outside_the_region() {
                 let ray = lens.ray(DVec2::new(-s_mm, 0.0), pupil, nm);
                 sampled_sr += ray.map_or(0.0, |ray| ray.weight_sr) / 20_000.0;
             }
-            // The brute search has few hits (some hundreds where the pupil is small): 3 % is three of its deviations.
+            // The brute-force search has few hits (some hundreds if the pupil is small): 3 % is three of its deviations.
             let hits = brute_sr / (4.0 * reach * reach) * f64::from(SIDE * SIDE);
             let tolerance = 0.004 + 1.5 / hits.sqrt();
             assert!(
@@ -121,7 +120,7 @@ fn principal_rays_cross_the_middle_of_the_stop_and_project_inverts_them() {
             assert!((back - sensor_mm).length() < 1e-9, "{name} {sensor_mm} {back}");
             let Some(ray) = lens.principal_ray(sensor_mm) else { continue };
             assert!(ray.direction.cross(direction).length() < 1e-12 && ray.origin_m.dot(ray.direction).abs() < 1e-12);
-            // Into the lens again from the scene, and on to the sensor.
+            // Back into the lens from the scene, and on to the sensor.
             let p = prescribed.prescription();
             let z_mm = |z_m: f64| p.paraxial().entrance_pupil_position_mm - z_m * 1e3;
             let from = ray.origin_m + ray.direction * 0.5;
@@ -142,19 +141,17 @@ fn principal_rays_cross_the_middle_of_the_stop_and_project_inverts_them() {
 fn stopped_down_it_is_the_lens_of_first_order() {
     for distance_m in [f64::INFINITY, 0.4] {
         let lens = stopped_singlet(Focus::Sensor { distance_m });
-        // E = π τ/4N²(1 − m/m_p)², as the working f-number says; 0.2 mm of 49 mm is f/123, so the disc's own
-        // (1 + 1/4N²) is 2e-5.
+        // E = π τ/4N²(1 − m/m_p)², by the working f-number; 0.2 mm of 49 mm is f/123, so the disc's own (1 + 1/4N²) is 2e-5.
         let exact = PI / (4.0 * lens.working_f_number() * lens.working_f_number());
         assert!(
             (lens.projected_solid_angle_sr(DVec2::ZERO) / exact - 1.0).abs() < 5e-5,
             "{} {exact}",
             lens.projected_solid_angle_sr(DVec2::ZERO)
         );
-        // Near the axis a tangent t is seen at c t.
+        // Near the axis a tangent t is imaged at c t.
         let tangent = lens.tangent(DVec2::new(0.01, -0.02)).expect("inside") * lens.principal_distance_mm();
         assert!((tangent - DVec2::new(0.01, -0.02)).length() < 1e-7, "{tangent}");
-        // All rays of a point meet in the plane in focus: off by the spherical aberration alone, which goes with the cube of
-        // the aperture.
+        // All rays of a point meet in the plane in focus, except for spherical aberration, which grows with the cube of the aperture.
         let plane_m = if distance_m.is_finite() { distance_m } else { 1e9 };
         let sensor_mm = DVec2::new(0.1, 0.05);
         let principal = lens.principal_ray(sensor_mm).expect("inside");
@@ -176,7 +173,7 @@ fn light_obeys_the_sine_condition_that_the_double_gauss_is_corrected_for() {
     let n = lens.f_number();
     let (sine, disc) = (PI / (4.0 * n * n), PI / (1.0 + 4.0 * n * n));
     let e = lens.projected_solid_angle_sr(DVec2::ZERO);
-    // Its remaining coma and spherical aberration move the marginal ray by 1 %; the two conventions part by 6 %.
+    // Its remaining coma and spherical aberration move the marginal ray by 1 %; the two conventions differ by 6 %.
     assert!((e / sine - 1.0).abs() < 0.015 && (e / disc - 1.0).abs() > 0.04, "{e} {sine} {disc}");
     assert!(lens.disperses() && lens.transmittance() == 1.0);
 }
@@ -208,7 +205,7 @@ fn the_report_obeys_third_order_theory() {
     let report = prescribed.report(6);
     let field = report.fields[1].image.as_ref().expect("an image");
     let height_mm = report.fields[1].height_mm;
-    // The Petzval surface lies from the sagittal focus half as far again as that from the tangential one.
+    // The Petzval surface lies beyond the sagittal focus by half the distance between the tangential and the sagittal focus.
     let petzval_mm = height_mm * height_mm / (2.0 * report.first_order.petzval_radius_mm);
     let found = 0.5 * (3.0 * field.sagittal_mm - field.tangential_mm);
     // At 1 mm of 49 mm the next order is some 1e-3.
@@ -230,7 +227,7 @@ fn axial_colour_of_a_thin_lens_is_that_of_its_power() {
     ];
     let report = Prescribed::new(focused(surfaces, FAR), None, 1.0).expect("lit").report(2);
     let longitudinal_mm = report.axial_colour_c_mm - report.axial_colour_f_mm;
-    // f goes with 1/(n − 1) for a lens of no thickness: 0.2 mm of 100 mm spoil 1e-3.
+    // f is proportional to 1/(n − 1) for a lens of zero thickness: 0.2 mm of 100 mm change it by 1e-3.
     let power = |nm: f64| glass.index(nm) - 1.0;
     let (c, f) = (power(LINE_C_NM), power(LINE_F_NM));
     let exact = report.first_order.focal_length_mm * power(587.56) * (1.0 / c - 1.0 / f);
@@ -250,7 +247,7 @@ fn an_ir_cut_darkens_its_edge_towards_the_picture_s_corner() {
             let sensor_mm = DVec2::new(0.0, s_mm);
             let at = |lens: &Lens, nm: f64| lens.ray(sensor_mm, pupil, nm);
             let (Some(a), Some(b)) = (at(&bare, 645.0), at(&cut, 645.0)) else { continue };
-            // The same ray, its weight times the filter's transmittance at the angle of arrival: within the edge's 20 nm.
+            // The same ray; its weight is multiplied by the filter's transmittance at the angle of arrival, within the edge's 20 nm.
             let share = b.weight_sr / a.weight_sr;
             assert!(a.direction == b.direction && share <= filter.transmittance(645.0, 1.0) + 1e-6, "{share}");
             let open = [(500.0, 1.0), (700.0, 0.0)];

@@ -1,4 +1,4 @@
-//! Prescriptions against closed forms.
+//! Prescriptions compared with closed forms.
 
 use etendue_optics::lens::Prescribed;
 use etendue_optics::prescription::surface::Surface;
@@ -111,7 +111,7 @@ fn close_focus_follows_the_lens_equation_and_a_group_may_bring_it() {
     let image = 1.0 / (1.0 / f - 1.0 / object);
     let behind = by_sensor.sensor_position_mm() - by_sensor.last_vertex_mm() - by_sensor.paraxial().rear_principal_mm;
     assert!((behind - image).abs() < 1e-10 && (by_sensor.magnification() - image / object).abs() < 1e-12);
-    // Moving all surfaces is moving the sensor.
+    // Moving all surfaces is equivalent to moving the sensor.
     let by_all = near(Focus::Group { distance_m: 0.5, first: 0, last: 2 });
     assert!(
         (by_all.sensor_position_mm() - by_sensor.sensor_position_mm()).abs() < 1e-9,
@@ -119,7 +119,7 @@ fn close_focus_follows_the_lens_equation_and_a_group_may_bring_it() {
         by_all.sensor_position_mm(),
         by_sensor.sensor_position_mm()
     );
-    // A sensor where that one stands sees the same distance sharp.
+    // A sensor fixed at that position has the same distance in focus.
     let fixed = near(Focus::Fixed { back_focus_mm: by_sensor.sensor_position_mm() - by_sensor.last_vertex_mm() });
     assert!((fixed.focus_distance_m() - 0.5).abs() < 1e-12, "{}", fixed.focus_distance_m());
 }
@@ -141,7 +141,7 @@ fn what_is_no_lens_is_refused_with_its_reason() {
     assert!(with(&|s| s[2].glass = GLASS).starts_with("behind the last surface is glass"));
     assert!(with(&|s| s[1].radius_mm = -30.0).starts_with("the prescription has a focal length of -"));
     assert!(with(&|s| s[1].semi_aperture_mm = 3.0).starts_with("surface 2 clips the axial bundle"));
-    // A rear surface so strong that the axial bundle's edge meets it beyond the critical angle.
+    // A rear surface so strong that the edge of the axial bundle meets it beyond the critical angle.
     let strong = refusal(vec![
         Surface::stop(0.1, 9.0),
         Surface::sphere(f64::INFINITY, 12.0, Dispersion::Constant { n: 1.9 }, 10.0),

@@ -55,7 +55,7 @@ fn a_point_keeps_its_light_and_its_place() {
     let effects = effects(PsfParameters { reach_mm: Some(0.1), blades: 6, ..round() }, &lens(50.0, 8.0), &raster);
     let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 60, 50), None).0;
     let sum: f64 = picture.samples().iter().map(|v| f64::from(*v)).sum();
-    // 32-bit pixels; the pattern's lattice has one row more on the side of the picture's origin.
+    // 32-bit pixels; the lattice of the pattern has one more row on the side of the image's origin.
     assert!((sum - 1.0).abs() < 1e-6 && (centroid(&picture) - DVec2::new(60.0, 50.0)).length() < 1e-3, "{sum}");
 }
 
@@ -112,7 +112,7 @@ fn coma_points_outwards_and_turns_with_the_field() {
             (0..81 * 81).max_by(|a, b| picture.samples()[*a].total_cmp(&picture.samples()[*b])).expect("some");
         DVec2::new((brightest % 81) as f64, (brightest / 81) as f64) - DVec2::new(x as f64, y as f64)
     };
-    // The bright core of W = a √8 (3r³ − 2r) cos θ lies where its middle's rays land: 2N ∂W/∂x(0) = −2N 2√8 a = −27 µm.
+    // The bright core of W = a √8 (3r³ − 2r) cos θ lies where the rays of its centre land: 2N ∂W/∂x(0) = −2N 2√8 a = −27 µm.
     let right = bright([5, 1], 72, 40);
     let below = bright([1, 5], 40, 72);
     assert!(right.x < -3.0 && right.y == 0.0 && below.y < -3.0 && below.x == 0.0, "{right} {below}");
@@ -140,7 +140,7 @@ fn what_cannot_be_is_refused() {
     assert!(new(defocus(vec![0.5])).is_ok());
 }
 
-/// The Airy disc of f/10⁵ has a radius of 67 mm: samples of the pattern would be 400 px apart, and the image would have the wrong light.
+/// The Airy disc of f/10⁵ has a radius of 67 mm: samples of the pattern would be 400 px apart, and the image would have the wrong amount of light.
 #[test]
 fn a_pattern_wider_than_can_be_computed_is_refused() {
     let raster = Raster::centred(32, 24, 0.005).expect("legal");
@@ -153,7 +153,7 @@ fn a_pattern_wider_than_can_be_computed_is_refused() {
 }
 
 /// The Airy disc of a pinhole of f/400: half its peak at 0.5145 λN, dark at 1.2197 λN (Born and Wolf, 8.5.2), which are 22.6 px and 53.7 px. The
-/// pupil is 18 cells wide, so that its area, and with it the width, is right to 2 %.
+/// pupil is 18 cells wide, so its area, and with it the width, is accurate to 2 %.
 #[test]
 fn the_pattern_of_a_pinhole_is_an_airy_disc() {
     let raster = Raster::centred(241, 241, 0.005).expect("legal");

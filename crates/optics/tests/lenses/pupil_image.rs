@@ -1,4 +1,4 @@
-//! The at-the-pupil route against what it must keep.
+//! The invariants of the at-the-pupil route.
 
 use etendue_core::WavelengthRange;
 use etendue_core::plane::{Plane, SpectralCube};

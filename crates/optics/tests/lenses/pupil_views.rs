@@ -1,4 +1,4 @@
-//! The at-the-pupil route in six views, and for every lens that has one viewpoint.
+//! The at-the-pupil route in six views, and for every lens with a single viewpoint.
 
 use core::f64::consts::PI;
 use etendue_core::WavelengthRange;
@@ -24,12 +24,12 @@ fn bands() -> Bands {
     Bands::new(500.0, 50.0, 2).expect("legal")
 }
 
-/// A calibrated camera of `width` × `height` pixels about its middle.
+/// A calibrated camera of `width` × `height` pixels, its axis at the centre.
 fn camera(model: Model, f_px: f64, size_px: [usize; 2]) -> (Lens, Raster) {
     limited(model, f_px, size_px, PI)
 }
 
-/// The same, blind from a field angle on.
+/// The same, limited to directions below a field angle.
 fn limited(model: Model, f_px: f64, [width, height]: [usize; 2], angle_rad: f64) -> (Lens, Raster) {
     let (cx, cy) = (0.5 * width as f64, 0.5 * height as f64);
     let matrix = CameraMatrix { fx: f_px, fy: f_px, skew: 0.0, cx, cy };
@@ -86,7 +86,7 @@ fn cameras() -> Vec<(&'static str, Lens, Raster)> {
     named.into_iter().map(|(name, (lens, raster))| (name, lens, raster)).collect()
 }
 
-/// A stored image of a radiance field; pixels of no view are NaN, and must never be looked at.
+/// A stored image of a radiance field; pixels outside all views are NaN and must never be read.
 fn stored(geometry: &PupilProjection, value: impl Fn(DVec3) -> f64) -> SpectralCube<Radiance> {
     let mut plane = Plane::<Radiance>::new(geometry.width(), geometry.height());
     for y in 0..geometry.height() {
@@ -130,7 +130,7 @@ fn uniform_radiance_stays_uniform_whatever_the_lens() {
     }
 }
 
-/// Smooth over the whole sphere; its gradient is at most 2.3 a radian.
+/// Smooth over the whole sphere; its gradient is at most 2.3 per radian.
 fn smooth(d: DVec3) -> f64 {
     4.0 + d.x + 0.8 * d.y - 0.6 * d.z + d.x * d.z + 0.5 * d.y * d.x
 }
@@ -148,8 +148,8 @@ fn a_smooth_radiance_has_no_seams() {
             let (Some(direction), true) = (lens.direction(at), corners.iter().all(Option::is_some)) else { continue };
             let direct = smooth(direction.normalize());
             let spread = corners.iter().flatten().map(|d| (d.normalize() - direction.normalize()).length());
-            // Stored pixels count as uniform: a footprint some stored pixels wide reads a slope to an eighth of a stored
-            // pixel's step on each axis at worst; the pixel's own curvature is below its spread squared.
+            // Stored pixels count as uniform: a footprint some stored pixels wide reads a slope to an eighth of a stored pixel's step on each axis at
+            // worst; the error by the pixel's own curvature is below its spread squared.
             let spread = spread.fold(0.0, f64::max);
             let allowed = 2.3 * 0.25 * geometry.pitch_tan() + 2.0 * spread * spread;
             let value = f64::from(picture.planes()[0].at(x, y));
@@ -181,12 +181,12 @@ fn stored_pixels_are_no_wider_than_the_picture_s() {
     let PupilProjection::Cube(cube) = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal") else {
         panic!("six views")
     };
-    // π/96 rad a pixel; the finest of the survey's differences may round below it.
+    // π/96 rad per pixel; the finest of the survey's differences may round below it.
     let needed = 2.0 * 96.0 / PI;
     assert!((needed..needed + 4.0).contains(&(cube.face_px() as f64)), "{} for {needed}", cube.face_px());
     // The back half of the side views is not stored: front, 4 halves, and borders.
     let front = cube.face_px() + 8;
-    // A window ends some three pixels beyond what is seen, on one side of four halves.
+    // A window ends some three pixels beyond the visible part, on one side of four halves.
     assert!(cube.width() <= front + 8 && cube.height() <= 3 * front + 8, "{} × {}", cube.width(), cube.height());
 }
 
@@ -271,13 +271,13 @@ fn distances_are_taken_and_never_averaged() {
     assert!(sky > 100);
 }
 
-/// The directions that a table of field angles gives are those that the lens traces.
+/// The directions from a table of field angles equal those traced through the lens.
 #[test]
 fn a_prescription_is_resampled_by_its_own_chief_rays() {
     for (name, radius_mm) in [("double-gauss", 21.6), ("fisheye", 12.75)] {
         let (lens, raster) = prescription(name, radius_mm);
         let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect(name);
-        // A radiance that is the field angle itself, which a linear interpolation keeps.
+        // A radiance equal to the field angle, which a linear interpolation preserves.
         let angle = |d: DVec3| atan2(d.truncate().length(), d.z);
         let picture = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect(name);
         let picture = picture.apply(&stored(&geometry, angle)).expect(name);
@@ -301,7 +301,7 @@ fn sides_of_the_cube_are_where_the_axes_point() {
     assert_eq!(Face::towards(DVec3::new(0.1, -0.9, 0.2)), Face::Top, "y points down");
 }
 
-/// The two routes disperse alike: what a band shows at a pixel is what the rays of its wavelength look at.
+/// Both routes have the same dispersion: each pixel of a band equals the view of the rays of its wavelength.
 #[test]
 fn lateral_colour_moves_each_band_as_its_rays_are_moved() {
     let table = LateralColour::new(vec![(450.0, 1.02), (650.0, 0.98)]).expect("a table");
@@ -345,7 +345,7 @@ fn lateral_colour_moves_each_band_as_its_rays_are_moved() {
 /// The smooth field as the chief ray of a wavelength sees it.
 fn through(lens: &Lens, at: DVec2, nm: f64) -> Option<f64> {
     let direction = match lens {
-        // The middle of the directions that pass: through a wide-angle lens, within the field's curvature of the chief ray.
+        // The centre of the directions that pass: for a wide-angle lens, within the field's curvature of the chief ray.
         Lens::Prescription(_) => {
             let rays: Vec<DVec3> = (0..64).filter_map(|i| Some(lens.ray(at, pupil_point(i), nm)?.direction)).collect();
             if rays.len() < 32 {
@@ -362,7 +362,7 @@ fn pupil_point(i: u32) -> DVec2 {
     (DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_3) * f64::from(i) + 0.5).fract()
 }
 
-/// Band by band is what films on the disk go through.
+/// Films on disk are processed band by band.
 #[test]
 fn irradiance_band_by_band_is_that_of_the_whole_cube() {
     let edge = Spectrum::from_points(&[(500.0, 1.0), (600.0, 0.2)], Outside::Hold).expect("a spectrum");

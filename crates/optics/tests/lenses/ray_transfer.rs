@@ -1,7 +1,7 @@
-//! Ray-transfer functions off the meridian and at several wavelengths, against closed forms and against themselves turned.
+//! Ray-transfer functions off the meridian and at several wavelengths, compared with closed forms and with rotated copies of themselves.
 //!
-//! An ideal lens of direction cosines takes 1/f of a ray's height off them: d′ = d − p/f across the axis, p where the ray crosses the lens. In the frame of a
-//! ray, whose y axis goes through p, that is outx = 0, outy = ρ, outdx = dx, outdy = dy − ρ/f.
+//! An ideal lens subtracts 1/f of a ray's height from its direction cosines: d′ = d − p/f across the axis, p the ray's crossing of the lens. In the
+//! frame of a ray, whose y axis goes through p, that is outx = 0, outy = ρ, outdx = dx, outdy = dy − ρ/f.
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{cos, sin};
@@ -26,7 +26,7 @@ fn circle(radius_mm: f64) -> RayPass {
     RayPass::new(0.0, PassRegion::Circles(vec![PassCircle { radius_mm, sensitivity: 0.0 }])).expect("legal")
 }
 
-/// An ideal lens of a power (1/mm) that stands `z_mm` before the front vertex.
+/// An ideal lens of a power (1/mm), `z_mm` before the front vertex.
 fn ideal(wavelength_nm: f64, power: f64, z_mm: f64, pass: RayPass) -> Transfer {
     let (height, dx, dy) = ([1, 0, 0], [0, 1, 0], [0, 0, 1]);
     Transfer {
@@ -54,15 +54,15 @@ fn samples() -> impl Iterator<Item = (DVec2, DVec2)> {
     })
 }
 
-/// Where a ray crosses the lens, and its direction, in the frame of the lens: x as in the camera's, y upwards.
+/// The crossing of the lens by a ray, and its direction, in the frame of the lens: x as in the camera's, y upwards.
 fn in_the_lens(ray: &PupilRay) -> (DVec2, DVec2) {
     let flip = DVec2::new(1.0, -1.0);
     (ray.origin_m.truncate() * 1e3 * flip, ray.direction.truncate() * flip)
 }
 
-/// What an ideal lens of a power makes of the ray from a point of the erect picture through a point of the lens.
+/// Direction after an ideal lens of a power, for the ray from a point of the erect image through a point of the lens.
 fn ideal_direction(sensor_mm: DVec2, at_mm: DVec2, power: f64) -> DVec2 {
-    // The image is upside down: what is seen to the right falls on the left of the sensor.
+    // The image is upside down: an object on the right falls on the left of the sensor.
     let film = DVec2::new(-sensor_mm.x, sensor_mm.y);
     (at_mm - film).extend(SENSOR).normalize().truncate() - at_mm * power
 }
@@ -79,11 +79,11 @@ fn skew_rays_are_bent_as_by_an_ideal_lens() {
         assert!(at.length() <= 8.0 && (ray.direction.length() - 1.0).abs() < 1e-12);
         count += 1;
     }
-    // Of a disc drawn evenly all pass, but for the margin of what is drawn from.
+    // All samples of a uniform disc pass, except for the margin of the sampled region.
     assert!(count > 700, "{count} of 768 rays");
 }
 
-/// Everything that a file can say, with terms that are odd in dx.
+/// All features of a file, with terms that are odd in dx.
 fn crooked() -> Vec<Transfer> {
     let of = |wavelength_nm: f64, more: f64| {
         let ellipse = |height_mm: f64, centre: f64, x: f64, y: f64| PassEllipse {
@@ -119,7 +119,7 @@ fn rays_that_are_turned_about_the_axis_come_out_turned() {
             for degrees in [30.0_f64, 90.0, 137.0, 245.0] {
                 let turn = DMat2::from_angle(degrees.to_radians());
                 let [plain, turned] = [sensor_mm, turn * sensor_mm].map(|point| lens.ray(point, pupil, nm));
-                // A ray at the very rim may be in or out by a rounding: none of these is.
+                // A ray at the very edge may be in or out by rounding: none of these is.
                 let (Some(plain), Some(turned)) = (plain, turned) else {
                     assert_eq!(plain.is_some(), turned.is_some(), "{sensor_mm} {pupil} by {degrees}°");
                     continue;
@@ -139,7 +139,7 @@ fn rays_that_are_turned_about_the_axis_come_out_turned() {
     assert!((DVec2::new(one.x, one.y).perp() - other.truncate()).length() < 1e-12, "{one} {other}");
 }
 
-/// Semi-axes across the meridian of a ray and along it: what passes on a plane beyond the lens, on whatever side the point of the sensor lies.
+/// Semi-axes across the meridian of a ray and along it: the region that passes on a plane beyond the lens, for sensor points on all sides.
 #[test]
 fn ellipses_lie_across_the_meridian() {
     let (plane_mm, radii_mm) = (12.0, DVec2::new(0.8, 2.0));
@@ -183,7 +183,7 @@ fn rays_between_two_wavelengths_are_linear_between_theirs_and_beyond_them_theirs
     }
 }
 
-/// On the axis light of a circle of radius R in the distance s has π R²/(R² + s²) sr.
+/// On the axis the light of a circle of radius R at the distance s subtends π R²/(R² + s²) sr.
 #[test]
 fn what_passes_is_that_of_the_nearest_wavelength() {
     let radii = [2.0, 4.0];
@@ -195,7 +195,7 @@ fn what_passes_is_that_of_the_nearest_wavelength() {
         let mean = pupils.filter_map(|pupil| lens.ray(DVec2::ZERO, pupil, nm)).map(|ray| ray.weight_sr).sum::<f64>()
             / f64::from(grid * grid);
         let expected = PI * radius * radius / (radius * radius + SENSOR * SENSOR);
-        // The rim cuts through one in a hundred cells of the grid, half of each on average.
+        // The edge cuts through one in a hundred cells of the grid, half of each on average.
         assert!((mean / expected - 1.0).abs() < 0.01, "{nm} nm: {mean} sr for {expected}");
     }
 }

@@ -1,4 +1,4 @@
-//! Point spreads whose core displaces samples: modulation of draws and of what is left to the film.
+//! Point spreads whose core displaces samples: modulation of the displacements and of the part left to the film.
 
 use core::f64::consts::{PI, TAU};
 use etendue_core::Plane;
@@ -16,14 +16,14 @@ use glam::DVec2;
 
 const RANGE: WavelengthRange = WavelengthRange::new(400.0, 720.0);
 const PITCH_UM: f64 = 4.0;
-/// Draws along each axis of the square.
+/// Samples along each axis of the square.
 const DRAWS: usize = 160;
 
 fn raster() -> Raster {
     fine_raster(1)
 }
 
-/// The same sensor with so many times as many pixels along its sides.
+/// The same sensor with `times` as many pixels along its sides.
 fn fine_raster(times: usize) -> Raster {
     Raster::centred(64 * times, 48 * times, 1e-3 * PITCH_UM / times as f64).expect("legal")
 }
@@ -33,7 +33,7 @@ fn effects(psf: PointSpread, spread_by: Option<SpreadBy>) -> Result<Effects, Eff
     Effects::new(parameters, &raster())
 }
 
-/// A picture of a Gaussian, sampled at twelfths of a pixel.
+/// An image of a Gaussian, sampled at twelfths of a pixel.
 fn gaussian(sigma_px: f64) -> PointSpread {
     const SIDE: usize = 85;
     let step = 1.0 / 12.0;
@@ -66,7 +66,7 @@ fn aperture(f_number: f64, wavefront: Vec<ZernikeTerm>) -> PointSpread {
     PointSpread::Aperture(Psf::new(parameters, &lens.expect("a lens"), &raster()).expect("legal"))
 }
 
-/// Mean weight and modulation (real, imaginary) of each wavelength's displacements at a frequency, cycles a pixel.
+/// Mean weight and modulation (real, imaginary) of each wavelength's displacements at a frequency, cycles per pixel.
 fn drawn<const N: usize>(spread: &SampleSpread, nm: [f32; N], frequency: DVec2) -> [(f64, DVec2); N] {
     let mut sums = [(0.0, DVec2::ZERO); N];
     for i in 0..DRAWS * DRAWS {
@@ -104,7 +104,7 @@ fn of_film_on(raster: &Raster, effects: &Effects, part: FilmPart, nm: f64, frequ
     spread.samples().iter().enumerate().map(wave).sum()
 }
 
-/// Of samples that are displaced, on a film that spreads the tails.
+/// Modulation of displaced samples on a film that spreads the tails.
 fn product(drawn: DVec2, film: DVec2) -> DVec2 {
     DVec2::new(drawn.x * film.x - drawn.y * film.y, drawn.x * film.y + drawn.y * film.x)
 }
@@ -124,7 +124,7 @@ fn narrow_gaussians_keep_their_contrast() {
                 let whole = product(found, of_film(&effects, FilmPart::Tails, 550.0, along * f)).x;
                 let expected = exp(-2.0 * (PI * sigma_px * f) * (PI * sigma_px * f));
                 assert_eq!(weight, 1.0, "the same at all wavelengths");
-                // Half a per cent at half a cycle, of the cells; what the tails lose bilinearly of the light beyond a pixel, most at 0.6 px.
+                // Half a per cent at half a cycle, from the cells; the bilinear loss of the light beyond a pixel, largest at 0.6 px.
                 assert!((whole - expected).abs() < 0.006, "{sigma_px} at {f} along {along}: {whole} for {expected}");
                 assert!(found.y.abs() < 1e-3, "even");
             }
@@ -144,14 +144,14 @@ fn diffraction_keeps_its_contrast_at_each_of_a_path_s_wavelengths() {
                 let expected = if v < 1.0 { 2.0 / PI * (acos(v) - v * (1.0 - v * v).sqrt()) } else { 0.0 };
                 let whole = product(found, of_film(&effects, FilmPart::Tails, nm, along * f)).x;
                 assert!((weight - 1.0).abs() < 0.01, "f/{f_number} {nm}: {weight}");
-                // Cells, the draws' lattice, steps of 10 nm; light beyond the pattern's end (0.3 %).
+                // Cells, the lattice of the samples, steps of 10 nm; light beyond the pattern's end (0.3 %).
                 assert!((whole - expected).abs() < 0.015, "f/{f_number} {nm} nm {f} {along}: {whole} for {expected}");
             }
         }
     }
 }
 
-/// Coma sends light to one side. A film of finer pixels tells which, and how much: on pixels as wide as the function it is wrong by 0.04.
+/// Coma sends light to one side. A film of finer pixels shows the side and the amount: on pixels as wide as the function it is wrong by 0.04.
 #[test]
 fn light_lands_on_the_side_where_a_finer_film_puts_it() {
     const TIMES: usize = 4;
@@ -165,7 +165,7 @@ fn light_lands_on_the_side_where_a_finer_film_puts_it() {
     let fine = (fine_raster(TIMES), Effects::new(fine, &fine_raster(TIMES)).expect("legal"));
     let expected = of_film_on(&fine.0, &fine.1, FilmPart::Whole, 550.0, DVec2::X * 0.125 / TIMES as f64);
     assert!(expected.y > 0.1, "coma is to one side: {expected}");
-    // Of the tails, 8 % of the light, the core's own displacement of 0.2 px is made twice; the finer film is wrong by 0.005.
+    // For the tails, 8 % of the light, the core's own displacement of 0.2 px is applied twice; the finer film is wrong by 0.005.
     assert!((found - expected).length() < 0.015, "{found} for {expected}");
 }
 

@@ -1,4 +1,4 @@
-//! Spots, their colour and the number of bundles against optiland and rayoptics (tests/oracles/spots.py).
+//! Spots, their colour and the number of bundles compared with optiland and rayoptics (tests/oracles/spots.py).
 
 use etendue_optics::lens::{ImageReport, LensReport};
 use etendue_optics::prescription::Focus;
@@ -35,7 +35,7 @@ fn report(lens: &Value, height_mm: f64, disperses: bool) -> LensReport {
     Prescribed::new(lens, None, height_mm.max(0.01)).expect("lit").report(2)
 }
 
-/// What is told of a field of the figures.
+/// The image report of a field of the reference data.
 fn image(lens: &Value, field: &Value, disperses: bool) -> ImageReport {
     let height_mm = number(&field["optiland"]["d"]["chief_mm"]);
     let report = report(lens, height_mm, disperses);
@@ -60,16 +60,16 @@ fn spots_agree_and_state_an_error_that_holds() {
         assert!((image.angle_rad.to_degrees() - number(&field["angle_deg"])).abs() < 1e-9, "{name}");
         let spot = image.spot.expect("lit");
         let theirs = &field["optiland"]["d"]["bundles"][0];
-        // The grid of 1 600 rays across counts a ray of the rim or not: up to 4e-5 of the radius.
+        // The grid of 1 600 rays across includes an edge ray or not: up to 4e-5 of the radius.
         let grid_mm = 4e-5 * spot.radius_mm + spot.rms_error_mm;
         assert!((spot.rms_mm - number(&theirs["rms_mm"])).abs() < grid_mm, "{name}: {spot:?} for {theirs}");
         assert!((spot.centroid_mm - number(&theirs["centroid_mm"])).abs() < grid_mm, "{name}: {spot:?} for {theirs}");
-        // Their grid has no ray in the very corner of two rims.
+        // Their grid has no ray exactly in the corner of two clear apertures.
         let radius = spot.radius_mm / number(&theirs["radius_mm"]);
         assert!(radius > 1.0 - 1e-5 && radius < 1.01, "{name}: {spot:?} for {theirs}");
         assert!(spot.rms_error_mm < 1e-4 * spot.rms_mm, "{name}: {spot:?}");
         if let Some(rms_mm) = field["rayoptics"]["d"]["rms_mm"].as_f64() {
-            // Gauss's rule over rings has no rim to count.
+            // Gauss's rule over rings has no edge to resolve.
             assert!((spot.rms_mm - rms_mm).abs() < 1e-6 * spot.rms_mm + spot.rms_error_mm, "{name}");
         }
     }
@@ -96,8 +96,8 @@ fn lateral_colour_is_that_of_centroids_and_of_chief_rays() {
     }
 }
 
-/// A strong negative front group puts the stop far behind it: a coarse grid over the whole front opening finds few rays of the pupil and once
-/// gave lateral colour of the wrong sign.
+/// A strong negative front group puts the stop far behind it: a coarse grid over the whole front aperture finds few rays of the pupil and once gave
+/// lateral colour of the wrong sign.
 #[test]
 fn a_retrofocus_lens_has_lateral_colour_of_the_right_sign() {
     let figures = figures();
@@ -110,7 +110,8 @@ fn a_retrofocus_lens_has_lateral_colour_of_the_right_sign() {
         let um = [f.centroid_mm, f.chief_mm.expect("a ray"), c.centroid_mm, c.chief_mm.expect("a ray")];
         told.push(um.map(|mm| (1e6 * mm).round() / 1e3));
     }
-    // At 0°, 15° and 30°: F by centroid and chief ray, C likewise, µm; optiland's and rayoptics's to the last digit but for the centroids' 0.002.
+    // At 0°, 15° and 30°: F by centroid and chief ray, C likewise, µm; equal to optiland's and rayoptics's to the last digit except for the
+    // centroids' 0.002.
     assert_eq!(told, RETROFOCUS_UM);
 }
 
@@ -137,7 +138,7 @@ fn dispersion_does_not_move_the_spot_at_the_d_line() {
         fields(&figures).filter(|(lens, _)| lens["name"].as_str().is_some_and(|n| n.starts_with("singlet")))
     {
         let [with, without] = [true, false].map(|disperses| image(lens, field, disperses).spot.expect("lit"));
-        // n_d is stated at 587.5618 nm, the spot is of 587.56: 7e-8 of the index move the focus by 1 nm.
+        // n_d is stated at 587.5618 nm, the spot is at 587.56: 7e-8 of the index move the focus by 1 nm.
         assert!((with.rms_mm / without.rms_mm - 1.0).abs() < 5e-5, "{with:?} {without:?}");
     }
 }

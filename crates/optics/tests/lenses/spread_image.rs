@@ -1,4 +1,4 @@
-//! Point-spread functions from pictures on a film.
+//! Point-spread functions from images on a film.
 
 use etendue_core::Plane;
 use etendue_core::WavelengthRange;
@@ -81,7 +81,7 @@ fn three_by_three_samples_on_the_pixels_are_the_direct_convolution() {
 fn a_sample_to_the_right_and_below_moves_the_picture_there() {
     let right_below = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
     let picture = spread(image(3, &right_below, PIXEL_UM, None), BAND, &point(), None).0;
-    // One column right, and half a row below the middle between two rows.
+    // One column right, and half a row below the centre between two rows.
     assert_eq!([picture.at(21, 15), picture.at(21, 16)], [0.5, 0.5]);
 }
 

@@ -23,7 +23,7 @@ fn raster() -> Raster {
     Raster::centred(SIZE[0], SIZE[1], PIXEL_MM).expect("legal")
 }
 
-/// A function stated at a place, whose light at an offset along the radius and across it, mm, is this.
+/// A function at a field position; `light` gives its light at an offset along the radius and across it, mm.
 fn function(place_mm: DVec2, light: impl Fn(f64, f64) -> f64) -> FieldSpread {
     let outwards = place_mm.try_normalize().unwrap_or(DVec2::NEG_Y);
     let middle = (SIDE / 2) as f64;
@@ -35,7 +35,7 @@ fn function(place_mm: DVec2, light: impl Fn(f64, f64) -> f64) -> FieldSpread {
     FieldSpread { place_mm, pitch_um: 1e3 * STEP_MM, width: SIDE, light, point: [SIDE / 2; 2] }
 }
 
-/// Widths along the radius and across it of a Gaussian, and how far it lies outwards and sideways of its point, mm.
+/// Widths of a Gaussian along the radius and across it, and its offset outwards and sideways from its point, mm.
 #[derive(Clone, Copy)]
 struct Shape {
     widths: [f64; 2],
@@ -43,7 +43,7 @@ struct Shape {
 }
 
 impl Shape {
-    /// At a distance from the axis, mm: on it round and at its point.
+    /// At a distance from the axis, mm; on the axis it is round and centred on its point.
     fn at(radius_mm: f64) -> Self {
         Self {
             widths: [0.008 + 0.002 * radius_mm * radius_mm, 0.008 + 0.001 * radius_mm * radius_mm],
@@ -74,7 +74,7 @@ fn table(fields: Vec<FieldSpread>, patches: Option<[usize; 2]>) -> Result<Spread
     SpreadTable::new(parameters, &raster())
 }
 
-/// Of fields every 0.15 mm in a direction.
+/// Functions every 0.15 mm along a direction.
 fn grown(direction: DVec2) -> Vec<FieldSpread> {
     (0..=10).map(|i| Shape::function(0.15 * f64::from(i), direction)).collect()
 }
@@ -90,9 +90,9 @@ fn spread(table: &SpreadTable, film: &Plane<Irradiance>, variance: Option<&Plane
     effects.prepared(&raster(), BAND, FilmPart::Whole).apply(BAND, film, variance).0
 }
 
-/// What becomes of points' light: of each the sum, the centroid from the point and second moments about it, mm, mm².
+/// Measured spread of points: sum, centroid relative to the point and second moments about it, mm, mm².
 fn moments(table: &SpreadTable, pixels: &[[usize; 2]]) -> Vec<(f64, DVec2, DMat2)> {
-    /// Columns and rows about a point that are its own.
+    /// Columns and rows about a point that belong to it.
     const AROUND: usize = 28;
     let mut film = Plane::new(SIZE[0], SIZE[1]);
     pixels.iter().for_each(|pixel| film.set(pixel[0], pixel[1], 1.0));
@@ -117,7 +117,7 @@ fn place(pixel: [usize; 2]) -> DVec2 {
     raster().sensor_mm(DVec2::new(pixel[0] as f64 + 0.5, pixel[1] as f64 + 0.5))
 }
 
-/// On patches and between them, in all quadrants.
+/// At patches and between them, in all quadrants.
 const PLACES: [[usize; 2]; 10] = [
     [300, 200],
     [120, 100],
@@ -144,8 +144,8 @@ fn points_are_spread_as_the_tables_say() {
             let scale = second.x_axis.x + second.y_axis.y;
             let expected = turn * second * turn.transpose();
             let off = (found_second - expected).to_cols_array().into_iter().fold(0.0, |a: f64, v| a.max(v.abs()));
-            // Each pixel takes the functions of its own place, not of the point's: light by the divergence of the centroids, centroids by that
-            // of the second moments.
+            // Each pixel takes the functions of its own position, not the point's: light changes by the divergence of the centroids, centroids by
+            // that of the second moments.
             assert!((sum - 1.0).abs() < 0.004, "{pixel:?}: {sum}");
             assert!((found_centroid - turn * centroid).length() < 0.01 * scale.sqrt(), "{pixel:?}: {found_centroid}");
             assert!(off < 0.01 * scale, "{direction} {pixel:?}: {off} of {scale}");
@@ -155,7 +155,7 @@ fn points_are_spread_as_the_tables_say() {
 
 #[test]
 fn tails_point_away_from_the_axis_in_every_quadrant() {
-    // Light at the point and, a tenth of it, in a tail to three times 10 µm, as the files state it for any direction.
+    // Light at the point and, a tenth of it, in a tail to three times 10 µm, in any direction.
     let comet = |direction: DVec2| {
         function(direction * 0.3, |along, across| {
             let head = exp(-0.5 * (along * along + across * across) / (0.003 * 0.003));
@@ -206,7 +206,7 @@ fn between_wavelengths_functions_are_mixed_and_beyond_them_held() {
         let expected = (1.0 - share) * of(0.006) + share * of(0.012);
         let found = table.transfer(nm, DVec2::new(0.1, 0.2), frequency).length();
         assert!((found - expected).abs() < 1e-5, "{nm}: {found} for {expected}");
-        // The film's band of 10 nm about it, by what becomes of a point.
+        // The film's band of 10 nm about it, from the measured spread of a point.
         let effects = effects(table.clone(), Some(SpreadBy::Film));
         let band = WavelengthRange::new(nm - 5.0, nm + 5.0);
         let mut film: Plane<Irradiance> = Plane::new(SIZE[0], SIZE[1]);
@@ -246,7 +246,7 @@ fn samples_are_displaced_by_narrow_functions_and_wide_ones_are_refused() {
         let mean = (0..draws).map(draw).sum::<DVec2>() / f64::from(draws);
         let radius_mm = place([pixel[0] as usize, pixel[1] as usize]).length();
         let expected = outwards * 0.002 * radius_mm / PIXEL_MM;
-        // What falls beyond a pixel is partly the film's: the mean of the rest lies nearer to the point.
+        // Light beyond a pixel is partly spread by the film: the mean of the rest lies nearer to the point.
         assert!((mean - expected).length() < 0.06, "{mean} for {expected}");
     }
     let psf = Some(PointSpread::Table(table(grown(DVec2::X), None).expect("legal")));
@@ -282,7 +282,7 @@ fn functions_that_make_no_table_are_refused() {
     }
 }
 
-/// Functions of one width whose centroids move outwards by a tenth of it, which second moments would not tell, stand in more than one patch.
+/// Functions of constant width whose centroids move outwards by a tenth of it, undetected by second moments, need more than one patch.
 #[test]
 fn centroids_that_move_take_patches() {
     let moved = |most_mm: f64| {
@@ -300,7 +300,7 @@ fn centroids_that_move_take_patches() {
     assert!(moved(0.0008) > 1, "{}", moved(0.0008));
 }
 
-/// A table that does not begin on the axis is held inwards: what its centroid does to light there is told.
+/// A table that does not begin on the axis is held inwards; the resulting error of the light there is reported.
 #[test]
 fn light_within_the_first_distance_is_told() {
     let one = Shape { widths: [0.008; 2], beside: [0.002, 0.0] };

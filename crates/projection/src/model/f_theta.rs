@@ -1,9 +1,8 @@
 //! F-theta cameras: a polynomial from the field angle to the radius, or from the radius to the field angle.
 //!
-//! r = c₁ θ + c₂ θ² + … or θ = c₁ r + c₂ r² + …, up to a stated greatest angle, then the affine map c, d, e: the f-theta
-//! model of NVIDIA DriveWorks ("angle-to-pixeldistance", "pixeldistance-to-angle"). A polynomial in pixels goes with a
-//! camera matrix of fx = fy = 1; one in focal lengths with the camera's own. [`Affine`] stretches the rows by c, in
-//! OCamCalib's order; files whose c stretches the columns have to be put in that order.
+//! r = c₁ θ + c₂ θ² + … or θ = c₁ r + c₂ r² + …, up to a stated maximum angle, then the affine map c, d, e: the f-theta model of NVIDIA DriveWorks
+//! ("angle-to-pixeldistance", "pixeldistance-to-angle"). A polynomial in pixels goes with a camera matrix of fx = fy = 1; one in focal lengths with
+//! the camera's own. [`Affine`] stretches the rows by c, in OCamCalib's order; files whose c stretches the columns must be converted to that order.
 
 use core::f64::consts::PI;
 
@@ -13,7 +12,7 @@ use crate::plane::Affine;
 use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
 
-/// What an f-theta polynomial takes.
+/// Argument of an f-theta polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FThetaSense {
     /// The field angle, rad; it gives the radius.
@@ -27,10 +26,10 @@ pub enum FThetaSense {
 pub struct FTheta(Stretched<Polynomial>);
 
 impl FTheta {
-    /// The camera of c₀ = 0, c₁, c₂, …, up to a field angle.
+    /// Creates the camera from c₀ = 0, c₁, c₂, …, up to a field angle.
     ///
     /// # Errors
-    /// Where c₀ is not 0, c₁ not positive, a number not finite, the angle not in (0, π] or the affine map mirrors.
+    /// If c₀ is not 0, c₁ not positive, a number not finite, the angle not in (0, π] or the affine map mirrors.
     pub fn new(
         sense: FThetaSense,
         coefficients: Vec<f64>,
@@ -47,7 +46,7 @@ impl FTheta {
         Ok(Self(Stretched { profile: Polynomial::new(sense, coefficients, greatest_angle_rad), affine }))
     }
 
-    /// Which way the polynomial runs.
+    /// Direction of the polynomial.
     #[must_use]
     pub fn sense(&self) -> FThetaSense {
         self.0.profile.sense
@@ -59,7 +58,7 @@ impl FTheta {
         &self.0.profile.c
     }
 
-    /// The field angle up to which it holds, as stated, rad.
+    /// The maximum field angle as stated, rad.
     #[must_use]
     pub fn greatest_angle_rad(&self) -> f64 {
         self.0.profile.stated_rad
@@ -81,9 +80,9 @@ struct Polynomial {
     sense: FThetaSense,
     c: Vec<f64>,
     slope: Vec<f64>,
-    /// The greatest angle as stated.
+    /// The maximum angle as stated.
     stated_rad: f64,
-    /// The greatest argument: an angle or a radius.
+    /// The maximum argument: an angle or a radius.
     greatest: f64,
     edge: Edge,
 }
@@ -110,13 +109,13 @@ impl Polynomial {
         [polynomial(&self.c, x), polynomial(&self.slope, x)]
     }
 
-    /// The argument of a value; `None` at the greatest or beyond.
+    /// The argument of a value; `None` at the maximum or beyond.
     fn inverse(&self, value: f64) -> Option<f64> {
         increasing(value, [0.0, self.greatest], value / self.c[1], |x| self.value(x))
     }
 }
 
-/// The radius at which the angle is reached, or one beyond the turn of a polynomial that does not reach it.
+/// The radius at which the angle is reached, or one beyond the turning point of a polynomial that does not reach it.
 fn radius_reaching(c: &[f64], slope: &[f64], angle_rad: f64) -> f64 {
     let mut high = angle_rad / c[1];
     while polynomial(c, high) < angle_rad && polynomial(slope, high) > 0.0 {

@@ -2,10 +2,10 @@
 //!
 //! Polynomial fisheye: r = θ (1 + k₁ θ² + k₂ θ⁴ + k₃ θ⁶ + …).
 //!
-//! Kannala & Brandt 2006 (eq. 6, symmetrical part); with four coefficients `cv::fisheye` and Kalibr's pinhole-equi, with one
-//! and two COLMAP's SIMPLE_RADIAL_FISHEYE and RADIAL_FISHEYE, with none the equidistant fisheye. θ counts from the optical
-//! axis and goes to 180°, where `cv::fisheye` itself stops at 90°; beyond the first angle at which dr/dθ vanishes there is
-//! nothing. The asymmetrical terms of the paper are left out, as in all those programs.
+//! Kannala & Brandt 2006 (eq. 6, symmetrical part); with four coefficients `cv::fisheye` and Kalibr's pinhole-equi, with one and two COLMAP's
+//! SIMPLE_RADIAL_FISHEYE and RADIAL_FISHEYE, with none the equidistant fisheye. θ counts from the optical axis and extends to 180°, where
+//! `cv::fisheye` itself stops at 90°; the field ends at the first angle at which dr/dθ vanishes. The asymmetrical terms of the paper are left out, as
+//! in all those programs.
 //!
 //! Fisheyes with tangential and thin-prism terms: r = θ (1 + k₁ θ² + …) along the azimuth, then a distortion of that plane.
 //!
@@ -31,18 +31,18 @@ pub struct KannalaBrandt {
 }
 
 impl KannalaBrandt {
-    /// The fisheye with these coefficients, k₁ first.
+    /// Creates the fisheye from these coefficients, k₁ first.
     ///
     /// # Errors
-    /// Where one is not finite.
+    /// If one is not finite.
     pub fn new(k: [f64; 4]) -> Result<Self, ModelError> {
         Self::long([k[0], k[1], k[2], k[3], 0.0, 0.0])
     }
 
-    /// The fisheye with six coefficients.
+    /// Creates the fisheye from six coefficients.
     ///
     /// # Errors
-    /// Where one is not finite.
+    /// If one is not finite.
     pub fn long(coefficients: [f64; LONGEST]) -> Result<Self, ModelError> {
         finite_list("k", 1, &coefficients)?;
         let mut slope = [1.0; LONGEST + 1];
@@ -96,10 +96,10 @@ impl Profile for KannalaBrandt {
 pub struct ThinPrismFisheye(Distorted<KannalaBrandt>);
 
 impl ThinPrismFisheye {
-    /// The fisheye of a polynomial and the terms of the distortion of its plane.
+    /// Creates the fisheye from a polynomial and the distortion terms of its plane.
     ///
     /// # Errors
-    /// Where a number is not finite.
+    /// If a number is not finite.
     pub fn new(fisheye: KannalaBrandt, terms: DistortionTerms) -> Result<Self, ModelError> {
         terms.check()?;
         let reach = fisheye.radius(Profile::edge(&fisheye).angle_rad);

@@ -20,7 +20,7 @@
 //! | equirectangular | azimuth λ | elevation φ below the horizon | cos φ |
 //!
 //! λ runs from −π to π, rad, and is 0 ahead; φ from −π/2 to π/2 and is positive downwards, as y is. The cylinder leaves out
-//! the poles. A picture of the whole sphere has fx = width/2π and fy = height/π (COLMAP's EQUIRECTANGULAR).
+//! the poles. An image of the whole sphere has fx = width/2π and fy = height/π (COLMAP's EQUIRECTANGULAR).
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -162,7 +162,7 @@ mod tests {
                 let angle = 0.1 * f64::from(i);
                 let point = DVec2::new(0.6, -0.8) * ideal.radius(angle);
                 let found = ideal.solid_angle_per_area(point).expect("seen");
-                // A dozen roundings; near 90° the orthographic angle loses as its cosine (0.17 at 1.4 rad) grows small.
+                // A dozen roundings; near 90° the orthographic angle loses accuracy as its cosine (0.17 at 1.4 rad) becomes small.
                 assert!((found / expected(angle) - 1.0).abs() < 1e-13, "{ideal:?} at {angle}");
             }
             assert_eq!(ideal.solid_angle_per_area(DVec2::ZERO), Some(1.0));

@@ -1,9 +1,9 @@
 //! Camera models: unit direction ↔ point of the normalised image plane.
 //!
-//! Directions are of the camera frame (x right, y down, z forward); a point is what the camera matrix takes to pixels
-//! ([`Calibration`](crate::Calibration)). Angles are in radians from the optical axis θ.
+//! Directions are in the camera frame (x right, y down, z forward); the camera matrix maps points to pixels ([`Calibration`](crate::Calibration)).
+//! Angles θ are in radians from the optical axis.
 //!
-//! | model | r(θ) or map | field, where nothing folds before |
+//! | model | r(θ) or map | field, unless it folds before |
 //! | --- | --- | --- |
 //! | [`Perspective`] | tan θ, then OpenCV's distortion and tilt | below 90° |
 //! | [`RadialDistortion`] | tan θ, then r (1 + k₁ r² + k₂ r⁴) in either direction | below 90° |
@@ -20,14 +20,13 @@
 //! | [`Ideal`] | equidistant, equisolid, stereographic, orthographic, rectilinear | 180° or 90° |
 //! | [`Panorama`] | cylindrical, equirectangular | the sphere |
 //!
-//! Every model is exact in both directions: inverses are in closed form or solved to the last few units in the last
-//! place. Outside its field, at a fold and beyond, a model answers `None`.
+//! Every model is exact in both directions: inverses are in closed form or solved to the last few units in the last place. Outside its field, at a
+//! fold and beyond, a model returns `None`.
 //!
-//! The models that a fit can find, by name and with their coefficients as a list of numbers, stand below: [`CameraModel`], [`Family`].
+//! The models available for fitting, by name and with their coefficients as a list of numbers, are below: [`CameraModel`], [`Family`].
 //!
-//! Left out: models whose rays do not share a centre. An orthographic telecentric camera maps every point to the same
-//! direction and differs by the ray's origin alone; together with pushbroom and non-central catadioptric cameras it
-//! belongs to optics, where a ray has an origin.
+//! Left out: models whose rays do not share a centre. An orthographic telecentric camera maps every point to the same direction; only the ray's
+//! origin differs. Together with pushbroom and non-central catadioptric cameras it belongs to the optics crate, where a ray has an origin.
 
 mod f_theta;
 mod fisheye;
@@ -96,25 +95,25 @@ impl Model {
         self.projection().project(direction)
     }
 
-    /// The unit direction seen at an image point; `None` where nothing is.
+    /// The unit direction seen at an image point; `None` if there is none.
     #[must_use]
     pub fn unproject(&self, point: DVec2) -> Option<DVec3> {
         self.projection().unproject(point)
     }
 
-    /// dΩ/dA, the solid angle (sr) that unit area of the image plane sees at an image point; `None` where nothing is seen.
+    /// dΩ/dA, the solid angle (sr) seen per unit area of the image plane at an image point; `None` if there is no direction.
     #[must_use]
     pub fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
         self.projection().solid_angle_per_area(point)
     }
 
-    /// The direction and the solid angle of an image point, for little more than one of them; `None` where nothing is seen.
+    /// The direction and the solid angle of an image point, at little more than the cost of one of them; `None` if there is no direction.
     #[must_use]
     pub fn sight(&self, point: DVec2) -> Option<Sight> {
         self.projection().sight(point)
     }
 
-    /// Where the field ends.
+    /// The edge of the field.
     #[must_use]
     pub fn edge(&self) -> Edge {
         self.projection().edge()
@@ -140,7 +139,7 @@ impl Model {
     }
 }
 
-/// The closed list of models by name: each with what it is, and its family.
+/// The closed list of models by name, each with a description and its family.
 macro_rules! camera_models {
     ($($Model:ident $name:literal, $about:literal: $family:expr;)*) => {
         /// A model that can be fitted, by name.
@@ -150,16 +149,16 @@ macro_rules! camera_models {
         }
 
         impl CameraModel {
-            /// All of them, the simplest first.
+            /// All models, the simplest first.
             pub const ALL: &[Self] = &[$(Self::$Model),*];
 
-            /// Its name, as a user types it.
+            /// Name as typed by a user.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Self::$Model => $name,)* }
             }
 
-            /// What it is, in a few words.
+            /// Short description.
             #[must_use]
             pub fn about(self) -> &'static str {
                 match self { $(Self::$Model => $about,)* }
@@ -209,11 +208,11 @@ pub enum Radial {
 /// A family of models.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Family {
-    /// Perspective with OpenCV's radial terms, and p₁, p₂ where wanted.
+    /// Perspective with OpenCV's radial terms, and optionally p₁, p₂.
     Perspective {
         /// Radial terms.
         radial: Radial,
-        /// Whether p₁ and p₂ are fitted.
+        /// True if p₁ and p₂ are fitted.
         tangential: bool,
     },
     /// Perspective with r (1 + k₁ r² + k₂ r⁴) in either direction, r in focal lengths.
@@ -259,7 +258,7 @@ impl Family {
         }
     }
 
-    /// Coefficients to begin with.
+    /// Initial coefficients.
     #[must_use]
     pub fn first(self) -> Vec<f64> {
         match self {
@@ -271,10 +270,10 @@ impl Family {
         }
     }
 
-    /// The model of coefficients.
+    /// Creates the model from its coefficients.
     ///
     /// # Errors
-    /// Where they are not legal.
+    /// If they are not legal.
     pub fn model(self, c: &[f64]) -> Result<Model, ModelError> {
         let at = |i: usize| c.get(i).copied().unwrap_or(0.0);
         Ok(match self {

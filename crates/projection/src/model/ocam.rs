@@ -1,12 +1,12 @@
 //! Scaramuzza's omnidirectional model: a point at ρ sees (x, y, −f(ρ)), f(ρ) = a₀ + a₁ ρ + a₂ ρ² + …
 //!
 //! Scaramuzza, Martinelli & Siegwart 2006 (eq. 5; `cam2world` of the OCamCalib toolbox). The toolbox's first coordinate runs
-//! down the rows, its second to the right and its third out of the picture towards the camera's back, so that a₀ < 0 for
+//! down the rows, its second to the right and its third out of the image towards the camera's back, so that a₀ < 0 for
 //! a camera that looks ahead; here they are y, x and −z. ρ is in pixels after the affine map c, d, e is undone, and so are the
 //! points of this model: its camera matrix has fx = fy = 1.
 //!
-//! The inverse is solved, to the last units; the toolbox's inverse polynomial is a fit to it and is not used. The field
-//! ends at the first ρ at which θ = atan2(ρ, −f) stops growing.
+//! The inverse is solved numerically, to the last units; the toolbox's inverse polynomial is a fit to it and is not used. The field ends at the first
+//! ρ at which θ = atan2(ρ, −f) stops growing.
 
 use etendue_core::maths::f64::atan2;
 
@@ -21,10 +21,10 @@ use crate::root::{derivative, first_sign_change, increasing, polynomial};
 pub struct Ocam(Stretched<Polynomial>);
 
 impl Ocam {
-    /// The camera of a₀, a₁, … (px, …) and of the affine map.
+    /// Creates the camera from a₀, a₁, … (px, …) and the affine map.
     ///
     /// # Errors
-    /// Where a₀ is not negative, a number is not finite or the map mirrors.
+    /// If a₀ is not negative, a number is not finite or the map mirrors.
     pub fn new(coefficients: Vec<f64>, affine: Affine) -> Result<Self, ModelError> {
         finite_list("a", 0, &coefficients)?;
         let a0 = coefficients.first().copied().unwrap_or(0.0);
@@ -58,7 +58,7 @@ struct Polynomial {
     edge: Edge,
 }
 
-/// Larger than any picture, px.
+/// Larger than any image, px.
 const MAX_PX: f64 = 1e6;
 
 impl Polynomial {

@@ -6,7 +6,7 @@
 //! distCoeffs in the order k₁ k₂ p₁ p₂ k₃ k₄ k₅ k₆ s₁ s₂ s₃ s₄ τx τy. All zero is the pinhole. COLMAP's SIMPLE_PINHOLE,
 //! PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV and FULL_OPENCV are special cases, as is Kalibr's pinhole-radtan.
 //!
-//! dΩ/dA = cos³ θ/det J. Where nothing folds before, the field ends at 90°.
+//! dΩ/dA = cos³ θ/det J. The field ends at 90° unless it folds before.
 //!
 //! The division model: a point at r sees (x, y, 1 + k r²).
 //!
@@ -15,8 +15,7 @@
 //!
 //! The radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴) of [`RadialDistortion`], in either direction, after a perspective.
 //!
-//! Lengths are principal distances here, where [`RadialDistortion`] says mm: a unit of 1 makes r the tangent of the
-//! field angle.
+//! Lengths are principal distances here, where [`RadialDistortion`] states mm: a unit of 1 makes r the tangent of the field angle.
 //!
 //! The FOV model: r = atan(2 tan θ tan(ω/2))/ω, 0 < ω < π, below 90°.
 //!
@@ -41,10 +40,10 @@ pub struct Perspective {
 }
 
 impl Perspective {
-    /// The camera of distortion terms and of a sensor tilt τx, τy (rad; zeros for none).
+    /// Creates the camera from distortion terms and a sensor tilt τx, τy (rad; zeros for none).
     ///
     /// # Errors
-    /// Where a number is not finite or a tilt reaches a right angle.
+    /// If a number is not finite or a tilt reaches a right angle.
     pub fn new(terms: DistortionTerms, tilt_rad: [f64; 2]) -> Result<Self, ModelError> {
         terms.check()?;
         finite_list("tau", 1, &tilt_rad)?;
@@ -55,13 +54,13 @@ impl Perspective {
         Ok(Self { distortion: Distortion::new(terms, FARTHEST), tilt })
     }
 
-    /// No distortion: a pinhole.
+    /// A pinhole without distortion.
     #[must_use]
     pub fn pinhole() -> Self {
         Self { distortion: Distortion::new(DistortionTerms::default(), FARTHEST), tilt: None }
     }
 
-    /// The camera of OpenCV's distCoeffs: 0, 4, 5, 8, 12 or 14 numbers in its order.
+    /// Creates the camera from OpenCV's distCoeffs: 0, 4, 5, 8, 12 or 14 numbers in its order.
     ///
     /// # Errors
     /// As [`Perspective::new`], and for any other count.
@@ -80,13 +79,13 @@ impl Perspective {
         Self::new(terms, [tau_x, tau_y])
     }
 
-    /// Its distortion.
+    /// Distortion.
     #[must_use]
     pub fn distortion(&self) -> &Distortion {
         &self.distortion
     }
 
-    /// The tilt of its sensor, where there is one.
+    /// Tilt of the sensor, if any.
     #[must_use]
     pub fn tilt(&self) -> Option<&Tilt> {
         self.tilt.as_deref()
@@ -101,7 +100,7 @@ impl Perspective {
         self.distortion.ideal(upright)
     }
 
-    /// dΩ/dA of an image point whose gnomonic point is known.
+    /// dΩ/dA of an image point with a known gnomonic point.
     fn per_area(&self, point: DVec2, ideal: DVec2) -> Option<f64> {
         let square = 1.0 + ideal.length_squared();
         let tilt = match &self.tilt {
@@ -152,10 +151,10 @@ pub struct Division {
 }
 
 impl Division {
-    /// The camera of k.
+    /// Creates the camera of k.
     ///
     /// # Errors
-    /// Where k is not finite.
+    /// If k is not finite.
     pub fn new(k: f64) -> Result<Self, ModelError> {
         finite([("k", k)])?;
         Ok(Self { k })
@@ -221,7 +220,7 @@ impl Projection for RadialDistortion {
     }
 }
 
-/// dΩ/dA of an image point whose gnomonic point is known.
+/// dΩ/dA of an image point with a known gnomonic point.
 fn per_area(distortion: &RadialDistortion, point: DVec2, ideal: DVec2) -> Option<f64> {
     let square = 1.0 + ideal.length_squared();
     Some(distortion.ideal_area_per_observed(point.length())? / (square * square.sqrt()))
@@ -236,10 +235,10 @@ pub struct FieldOfView {
 }
 
 impl FieldOfView {
-    /// The camera of ω, rad.
+    /// Creates the camera of ω, rad.
     ///
     /// # Errors
-    /// Where ω is not between 0 and π.
+    /// If ω is not between 0 and π.
     pub fn new(omega_rad: f64) -> Result<Self, ModelError> {
         let inside = omega_rad > 0.0 && omega_rad < core::f64::consts::PI;
         legal("omega", omega_rad, inside, "an angle between 0 and 3.14159 rad")?;

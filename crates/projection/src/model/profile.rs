@@ -1,5 +1,4 @@
-//! Models that are symmetrical about the axis: one increasing function r(θ) from the field angle to the radius in the image
-//! plane, up to the edge of the field.
+//! Models symmetric about the axis: an increasing function r(θ) from the field angle to the radius in the image plane, up to the edge of the field.
 //!
 //! dΩ/dA = sin θ dθ/(r dr), which is 1/(dr/dθ)² on the axis.
 
@@ -10,20 +9,19 @@ use glam::{DVec2, DVec3};
 
 use crate::plane::{Affine, Distortion};
 
-/// Where a model's field ends.
+/// The edge of a model's field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
-    /// The field angle that is no longer seen (from the axis), rad.
+    /// The exclusive limit of the field angle (from the axis), rad.
     pub angle_rad: f64,
-    /// Whether the picture folds over there: the fitted function turns back, and says nothing of what is beyond.
-    /// Otherwise the formula or the calibration ends.
+    /// True if the image folds there: the fitted function turns back and is undefined beyond. Otherwise the formula or the calibration ends.
     pub folds: bool,
 }
 
 impl Edge {
-    /// The whole sphere but the point behind the camera.
+    /// The whole sphere except the point behind the camera.
     pub(crate) const SPHERE: Self = Self::end(PI);
-    /// What is in front of the camera.
+    /// The hemisphere in front of the camera.
     pub(crate) const FRONT: Self = Self::end(FRAC_PI_2);
 
     pub(crate) const fn end(angle_rad: f64) -> Self {
@@ -40,20 +38,20 @@ impl Edge {
     }
 }
 
-/// What every model answers ([`Model`](super::Model) states it).
+/// The interface of every model ([`Model`](super::Model) documents it).
 pub(crate) trait Projection {
     fn edge(&self) -> Edge;
     fn project(&self, direction: DVec3) -> Option<DVec2>;
     fn unproject(&self, point: DVec2) -> Option<DVec3>;
     fn solid_angle_per_area(&self, point: DVec2) -> Option<f64>;
 
-    /// Both answers of an image point. Where the inverse is solved for, members solve once.
+    /// Both results for an image point. Models with a numerical inverse solve it once.
     fn sight(&self, point: DVec2) -> Option<Sight> {
         Some(Sight { direction: self.unproject(point)?, sr_per_area: self.solid_angle_per_area(point)? })
     }
 }
 
-/// What an image point sees.
+/// Direction and solid angle of an image point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sight {
     /// Unit direction.
@@ -63,7 +61,7 @@ pub struct Sight {
 }
 
 impl Sight {
-    /// The same seen through a map of the plane that makes areas `ratio` times as large.
+    /// The same through a map of the plane that multiplies areas by `ratio`.
     pub(crate) fn enlarged(self, ratio: f64) -> Self {
         Self { sr_per_area: self.sr_per_area / ratio, ..self }
     }
@@ -79,7 +77,7 @@ pub(crate) trait Profile {
     /// dr/dθ at an angle before the edge.
     fn slope(&self, angle_rad: f64) -> f64;
 
-    /// θ of r > 0; `None`, or a number at the edge or beyond, where none has it.
+    /// θ of r > 0; `None`, or a value at the edge or beyond, if there is none.
     fn angle(&self, radius: f64) -> Option<f64>;
 
     /// The angle of a radius, before the edge.
@@ -132,7 +130,7 @@ fn per_area(radius: f64, sin: f64, slope: f64) -> f64 {
     if radius > 0.0 { sin / (radius * slope) } else { 1.0 / (slope * slope) }
 }
 
-/// The angle from the axis of a direction of any length, rad; `None` of what is no direction.
+/// The angle from the axis of a direction of any length, rad; `None` for an invalid direction.
 pub(crate) fn field_angle(direction: DVec3) -> Option<f64> {
     let across = direction.truncate().length();
     let is_one = direction.is_finite() && (across > 0.0 || direction.z != 0.0);

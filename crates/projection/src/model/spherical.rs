@@ -1,6 +1,6 @@
 //! Models by projections of a unit sphere: unified, extended unified, double sphere.
 //!
-//! The unified omnidirectional model: a unit sphere seen from ξ behind its centre, then a distortion.
+//! The unified omnidirectional model: a unit sphere seen from a point ξ behind its centre, then a distortion.
 //!
 //! r = sin θ/(cos θ + ξ), then k₁, k₂, p₁, p₂ (Geyer & Daniilidis 2000; Mei & Rives 2007, `cv::omnidir`, Kalibr's omni-none
 //! and omni-radtan). ξ = 0 is the pinhole, 1 the stereographic projection.
@@ -20,9 +20,9 @@
 //! r = sin θ/(α d + (1 − α)(ξ + cos θ)), d = √(sin² θ + (ξ + cos θ)²), −1 < ξ < 1, 0 ≤ α ≤ 1
 //! (Usenko, Demmel & Cremers 2018, eqs. 40–45; Kalibr's ds-none).
 //!
-//! The field ends without a fold where r is greatest (α > ½) or infinite: at ξ + cos θ = −w d with w = α/(1 − α) or its
-//! inverse, whichever is smaller, that is at cos θ = −ξ (1 − w²) − w √(1 − ξ² (1 − w²)). The paper's bound −w₂ (eq. 43)
-//! comes before it for ξ > 0 and, where two directions share a point already, after it for ξ < 0.
+//! The field ends without a fold where r is largest (α > ½) or infinite: at ξ + cos θ = −w d with w = α/(1 − α) or its inverse, whichever is smaller,
+//! that is at cos θ = −ξ (1 − w²) − w √(1 − ξ² (1 − w²)). The paper's bound −w₂ (eq. 43) comes before it for ξ > 0, and after it for ξ < 0, where two
+//! directions already share a point.
 
 use etendue_core::maths::f64::{acos, atan2, sin_cos};
 
@@ -36,10 +36,10 @@ use crate::rectilinear::legal;
 pub struct Unified(Distorted<Sphere>);
 
 impl Unified {
-    /// The camera of ξ ≥ 0 and distortion terms; Mei's are `numerator` k₁, k₂ and `tangential` p₁, p₂.
+    /// Creates the camera from ξ ≥ 0 and distortion terms; Mei's are `numerator` k₁, k₂ and `tangential` p₁, p₂.
     ///
     /// # Errors
-    /// Where ξ is negative or a number is not finite.
+    /// If ξ is negative or a number is not finite.
     pub fn new(xi: f64, terms: DistortionTerms) -> Result<Self, ModelError> {
         legal("xi", xi, xi >= 0.0, "0 or a positive number")?;
         terms.check()?;
@@ -53,7 +53,7 @@ impl Unified {
         self.0.profile.xi
     }
 
-    /// Its distortion.
+    /// Distortion.
     #[must_use]
     pub fn distortion(&self) -> &Distortion {
         &self.0.distortion
@@ -70,7 +70,7 @@ struct Sphere {
 }
 
 impl Sphere {
-    /// The radius that is not reached.
+    /// The upper bound of the radius.
     fn reach(self) -> f64 {
         if self.xi > 1.0 { 1.0 / (self.xi * self.xi - 1.0).sqrt() } else { 1e8 }
     }
@@ -107,10 +107,10 @@ pub struct ExtendedUnified {
 }
 
 impl ExtendedUnified {
-    /// The camera of α and β.
+    /// Creates the camera from α and β.
     ///
     /// # Errors
-    /// Where α is not in [0, 1] or β not positive.
+    /// If α is not in [0, 1] or β not positive.
     pub fn new(alpha: f64, beta: f64) -> Result<Self, ModelError> {
         legal("alpha", alpha, (0.0..=1.0).contains(&alpha), "a number from 0 to 1")?;
         legal("beta", beta, beta > 0.0, "a positive number")?;
@@ -169,10 +169,10 @@ pub struct DoubleSphere {
 }
 
 impl DoubleSphere {
-    /// The camera of ξ and α.
+    /// Creates the camera from ξ and α.
     ///
     /// # Errors
-    /// Where ξ is not between −1 and 1 or α not in [0, 1].
+    /// If ξ is not between −1 and 1 or α not in [0, 1].
     pub fn new(xi: f64, alpha: f64) -> Result<Self, ModelError> {
         legal("xi", xi, xi.abs() < 1.0, "a number between -1 and 1")?;
         legal("alpha", alpha, (0.0..=1.0).contains(&alpha), "a number from 0 to 1")?;

@@ -1,8 +1,8 @@
 //! A projection by a table: radii over field angles, and a smooth curve through them.
 //!
-//! What is interpolated is q = r/θ, which hardly varies: a cubic spline in θ, even about the axis (q′(0) = 0), whose curvature is constant
-//! in the last interval. On the axis q is what a parabola in θ² through the first two points has. r(θ) = θ q(θ) goes through every point; its slope,
-//! which tells how much light a place gets, is that of the curve.
+//! The interpolated quantity is q = r/θ, which varies little: a cubic spline in θ, even about the axis (q′(0) = 0), with constant curvature in the
+//! last interval. On the axis q is that of a parabola in θ² through the first two points. r(θ) = θ q(θ) goes through every point; its slope, which
+//! determines the light per position, is that of the curve.
 
 use core::f64::consts::PI;
 
@@ -14,7 +14,7 @@ use crate::root::{first_sign_change, increasing};
 /// A projection by a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tabulated {
-    /// Field angles from 0, rad, and of each the spline there.
+    /// Field angles from 0, rad, with the spline at each.
     knots: Vec<Knot>,
 }
 
@@ -31,10 +31,11 @@ struct Knot {
 }
 
 impl Tabulated {
-    /// A curve through (field angle, rad; radius in units of the image plane), two points or more beyond the axis, which is not among them.
+    /// Creates the curve through (field angle, rad; radius in units of the image plane), two or more points beyond the axis; the axis itself is not
+    /// included.
     ///
     /// # Errors
-    /// Where there are fewer, angles do not rise within (0, π], radii do not rise from above 0, or the curve through them falls between two of them.
+    /// If there are fewer, angles do not rise within (0, π], radii do not rise from above 0, or the curve falls between two points.
     pub fn new(points: &[(f64, f64)]) -> Result<Self, ModelError> {
         legal("the number of points", points.len() as f64, points.len() >= 2, "two or more beyond the axis")?;
         let mut last = (0.0, 0.0);
@@ -92,7 +93,7 @@ impl Tabulated {
     }
 }
 
-/// Of the cubic between two knots, by the distance from the first.
+/// Coefficients of the cubic between two knots, by the distance from the first.
 fn coefficients(pair: &[Knot]) -> [f64; 4] {
     let (a, b) = (pair[0], pair[1]);
     let h = b.angle - a.angle;
@@ -105,7 +106,7 @@ fn solve_second_derivatives(knots: &mut [Knot]) {
     let last = knots.len() - 1;
     let step = |i: usize, knots: &[Knot]| knots[i + 1].angle - knots[i].angle;
     let slope = |i: usize, knots: &[Knot]| (knots[i + 1].ratio - knots[i].ratio) / step(i, knots);
-    // Of each row what the next knot's second derivative is multiplied by, and what is on the right.
+    // For each row the factor of the next knot's second derivative, and the right-hand side.
     let (mut upper, mut right) = (vec![0.0; last + 1], vec![0.0; last + 1]);
     // q′(0) = 0.
     upper[0] = 0.5;
@@ -168,7 +169,7 @@ mod tests {
                 let [radius, slope] = found.value(angle);
                 let h = 1e-5;
                 let expected = (r(angle + h) - r(angle - h)) / (2.0 * h);
-                // The last interval's curvature is taken to be constant: errors of h² there, of h⁴ elsewhere.
+                // The last interval's curvature is assumed constant: errors of h² there, of h⁴ elsewhere.
                 let near_end = angle > greatest * 0.9;
                 let bound = if near_end { 3e-5 } else { 2e-6 };
                 assert!((radius / r(angle) - 1.0).abs() < bound, "{angle}: {radius} {}", r(angle));

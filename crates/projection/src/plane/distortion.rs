@@ -6,8 +6,8 @@
 //! g(s) = (1 + n₁ s + n₂ s² + n₃ s³ + n₄ s⁴)/(1 + d₁ s + d₂ s² + d₃ s³)
 //! ```
 //!
-//! (Brown 1971, Weng, Cohen & Herniou 1992; the order and signs of OpenCV's `projectPoints`.) It exists on the largest
-//! disc about the axis in which its Jacobian determinant stays positive; at the disc's rim and beyond everything is `None`.
+//! (Brown 1971, Weng, Cohen & Herniou 1992; the order and signs of OpenCV's `projectPoints`.) It is defined on the largest disc about the axis in
+//! which its Jacobian determinant stays positive; at the disc's edge and beyond the result is `None`.
 
 use core::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ use super::radial::Rational;
 use crate::rectilinear::{ModelError, finite_list};
 use crate::root::crossing;
 
-/// The coefficients of a distortion; all zero is none.
+/// The coefficients of a distortion; all zero for none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DistortionTerms {
     /// n₁ … n₄: the radial numerator (k₁, k₂, k₃ of OpenCV; k₁ … k₄ of thin-prism fisheyes).
@@ -32,7 +32,7 @@ pub struct DistortionTerms {
 }
 
 impl DistortionTerms {
-    /// Refuses what is not finite.
+    /// Refuses non-finite values.
     pub(crate) fn check(&self) -> Result<(), ModelError> {
         finite_list("radial numerator ", 1, &self.numerator)?;
         finite_list("radial denominator ", 1, &self.denominator)?;
@@ -58,7 +58,7 @@ pub struct Distortion {
 }
 
 impl Distortion {
-    /// The distortion of a plane on which ideal points lie no further out than `reach`.
+    /// The distortion of a plane whose ideal points lie within `reach`.
     pub(crate) fn new(terms: DistortionTerms, reach: f64) -> Self {
         let limit = terms.radial().fold(reach).unwrap_or(reach);
         let mut distortion = Self { terms, limit, folds: limit < reach };
@@ -70,13 +70,13 @@ impl Distortion {
         distortion
     }
 
-    /// Its coefficients.
+    /// Coefficients.
     #[must_use]
     pub fn terms(&self) -> DistortionTerms {
         self.terms
     }
 
-    /// The ideal radius at which it folds over; `None` where it does not.
+    /// The ideal radius of the fold; `None` if there is none.
     #[must_use]
     pub fn fold(&self) -> Option<f64> {
         self.folds.then_some(self.limit)
@@ -88,7 +88,7 @@ impl Distortion {
         (ideal.length() < self.limit).then(|| self.image(ideal)).filter(|p| p.is_finite())
     }
 
-    /// The ideal point of a distorted one; `None` where none before the fold has this image.
+    /// The ideal point of a distorted one; `None` if no point before the fold maps to it.
     #[must_use]
     pub fn ideal(&self, distorted: DVec2) -> Option<DVec2> {
         if !distorted.is_finite() {
@@ -98,7 +98,7 @@ impl Distortion {
         if self.terms.is_radial() {
             return guess;
         }
-        // Beyond the image of the disc's rim by the radial terms alone, the search starts at the rim.
+        // Beyond the image of the disc's edge by the radial terms alone, the search starts at the edge.
         let guess = guess.unwrap_or_else(|| distorted * (self.limit / distorted.length()));
         let ideal = self.newton(distorted, guess).or_else(|| self.followed(distorted))?;
         (ideal.length() < self.limit).then_some(ideal)
@@ -134,14 +134,14 @@ impl Distortion {
         ])
     }
 
-    /// The ideal point of a distorted one by the radial terms alone; `None` where it is not in the disc.
+    /// The ideal point of a distorted one by the radial terms alone; `None` if it is not in the disc.
     fn radial_ideal(&self, distorted: DVec2) -> Option<DVec2> {
         let r = distorted.length();
         let ideal = self.terms.radial().inverse(r, self.limit)?;
         Some(if r > 0.0 { distorted * (ideal / r) } else { distorted })
     }
 
-    /// Damped Newton from `p`: steps are halved until the residual falls. `None` where it does not get there.
+    /// Damped Newton from `p`: steps are halved until the residual falls. `None` if it does not converge.
     fn newton(&self, distorted: DVec2, mut p: DVec2) -> Option<DVec2> {
         let scale = 1.0 + distorted.length();
         let mut error = self.image(p) - distorted;
@@ -155,7 +155,7 @@ impl Distortion {
                 break;
             }
         }
-        // What rounding leaves of a residual: a few dozen operations on numbers of this size.
+        // Rounding of a residual: a few dozen operations on numbers of this size.
         (error.length() <= 1e-14 * scale).then_some(p)
     }
 
@@ -167,7 +167,7 @@ impl Distortion {
         })
     }
 
-    /// Newton along the straight way from the axis to the point, where it fails from the radial guess.
+    /// Newton along the straight line from the axis to the point, used if it fails from the radial guess.
     fn followed(&self, distorted: DVec2) -> Option<DVec2> {
         const STAGES: i32 = 64;
         (1..=STAGES).try_fold(DVec2::ZERO, |p, i| self.newton(distorted * (f64::from(i) / f64::from(STAGES)), p))
@@ -183,14 +183,14 @@ impl Distortion {
         nearest.is_finite().then(|| self.least_fold([azimuth - width, azimuth + width], &radii).min(nearest))
     }
 
-    /// The radii between which a change of sign is looked for: equal steps of the angle, up to the limit.
+    /// The radii between which a change of sign is searched: equal steps of the angle, up to the limit.
     fn scanned_radii(&self) -> Vec<f64> {
         const STEPS: i32 = 256;
         let end = atan(self.limit);
         (0..=STEPS).map(|i| tan(end * f64::from(i) / f64::from(STEPS)).min(self.limit)).collect()
     }
 
-    /// The fold's least radius over a range of azimuths that holds one least, by golden section.
+    /// The fold's smallest radius over a range of azimuths with a single minimum, by golden section.
     fn least_fold(&self, [mut low, mut high]: [f64; 2], radii: &[f64]) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         let mut least = f64::INFINITY;
@@ -208,7 +208,7 @@ impl Distortion {
         least
     }
 
-    /// The first radius towards an azimuth at which the determinant vanishes within the limit; infinite where none.
+    /// The first radius towards an azimuth at which the determinant vanishes within the limit; infinite if there is none.
     fn fold_towards(&self, azimuth: f64, radii: &[f64]) -> f64 {
         let (sin, cos) = sin_cos(azimuth);
         let determinant = |r: f64| self.area_ratio(DVec2::new(cos, sin) * r);

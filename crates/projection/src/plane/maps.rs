@@ -1,28 +1,28 @@
-//! Maps of the image plane: an affine one, and the tilt of the sensor.
+//! Maps of the image plane: an affine map, and the tilt of the sensor.
 //!
-//! The affine map of catadioptric and f-theta calibrations: a plane point to a scaled and sheared one.
+//! The affine map of catadioptric and f-theta calibrations scales and shears a plane point.
 //!
-//! x′ = x + e y, y′ = d x + c y with x to the right and y down: Scaramuzza's stretch matrix [c d; e 1], whose first
-//! coordinate runs down the rows (Scaramuzza, Martinelli & Siegwart 2006, eq. 6).
+//! x′ = x + e y, y′ = d x + c y with x to the right and y down: Scaramuzza's stretch matrix [c d; e 1], whose first coordinate runs down the rows
+//! (Scaramuzza, Martinelli & Siegwart 2006, eq. 6).
 //!
 //! The tilt of the sensor plane about the image's x and y axes (Scheimpflug).
 //!
-//! A point goes through the homography P R_y(τy) R_x(τx), with P the projection back on the plane along its normal:
-//! OpenCV's `computeTiltProjectionMatrix` (Louhichi, Fournel, Lavest & Ben Aissia 2007).
+//! A point is mapped by the homography P R_y(τy) R_x(τx), with P the projection back on the plane along its normal: OpenCV's
+//! `computeTiltProjectionMatrix` (Louhichi, Fournel, Lavest & Ben Aissia 2007).
 
 use etendue_core::maths::f64::sin_cos;
 use glam::{DMat2, DMat3, DVec2};
 
 use crate::rectilinear::ModelError;
 
-/// The stretch c, d, e; 1, 0, 0 is none.
+/// The stretch c, d, e; 1, 0, 0 for none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine {
     /// Scale of the rows.
     pub c: f64,
-    /// What a step to the right adds downwards.
+    /// Downward shift per step to the right.
     pub d: f64,
-    /// What a step downwards adds to the right.
+    /// Rightward shift per step downwards.
     pub e: f64,
 }
 
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_tilt_about_x_alone_is_the_known_perspectivity() {
-        // Points go to x′ = x cos τ/(cos τ − y sin τ), y′ = y/(cos τ − y sin τ): the plane turned about x.
+        // Points map to x′ = x cos τ/(cos τ − y sin τ), y′ = y/(cos τ − y sin τ): the plane rotated about x.
         let (tau, p) = (0.2, DVec2::new(0.3, -0.4));
         let (sin, cos) = sin_cos(tau);
         let q = Tilt::new([tau, 0.0]).tilted(p).expect("in front");

@@ -1,4 +1,4 @@
-//! What a model does to points of its image plane: distortion, the tilt of the sensor, an affine map.
+//! Operations of models on their image plane: distortion, the tilt of the sensor, an affine map.
 
 mod distortion;
 mod maps;

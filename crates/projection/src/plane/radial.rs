@@ -1,11 +1,11 @@
-//! The rational radial factor g(s) = N(s)/D(s) of s = r², r′ = r g(r²), its inverse, and where it folds.
+//! The rational radial factor g(s) = N(s)/D(s) of s = r², r′ = r g(r²), its inverse, and its fold.
 //!
 //! N = 1 + n₁ s + … + n₄ s⁴ and D = 1 + d₁ s + … + d₃ s³ cover OpenCV's k₁ … k₆ and the four coefficients of thin-prism
 //! fisheyes. dr′/dr = (N D + 2 s (N′ D − N D′))/D²; the first radius at which it or D vanishes is the fold.
 
 use crate::root::{derivative, first_sign_change, increasing, product};
 
-/// Beyond it a radius is not told from infinity (6e-7° from 90° for a tangent).
+/// Radius beyond which values count as infinite (6e-7° from 90° for a tangent).
 const FARTHEST: f64 = 1e8;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ impl Rational {
         [g, (dn - g * dd) / d]
     }
 
-    /// The first radius with a vanishing derivative or a pole; `None` where there is none below `reach`.
+    /// The first radius with a vanishing derivative or a pole; `None` if there is none below `reach`.
     pub(super) fn fold(&self, reach: f64) -> Option<f64> {
         let reach = reach.min(FARTHEST);
         let pole = first_sign_change(&self.denominator, reach * reach);
@@ -48,7 +48,7 @@ impl Rational {
         sum
     }
 
-    /// r of r′; `None` where r would not be below `limit`.
+    /// r of r′; `None` if r would not be below `limit`.
     pub(super) fn inverse(&self, distorted: f64, limit: f64) -> Option<f64> {
         increasing(distorted, [0.0, limit], distorted, |r| {
             let [g, dg] = self.factor(r * r);

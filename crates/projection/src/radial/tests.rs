@@ -8,7 +8,7 @@ fn distortion(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> RadialDistortion 
 
 #[test]
 fn barrel_pulls_points_inwards_in_either_direction() {
-    // OpenCV's barrel has k1 < 0; the same picture written as a fetching filter has k1 > 0.
+    // OpenCV's barrel has k1 < 0; the same image written as an inverse (fetching) filter has k1 > 0.
     let forward = distortion(Sense::IdealToObserved, -0.1, 0.0, 10.0);
     let fetch = distortion(Sense::ObservedToIdeal, 0.1, 0.0, 10.0);
     for d in [forward, fetch] {
@@ -92,11 +92,11 @@ fn the_fit_of_the_other_direction_comes_near_and_says_how_near() {
     for i in 0..=50 {
         let r = 0.1 * f64::from(i);
         let gap = fit.distortion.ideal_radius_mm(r).expect("inside") - d.ideal_radius_mm(r).expect("inside");
-        // The fit's own grid is finer than this one by five; its worst is within a few per cent of the true worst.
+        // The fit's own grid is five times finer than this one; its worst error is within a few per cent of the true worst.
         assert!(gap.abs() <= 1.05 * fit.worst_mm, "{gap} at {r}");
     }
     let same = d.fitted(Sense::IdealToObserved, 5.0).expect("no fold");
-    // A fit to a member of the family returns it, to the conditioning of the normal equations (about 1e3 · ε).
+    // A fit to a member of the family returns it, within the conditioning of the normal equations (about 1e3 · ε).
     assert!(same.worst_mm < 1e-11, "{}", same.worst_mm);
 }
 

@@ -34,8 +34,8 @@ fn camera(model: Model, matrix: CameraMatrix) -> Calibration {
     Calibration::new(model, matrix, [640, 480]).expect("legal")
 }
 
-/// The camera sees the table's points where the other program does, whose pixel centres are at whole numbers, and
-/// looks from there to where they are.
+/// Checks that the camera projects the table's points as the other program does (its pixel centres are at integers), and unprojects them to the
+/// original directions.
 fn compare(camera: &Calibration, table: &Value) {
     let (points, pixels) = (list(&table["points_m"]), list(&table["pixels"]));
     assert_eq!((points.len(), pixels.len()), (40, 40));
@@ -44,7 +44,7 @@ fn compare(camera: &Calibration, table: &Value) {
         let ours = camera.project(point).unwrap_or_else(|| panic!("{point} is not seen by {camera:?}"));
         assert!((ours - pixel).length() < TOLERANCE_PX, "{ours} for {pixel}: {camera:?}");
         let back = camera.unproject(pixel).unwrap_or_else(|| panic!("{pixel} sees nothing: {camera:?}"));
-        // A direction to 1e-9 px at the focal lengths of the figures, 250 px and more.
+        // A direction to 1e-9 px at the focal lengths of the reference data, 250 px and more.
         assert!((back - point.normalize()).length() < 4e-12, "{back} for {point}: {camera:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! What holds for every camera model: round trips over the whole picture, the solid angle, folds.
+//! Properties of every camera model: round trips over the whole image, the solid angle, folds.
 
 use core::f64::consts::{PI, TAU};
 
@@ -26,7 +26,7 @@ fn fisheye(k: [f64; 4]) -> Model {
     Model::KannalaBrandt(KannalaBrandt::new(k).expect("legal"))
 }
 
-/// Realistic cameras, with the share of the picture at least that they fill.
+/// Realistic cameras, with the minimum fraction of the image that they fill.
 fn cameras() -> Vec<(&'static str, Calibration, f64)> {
     let rational = [0.4, -0.25, 0.0009, 0.0002, 0.03, 0.72, -0.19, 0.01];
     let all = [-0.2, 0.05, 0.0011, -0.0008, 0.01, 0.02, -0.005, 0.001, 0.002, -0.001, 0.0015, 0.0004, 0.06, -0.11];
@@ -106,16 +106,16 @@ fn ideal() -> Vec<(&'static str, Calibration, f64)> {
         ("equidistant", camera(Model::Ideal(Ideal::Equidistant), 380.0), 1.0),
         ("equisolid", camera(Model::Ideal(Ideal::Equisolid), 600.0), 1.0),
         ("stereographic", camera(Model::Ideal(Ideal::Stereographic), 200.0), 1.0),
-        // A circle of 600 px radius in the picture.
+        // A circle of 600 px radius in the image.
         ("orthographic", camera(Model::Ideal(Ideal::Orthographic), 600.0), 0.4),
         ("rectilinear", camera(Model::Ideal(Ideal::Rectilinear), 600.0), 1.0),
-        // All but points of the border that rounding puts outside.
+        // All except points of the border that rounding puts outside.
         ("equirectangular", whole, 0.95),
         ("cylindrical", camera(Model::Panorama(Panorama::Cylindrical), 310.0), 0.97),
     ]
 }
 
-/// Points of the whole picture, its border included.
+/// Points of the whole image, its border included.
 fn picture() -> impl Iterator<Item = DVec2> {
     let [width, height] = SIZE.map(|n| n as f64);
     (0..=96)
@@ -147,7 +147,7 @@ fn the_solid_angle_is_the_jacobian() {
     for (name, camera, filled) in cameras() {
         let mut compared = 0;
         for pixel in picture().step_by(37) {
-            // At the rim of an orthographic picture the directions' derivatives have no bound.
+            // At the edge of an orthographic image the directions' derivatives are unbounded.
             let far =
                 [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|axis| camera.unproject(pixel + 100.0 * axis));
             if far.contains(&None) {
@@ -190,7 +190,7 @@ fn a_fold_inside_the_picture_is_refused_with_its_radius() {
     assert!(refused.to_string().contains("702.728 px"), "{refused}");
     // The corner lies at 1134.3 px.
     assert!(at(1134.3 / fold).check().is_ok() && at(1134.2 / fold).check().is_err());
-    // Beyond the fold's image there is nothing.
+    // No direction beyond the fold's image.
     assert!(at(1000.0).unproject(DVec2::new(960.0 + 1000.0 * fold + 1e-6, 604.0)).is_none());
     assert!(at(1000.0).unproject(DVec2::new(960.0 + 1000.0 * fold - 1e-6, 604.0)).is_some());
     assert!(at(1000.0).project(DVec3::new(1.06, 0.0, 1.0)).is_none());
@@ -222,15 +222,15 @@ fn polynomials_in_pixels_fold_where_they_turn_back() {
         Err(CalibrationError::Fold { radius_px, angle_rad, .. }) => [radius_px, angle_rad],
         other => panic!("{other:?}"),
     };
-    // f = −500 − ρ²/1000: tan θ = ρ/(500 + ρ²/1000) is greatest at ρ² = 500 000.
+    // f = −500 − ρ²/1000: tan θ = ρ/(500 + ρ²/1000) is largest at ρ² = 500 000.
     let ocam = camera(Model::Ocam(Ocam::new(vec![-500.0, 0.0, -1e-3], Affine::default()).expect("legal")));
     let [radius_px, angle_rad] = fold(&ocam);
-    // The angle stands still at the fold: the radius is good to the root of the angle's 1e-14.
+    // The angle is stationary at the fold: the radius is accurate to the root of the angle's 1e-14.
     assert!((radius_px / 500_000.0_f64.sqrt() - 1.0).abs() < 1e-6, "{radius_px}");
     assert!((tan(angle_rad) - 500_000.0_f64.sqrt() / 1000.0).abs() < 1e-12);
     let f_theta =
         |sense, c, greatest| camera(Model::FTheta(FTheta::new(sense, c, greatest, Affine::default()).expect("legal")));
-    // r = 600 (θ − θ³/10) turns at θ² = 10/3; a greatest angle before it is the end.
+    // r = 600 (θ − θ³/10) turns at θ² = 10/3; a maximum angle before it is the end.
     let by_angle = |greatest| f_theta(FThetaSense::AngleToRadius, vec![0.0, 600.0, 0.0, -60.0], greatest);
     let turn = (10.0_f64 / 3.0).sqrt();
     let [radius_px, angle_rad] = fold(&by_angle(2.5));

@@ -16,7 +16,7 @@ fn rows(value: &Value) -> impl Iterator<Item = &Vec<Value>> {
     value.as_array().expect("rows").iter().map(|row| row.as_array().expect("a row"))
 }
 
-/// The raster whose camera matrix is the figures'.
+/// The raster whose camera matrix is that of the reference data.
 fn raster(figures: &Value) -> Raster {
     let m = |row: usize, column: usize| number(&figures["matrix"][row][column]);
     let opencv = CameraMatrix { fx: m(0, 0), fy: m(1, 1), skew: 0.0, cx: m(0, 2), cy: m(1, 2) };
@@ -44,7 +44,7 @@ fn ideal_to_observed_in_focal_lengths_is_opencv_s_k1_k2() {
             let point = DVec3::new(number(&point[0]), number(&point[1]), number(&point[2]));
             let ideal_mm = view.project(point).expect("in front");
             let observed_mm = d.observed(ideal_mm).expect("before the fold");
-            // OpenCV's centres are at whole numbers.
+            // OpenCV's centres are at integers.
             let pixel = DVec2::new(number(&pixel[0]), number(&pixel[1])) + 0.5;
             // Both work in f64 on coordinates below 1 000 px: a dozen roundings of 1e-13.
             assert!((raster.raster_px(observed_mm) - pixel).length() < 2e-12, "k1 {k1}, k2 {k2}");

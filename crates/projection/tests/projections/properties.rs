@@ -1,4 +1,4 @@
-//! Whatever the parameters: what a camera answers is right, and `None` elsewhere.
+//! For random parameters: a camera's results are correct, and `None` elsewhere.
 
 use core::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use etendue_projection::plane::{Affine, DistortionTerms};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-/// Coefficients far wilder than a lens has.
+/// Coefficients far beyond those of real lenses.
 fn terms() -> impl Strategy<Value = DistortionTerms> {
     let radial = (prop::array::uniform4(-0.5..0.5f64), prop::array::uniform3(-0.3..0.3f64));
     let rest = (prop::array::uniform2(-0.05..0.05f64), prop::array::uniform4(-0.05..0.05f64));
@@ -100,7 +100,7 @@ proptest! {
             let sight = model.sight(point).expect("seen");
             prop_assert_eq!((sight.direction, Some(sight.sr_per_area)), (direction, model.solid_angle_per_area(point)));
             let back = model.project(direction);
-            // Rounding may put a direction outside that is at the edge.
+            // Rounding may put a direction at the edge outside.
             prop_assert!(back.is_some() || !inside(&model, direction), "{} is not seen again", direction);
             if let Some(back) = back {
                 // 1e-9 px at a focal length of 1 000 px.
@@ -115,8 +115,8 @@ proptest! {
         let back = model.unproject(point);
         prop_assert!(back.is_some() || !inside(&model, direction), "{} sees nothing", point);
         if let Some(back) = back {
-            // At folds and horizons a direction is only as good as the root of the rounding: there the plane hardly
-            // grows with the angle. Elsewhere it is good to the rounding times that ratio.
+            // At folds and horizons a direction is only accurate to the root of the rounding: the plane hardly grows with the angle there. Elsewhere
+            // it is accurate to the rounding times that ratio.
             let ratio = model.solid_angle_per_area(point).expect("seen");
             prop_assert!(ratio > 1e4 || (back - direction).length() < 1e-10, "{} for {}", back, direction);
         }
@@ -129,14 +129,14 @@ proptest! {
     }
 }
 
-/// Whether a direction is clear of the edge, and of the horizon of a tilted sensor, where all far points crowd.
+/// True if a direction is clear of the edge, and of the horizon of a tilted sensor, where all far points crowd.
 fn inside(model: &Model, direction: DVec3) -> bool {
     let tilted = matches!(model, Model::Perspective(m) if m.tilt().is_some());
     let limit = if tilted { model.edge().angle_rad.min(1.2) } else { model.edge().angle_rad };
     acos(direction.z.clamp(-1.0, 1.0)) < limit - 1e-7
 }
 
-/// Plane per angle at a point: rounding of directions counts by it.
+/// Plane per angle at a point: the scale for rounding of directions.
 fn slope(model: &Model, point: DVec2) -> f64 {
     model.solid_angle_per_area(point).map_or(1.0, |ratio| 1e-3 / ratio)
 }

@@ -1,8 +1,8 @@
 //! The macro that writes a domain: the effects on one quantity, listed once.
 
-/// A struct with the parameters of all effects on a quantity, in physical order, `field: Effect,` or, where the description may say
-/// nothing of it, `field: Option<Effect>,`. Of the list are made the checks and what a plan says, by way of `show`, and what a
-/// capture runs, so that an effect on the quantity cannot be in one and not in the other.
+/// Declares a struct with the parameters of all effects on a quantity, in physical order, `field: Effect,` or, if the description may omit it,
+/// `field: Option<Effect>,`. The list generates the checks and the plan's entries (by `show`) and the stages of a capture, so an effect on the
+/// quantity is always in all of them.
 macro_rules! domain {
     (
         $(#[doc = $about:literal])*
@@ -17,12 +17,12 @@ macro_rules! domain {
         }
 
         impl $name {
-            /// Shows the effects.
+            /// Visits the effects.
             pub(crate) fn show(&self, visitor: &mut impl $crate::effect::Visitor) {
                 $( visitor.visit(&self.$field); )*
             }
 
-            /// The effects that a capture has, made ready.
+            /// The prepared effects of a capture.
             pub(crate) fn stages(
                 &self,
                 context: &$crate::effect::Context,

@@ -1,8 +1,8 @@
-//! What an effect is: its own parameters, whether it is modelled, and what it does to one quantity.
+//! An effect: its own parameters, whether it is modelled, and its action on one quantity.
 //!
-//! An effect acts on mean electrons, on charge or on voltage ([`EffectOn`]), pixel by pixel along a row or on the whole plane
-//! ([`Action`]). The three quantities are types, so that an effect cannot stand where the picture is something else: only counting makes
-//! charge of mean electrons, and only the response makes voltage of charge ([`RowConversion`]).
+//! An effect acts on mean electrons, on charge or on voltage ([`EffectOn`]), pixel by pixel along a row or on the whole plane ([`Action`]). The three
+//! quantities are types, so an effect can only be applied to its own quantity: only counting converts mean electrons to charge, and only the response
+//! converts charge to voltage ([`RowConversion`]).
 
 mod domain;
 
@@ -18,12 +18,12 @@ use crate::signal_breakdown::{ChargeAccount, RowTally, SignalComponent};
 
 pub(crate) use domain::domain;
 
-/// Why randomness is absent.
+/// Reason why temporal noise is absent.
 pub(crate) const NOISE_OFF: &str = "noise is switched off for this sensor";
 
-/// An effect, as described: its own parameters.
+/// An effect as described, with its own parameters.
 pub(crate) trait Effect {
-    /// Its name in a plan.
+    /// Name in a plan.
     const NAME: &'static str;
 
     /// The key of a camera file that describes it.
@@ -32,10 +32,10 @@ pub(crate) trait Effect {
     /// Refuses parameters that are illegal, or contradict the sensor's.
     fn check(&self, facts: &SensorFacts, checks: &mut Checks);
 
-    /// Whether a capture has the effect, and why.
+    /// Status of the effect for a capture (present or not) with the reason.
     fn status(&self, facts: &SensorFacts, operation: &Operation) -> EffectStatus;
 
-    /// The changes of keys that leave it out; none where a sensor cannot be without it.
+    /// The key changes that disable it; none if a sensor always has it.
     fn left_out_by(&self) -> Vec<KeyChange> {
         vec![KeyChange::removed(Self::KEY)]
     }
@@ -46,7 +46,7 @@ pub(crate) trait Effect {
     }
 }
 
-/// Signals that errors are stated for.
+/// Signals at which errors are stated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SignalLevels {
     /// A grey card in a well-exposed image, 18 % of the largest signal, e⁻.
@@ -55,16 +55,16 @@ pub(crate) struct SignalLevels {
     pub(crate) dark_variance_e2: f64,
 }
 
-/// An effect of a sensor, as a plan states it.
+/// An effect of a sensor, as reported by a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorEffect {
-    /// Its name.
+    /// Name.
     pub name: &'static str,
     /// The key of a camera file that describes it.
     pub key: &'static str,
-    /// Whether the first capture as described has it, and why.
+    /// Status for the first capture as described, with the reason.
     pub status: EffectStatus,
-    /// The changes of keys that leave it out; empty where a sensor cannot be without it.
+    /// The key changes that disable it; empty if a sensor always has it.
     pub left_out_by: Vec<KeyChange>,
     /// The errors of a frame without it that have a closed form.
     pub errors: Vec<KnownError>,
@@ -93,7 +93,7 @@ impl<E: Effect> Effect for Option<E> {
     }
 }
 
-/// Is shown the effects of a sensor one by one, in physical order: what it does, it does to all of them.
+/// Visits the effects of a sensor one by one, in physical order.
 pub(crate) trait Visitor {
     fn visit<E: Effect>(&mut self, effect: &E);
 }
@@ -103,18 +103,18 @@ pub(crate) trait EffectOn: Effect {
     /// The quantity.
     type On: Quantity<Sample = f32>;
 
-    /// The component of the signal breakdown that has what the effect adds or takes.
+    /// The component of the signal breakdown to which the effect's change belongs.
     const COMPONENT: SignalComponent;
 
-    /// The effect made ready for a capture that has it.
+    /// The effect prepared for a capture.
     fn prepare(&self, context: &Context, memory: &mut Memory) -> Action<Self::On>;
 }
 
-/// What an effect does, made ready for a capture.
+/// The action of an effect, prepared for a capture.
 pub(crate) enum Action<Q: Quantity> {
-    /// To each pixel on its own, row by row in f64.
+    /// On each pixel separately, row by row in f64.
     Rows(Box<dyn RowEffect<Q>>),
-    /// To the whole plane, where neighbours or a memory of pixels matter.
+    /// On the whole plane, for effects between neighbours or with a memory per pixel.
     Plane(Box<dyn PlaneEffect<Q>>),
 }
 
@@ -139,28 +139,28 @@ pub(crate) trait PlaneEffect<Q: Quantity> {
     fn apply(&self, plane: Plane<Q>, traces: &mut Traces<'_>) -> Plane<Q>;
 }
 
-/// What effects on planes leave beside the picture.
+/// Additional outputs of effects on planes.
 pub(crate) struct Traces<'a> {
-    /// What the sensor remembers after the frame.
+    /// State of the sensor after the frame.
     pub(crate) after: &'a mut SensorState,
-    /// Where charge went at the full well.
+    /// Balance of charge at the full well.
     pub(crate) account: &'a mut Option<ChargeAccount>,
 }
 
-/// Makes one quantity of another, row by row.
+/// Converts one quantity to another, row by row.
 pub(crate) trait RowConversion: Send + Sync {
-    /// What there was.
+    /// Quantity before.
     type From: Quantity<Sample = f32>;
-    /// What there is then.
+    /// Quantity after.
     type To: Quantity<Sample = f32>;
 
-    /// The component of the signal breakdown that has the difference, in electrons.
+    /// The component of the signal breakdown that receives the difference, in electrons.
     const COMPONENT: SignalComponent;
 
     fn convert<'a>(&self, row: Row<'a, Self::From>) -> Row<'a, Self::To>;
 }
 
-/// An effect that a capture has, made ready.
+/// A prepared effect of a capture.
 pub(crate) struct Stage<Q: Quantity> {
     pub(crate) component: SignalComponent,
     pub(crate) action: Action<Q>,
@@ -170,7 +170,7 @@ pub(crate) struct Stage<Q: Quantity> {
 pub(crate) trait Listed: Effect {
     type On: Quantity<Sample = f32>;
 
-    /// The effect made ready; `None` where the capture does not have it.
+    /// The prepared effect; `None` if the capture does not have it.
     fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<Self::On>>;
 }
 
@@ -193,66 +193,66 @@ impl<E: EffectOn> Listed for Option<E> {
 
 /// A row of pixels of one quantity, e⁻, in f64.
 pub(crate) struct Row<'a, Q> {
-    /// One number a pixel.
+    /// One value per pixel.
     pub(crate) values: &'a mut [f64],
-    /// The row's number in its plane.
+    /// The row's index in its plane.
     pub(crate) y: u32,
-    /// Charge of the row at the full well; `None` before it, and where it is met on planes.
+    /// Charge of the row at the full well; `None` before it, and if it is applied on planes.
     pub(crate) tally: &'a mut Option<RowTally>,
     quantity: PhantomData<Q>,
 }
 
 impl<'a, Q> Row<'a, Q> {
-    /// The numbers of row `y`, which are of the quantity.
+    /// Wraps the values of row `y` as this quantity.
     pub(crate) fn new(values: &'a mut [f64], y: u32, tally: &'a mut Option<RowTally>) -> Self {
         Self { values, y, tally, quantity: PhantomData }
     }
 }
 
 impl<'a> Row<'a, MeanElectrons> {
-    /// The same numbers as charge: they have been counted.
+    /// The same values as charge, after counting.
     pub(crate) fn counted(self) -> Row<'a, Charge> {
         Row::new(self.values, self.y, self.tally)
     }
 }
 
 impl<'a> Row<'a, Charge> {
-    /// The same numbers as voltage: they have been put through the response.
+    /// The same values as voltage, after the response.
     pub(crate) fn sensed(self) -> Row<'a, Voltage> {
         Row::new(self.values, self.y, self.tally)
     }
 }
 
-/// What all captures of a sensor have in common.
+/// The facts shared by all captures of a sensor.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SensorFacts {
-    /// Whether randomness from frame to frame is modelled.
+    /// True if temporal noise is modelled.
     pub(crate) noise: bool,
-    /// The specimen's seed; `None`: that of the camera's place in the job.
+    /// Seed of the unit; `None`: that of the camera's place in the job.
     pub(crate) specimen: Option<u64>,
-    /// Distance between the centres of neighbours, µm.
+    /// Pixel pitch, µm.
     pub(crate) pitch_um: f64,
-    /// Columns and rows before the first pixel that light reaches.
+    /// Columns and rows before the first lit pixel.
     pub(crate) first_lit: [usize; 2],
-    /// Time of collection, as described, s.
+    /// Exposure time as described, s.
     pub(crate) exposure_s: f64,
-    /// Time from frame to frame, s; `None` where it is not described.
+    /// Time from frame to frame, s; `None` if not described.
     pub(crate) frame_period_s: Option<f64>,
-    /// Exposures of a frame, one after the other: captures that do not read the charge of the one before.
+    /// Number of consecutive exposures of a frame: captures that do not read the charge of the one before.
     pub(crate) exposures: usize,
-    /// Whether captures have photodiodes of their own.
+    /// True if captures have their own photodiodes.
     pub(crate) is_split_pixel: bool,
     /// The largest full well of all captures, e⁻.
     pub(crate) max_full_well_e: f64,
-    /// Digital numbers an electron at an analogue gain of 1.
+    /// Digital numbers per electron at an analogue gain of 1.
     pub(crate) gain_dn_e: f64,
-    /// Factor on the voltage before the converter, as described.
+    /// Factor on the voltage before the ADC, as described.
     pub(crate) analogue_gain: f64,
-    /// Digital numbers from black to the converter's largest.
+    /// Digital numbers from black to the ADC's maximum.
     pub(crate) converter_range_dn: f64,
 }
 
-/// One capture: the sensor's facts, how it is taken, its random address, the size of the array.
+/// One capture: the sensor's facts, its operation, its random address, the size of the array.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Context {
     pub(crate) facts: SensorFacts,
@@ -262,22 +262,22 @@ pub(crate) struct Context {
     pub(crate) height: usize,
 }
 
-/// Seed of the patterns of cameras that are told apart by their place in the job alone.
+/// Seed of the patterns of cameras that are distinguished only by their place in the job.
 const SPECIMENS: u64 = 0x7061_7474_6572_6e73;
 
 impl Context {
-    /// The key of a draw that differs from capture to capture.
+    /// The key of random numbers that differ from capture to capture.
     pub(crate) fn noise(&self, draw: NoiseDraw) -> NoiseKey {
         let FrameAddress { seed, camera, frame, capture } = self.address;
         NoiseKey::new(seed, camera, frame, capture, draw)
     }
 
-    /// The key of a draw that differs from frame to frame, and is the same in all captures of a frame.
+    /// The key of random numbers that differ from frame to frame and are the same in all captures of a frame.
     pub(crate) fn frame_noise(&self, draw: NoiseDraw) -> NoiseKey {
         NoiseKey::new(self.address.seed, self.address.camera, self.address.frame, 0, draw)
     }
 
-    /// The key of a draw of the specimen: the same in every frame and capture of every job.
+    /// The key of random numbers of the unit: the same in every frame and capture of every job.
     pub(crate) fn pattern(&self, draw: NoiseDraw) -> NoiseKey {
         match self.facts.specimen {
             Some(seed) => NoiseKey::new(seed, 0, 0, 0, draw),
@@ -286,7 +286,7 @@ impl Context {
     }
 }
 
-/// What a sensor remembers, as the last frame left it and as this frame leaves it.
+/// State of a sensor after the last frame and after this frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
     pub(crate) before: SensorState,

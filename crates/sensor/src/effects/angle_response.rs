@@ -1,24 +1,24 @@
 //! Response of the micro-lenses over the angle of the chief ray.
 //!
-//! μ ← μ g(θ), g a table over the angle θ between the chief ray of a pixel and the sensor's normal, 1 at 0, linear in θ² between its
-//! points and constant beyond the last: the response is the same on both sides of the normal and smooth across it, so it is a function
-//! of θ² (straight lines in θ would put a cusp on the axis). θ = atan(r / d), r the pixel's distance from the principal point, d that
-//! of the exit pupil (makers state g as "CRA response"; the geometry is that of Catrysse, Liu and El Gamal 2000).
-//! Left out: dependence on wavelength, on the channel, on the azimuth and on the spread of the light's cone.
+//! μ ← μ g(θ), g a table over the angle θ between the chief ray of a pixel and the sensor's normal, 1 at 0, linear in θ² between its points and
+//! constant beyond the last. The response is symmetric about the normal and smooth across it, so it is a function of θ² (straight lines in θ would
+//! put a cusp on the axis). θ = atan(r / d), r the pixel's distance from the principal point, d that of the exit pupil (manufacturers state g as "CRA
+//! response"; the geometry is that of Catrysse, Liu and El Gamal 2000). Left out: dependence on wavelength, channel, azimuth and the spread of the
+//! light cone.
 
 use etendue_core::{EffectStatus, maths::f64::atan, quantity::MeanElectrons};
 
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
-/// Response over angle, and where light comes from.
+/// Response over angle, and the geometry of the incident light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleResponse {
-    /// Angle (degrees) and response there, angles rising from 0.
+    /// Angle (degrees) and response, angles rising from 0.
     pub table: Vec<[f64; 2]>,
     /// Distance of the exit pupil from the sensor, mm.
     pub exit_pupil_mm: f64,
-    /// Where the optical axis meets the array, px.
+    /// Intersection of the optical axis with the array, px.
     pub principal_px: [f64; 2],
 }
 
@@ -75,7 +75,7 @@ impl EffectOn for AngleResponse {
 struct AngleFactors {
     response: AngleResponse,
     pitch_mm: f64,
-    /// Columns and rows that lie before the first active pixel.
+    /// Columns and rows before the first active pixel.
     origin_px: [f64; 2],
 }
 
@@ -104,7 +104,7 @@ mod tests {
         p.light.angle_response = Some(AngleResponse { table, exit_pupil_mm: 1.0, principal_px: [0.5, 0.5] });
         let raw = run(&p, &etendue_core::Plane::filled(31, 1, 1000.0), ADDRESS);
         let dn: Vec<u32> = raw.plane.samples().to_vec();
-        // On the axis; at tan θ = 1; at tan θ = 3, beyond the table. One DN an electron.
+        // On the axis; at tan θ = 1; at tan θ = 3, beyond the table. One DN per electron.
         assert_eq!((dn[0], dn[10], dn[30]), (1000, 500, 200));
         let angle = atan(0.5).to_degrees() / 45.0;
         assert!((f64::from(dn[5]) - 1000.0 * (1.0 - 0.5 * angle * angle)).abs() <= 0.5);

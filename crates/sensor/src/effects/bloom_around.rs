@@ -1,9 +1,9 @@
-//! Blooming of a CMOS sensor: charge overflows to all sides.
+//! Blooming of a CMOS sensor: charge overflows in all directions.
 //!
-//! In every round each pixel keeps at most its well; of what it cannot hold the drain takes 1 − b, and b goes to the eight
-//! neighbours, 1/5 to each beside and 1/20 to each across a corner (the weights of the most isotropic Laplacian of nine points,
-//! Patra and Karttunen 2006). Rounds go on until less than a thousandth of an electron a pixel is too much anywhere; a geometric
-//! series, as b < 1. That rest is clipped. What goes past the array's edge has left it.
+//! In every round each pixel keeps at most its well. Of the excess the drain takes 1 − b, and b goes to the eight neighbours, 1/5 to each adjacent
+//! and 1/20 to each diagonal one (the weights of the most isotropic nine-point Laplacian, Patra and Karttunen 2006). Rounds continue until the excess
+//! is below a thousandth of an electron in every pixel; a geometric series, as b < 1. That remainder is clipped. Charge that passes the array's edge
+//! is lost.
 
 use std::ops::Range;
 
@@ -14,9 +14,9 @@ use crate::signal_breakdown::ChargeAccount;
 
 const BESIDE: f32 = 0.2;
 const CORNER: f32 = 0.05;
-/// Excess that is clipped rather than moved, e⁻ a pixel.
+/// Excess that is clipped rather than moved, e⁻ per pixel.
 const NEGLIGIBLE_E: f32 = 1e-3;
-/// A pixel with more counts as one with this: what neighbours add up stays finite.
+/// Larger charges count as this value, so that sums of neighbours stay finite.
 const MAX_E: f32 = 1e38;
 
 pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
@@ -35,7 +35,7 @@ pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64
         account.drained_e += (1.0 - overflow_fraction) * tally.sum;
         account.spilt_e += overflow_fraction * lost_at_edges(&excess, width, height);
         let before = std::mem::replace(&mut rows, widened(&tally.rows, height));
-        // What is left of earlier rounds lies in rows that the round before went through.
+        // Remainders of earlier rounds lie in the rows of the previous round.
         next[width * before.start..width * before.end].fill(0.0);
         let row_of = |y: usize| excess.get(y * width..(y + 1) * width);
         let of_neighbours = |y: usize, charge: &mut [f32], rest: &mut [f32]| {
@@ -50,23 +50,23 @@ pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64
     account.clipped_e += tally.sum;
 }
 
-/// Adds what is given to a pixel, as far as it can hold it; answers with the rest. The rest is not told from a sum with the well:
-/// in the last digits of a full well, rounds would go on without end.
+/// Adds charge to a pixel up to its well; returns the excess. The excess is not computed as a difference of sums with the well: rounding in the last
+/// digits of a full well would keep the rounds from ending.
 fn hold(charge: &mut f32, given: f32, well: f32) -> f32 {
     let room = well - *charge;
     *charge = if given < room { (*charge + given).min(well) } else { well };
     (given - room).max(0.0)
 }
 
-/// What is too much after a round.
+/// The excess after a round.
 struct Tally {
     sum: f64,
     largest: f32,
-    /// The rows that have any.
+    /// The rows with an excess.
     rows: Range<usize>,
 }
 
-/// Gives to all pixels of rows: `give` has the number, the charge and the excess of each row.
+/// Distributes charge to all pixels of rows: `give` receives the index, the charge and the excess of each row.
 fn given(
     charge: &mut [f32],
     excess: &mut [f32],
@@ -94,7 +94,7 @@ fn widened(rows: &Range<usize>, height: usize) -> Range<usize> {
     rows.start.saturating_sub(1)..(rows.end + 1).min(height)
 }
 
-/// What each pixel of the row in the middle gets of the excess of its eight neighbours.
+/// Charge that each pixel of the middle row receives from the excess of its eight neighbours.
 fn gained(above: Option<&[f32]>, row: &[f32], below: Option<&[f32]>) -> Vec<f32> {
     let mut gained = vec![0.0; row.len()];
     let mut to_sides: Vec<f32> = row.iter().map(|e| BESIDE * e).collect();
@@ -109,7 +109,7 @@ fn gained(above: Option<&[f32]>, row: &[f32], below: Option<&[f32]>) -> Vec<f32>
     gained
 }
 
-/// What pixels at the edges would give to neighbours that are not there.
+/// Charge that pixels at the edges lose to absent neighbours.
 fn lost_at_edges(excess: &[f32], width: usize, height: usize) -> f64 {
     let weight = |x: usize, y: usize| {
         let columns = [x > 0, true, x + 1 < width];
@@ -174,8 +174,8 @@ mod tests {
 
     #[test]
     fn a_wide_light_ends_after_the_rounds_of_its_series() {
-        // 0.95ⁿ · 1e5 e⁻ is a thousandth of an electron after 360 rounds. A well of 1e5 e⁻ ends in a hundredth: rounded with it, the
-        // rest of an even picture would not fall any more.
+        // 0.95ⁿ · 1e5 e⁻ is a thousandth of an electron after 360 rounds. A well of 1e5 e⁻ has a last digit of about a hundredth: rounded together
+        // with it, the excess of a uniform image would stop decreasing.
         let plane = Plane::filled(300, 200, 2e5);
         let (out, account) = bloomed(&plane, 1e5, 0.95);
         assert!(out.samples().iter().all(|q| *q == 1e5));
@@ -203,7 +203,7 @@ mod tests {
             // Sums of f32 in different orders.
             assert!(turned.iter().all(|t| (t - q).abs() <= 1e-3 * q.max(1.0)), "{turned:?} {q}");
         }
-        // As far along the axis as along the diagonal: a disc, to within a pixel or two.
+        // The reach along the axis equals that along the diagonal: a disc, to within a pixel or two.
         let reach =
             |dx: usize, dy: usize| (0..20).find(|k| out.at(20 + k * dx, 20 + k * dy) < 500.0).expect("it ends") as f64;
         assert!((reach(1, 0) / (reach(1, 1) * 2.0_f64.sqrt()) - 1.0).abs() < 0.15);

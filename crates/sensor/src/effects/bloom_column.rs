@@ -1,12 +1,12 @@
 //! Blooming of a CCD: charge overflows along its column.
 //!
-//! A pixel above its well gives half of what may go on upwards and half downwards. Each half goes to the next pixel that is not
-//! full, fills it and goes on. At every full pixel, that of its origin included, the drain takes the fraction 1 − b of what
-//! passes (b = 1: a CCD without anti-blooming). What passes the first or last row has left the array.
+//! A pixel above its well passes half of the overflow upwards and half downwards. Each half moves to the next pixel that is not full, fills it and
+//! moves on. At every full pixel, including its origin, the drain takes the fraction 1 − b of the passing charge (b = 1: a CCD without
+//! anti-blooming). Charge that passes the first or last row leaves the array.
 //!
-//! Two streams that meet compete for the same pixels. The charge that goes up is moved first in one solution and last in
-//! another, and the mean of both is taken: it conserves charge and holds the well as each of them does, and treats both
-//! directions alike. (Overflow along the column: the charge-coupled model of the e2v and Kodak application notes.)
+//! Two streams that meet compete for the same pixels. The upward charge is moved first in one solution and last in another, and the result is their
+//! mean: it conserves charge and respects the well as each of them does, and treats both directions equally. (Overflow along the column: the
+//! charge-coupled model of the e2v and Kodak application notes.)
 
 use etendue_core::{Plane, quantity::Charge};
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64
     }
 }
 
-/// A column at rest, and what left it.
+/// A column after overflow, and the charge that left it.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Column {
     charge: Vec<f64>,
@@ -39,7 +39,7 @@ struct Column {
     spilt: f64,
 }
 
-/// Both directions alike.
+/// Both directions treated equally.
 fn solve(charge: Vec<f64>, well: f64, overflow_fraction: f64) -> Column {
     let excess: Vec<f64> = charge.iter().map(|q| (q - well).max(0.0)).collect();
     let start = || {
@@ -62,7 +62,7 @@ fn solve(charge: Vec<f64>, well: f64, overflow_fraction: f64) -> Column {
 }
 
 impl Column {
-    /// Carries the halves of all pixels in one direction, in the order of `rows`.
+    /// Moves the halves of all pixels in one direction, in the order of `rows`.
     fn stream(&mut self, rows: impl Iterator<Item = usize>, halves: &[f64], well: f64, overflow_fraction: f64) {
         let mut carried = 0.0;
         for y in rows {
@@ -126,7 +126,7 @@ mod tests {
             for x in 0..5 {
                 assert!(sums(&out, x) <= sums(&plane, x) + 1e-2, "nothing comes from another column");
             }
-            // Upside down gives the same upside down.
+            // A flipped input gives a flipped result.
             let flip = |p: &Plane<Charge>| {
                 let samples = (0..165).map(|i| p.at(i % 5, 32 - i / 5)).collect();
                 Plane::from_samples(5, 33, samples).expect("filled")

@@ -1,14 +1,13 @@
-//! Brighter-fatter: a full pixel repels charge, so its borders move inwards and its neighbours gain.
+//! Brighter-fatter effect: a full pixel repels charge, so its borders move inwards and its neighbours gain.
 //!
-//! The border between a pixel p and its neighbour n moves by a (q_p − q_n) pixel widths into the fuller one. During the
-//! exposure the shift grows from nothing to this, half of it on average, and over it lies the mean of both charges, so
+//! The border between a pixel p and its neighbour n moves by a (q_p − q_n) pixel widths into the fuller one. During the exposure the shift grows from
+//! zero to this value, half of it on average; the charge in the shifted area is the mean of both charges, so
 //!
 //! p gives n: T = ½ a (q_p − q_n) · ½ (q_p + q_n) = ¼ a (q_p² − q_n²), over the four sides.
 //!
-//! What one gives the other gets: charge is conserved, and nothing crosses the array's edge. For an even picture of mean μ the
-//! covariance of neighbours is a μ² and the variance μ − 4 a μ² in first order: the photon-transfer curve bends (Antilogus et
-//! al. 2014; Astier et al. 2019, whose a₁₀ is a). Charges above the full well count as a full well.
-//! Left out: neighbours farther away, different borders along rows and columns, colour.
+//! Charge is conserved, and nothing crosses the array's edge. For a uniform image of mean μ the covariance of neighbours is a μ² and the variance μ −
+//! 4 a μ² in first order: the photon-transfer curve bends (Antilogus et al. 2014; Astier et al. 2019, whose a₁₀ is a). Charges above the full well
+//! count as a full well. Left out: neighbours farther away, different borders along rows and columns, colour.
 
 use etendue_core::{EffectStatus, Plane, quantity::Charge};
 use rayon::prelude::*;
@@ -16,10 +15,10 @@ use rayon::prelude::*;
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
-/// Borders that charge moves.
+/// Pixel borders shifted by charge.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BrighterFatter {
-    /// Shift of a pixel's border by its own charge, pixels an electron, 0 or more; 0: none.
+    /// Shift of a pixel's border by its own charge, pixels per electron, 0 or more; 0: none.
     pub shift_per_e: f64,
 }
 
@@ -119,7 +118,7 @@ mod tests {
         let (own, side) = (1.0 - 2.0 * a * mu, 0.5 * a * mu);
         let variance = mu * (own * own + 4.0 * side * side) + 1.0 / 12.0;
         let one = mu * 2.0 * own * side;
-        // 2²⁰ pixels know a variance to 0.14 % and a covariance to 0.1 % of the variance; four of each.
+        // 2²⁰ pixels give a variance to 0.14 % and a covariance to 0.1 % of the variance; tolerance: four of each.
         assert!((covariance(&raw, 0, 0) / variance - 1.0).abs() < 5.6e-3);
         for (dx, dy) in [(1, 0), (0, 1)] {
             assert!((covariance(&raw, dx, dy) - one).abs() < 4e-3 * mu, "{}", covariance(&raw, dx, dy));

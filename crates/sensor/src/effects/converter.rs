@@ -1,22 +1,21 @@
-//! The converter: electrons to digital numbers.
+//! The ADC: electrons to digital numbers.
 //!
-//! DN = clip(round(black level + K e), 0, 2ᵇⁱᵗˢ − 1), then, where there is a digital gain g ≠ 1,
-//! DN ← clip(round(black + g (DN − black))). K includes the analogue gain. Rounding is to the nearest, halves to even, without
-//! dither: dither and rounding together would double the quantisation noise of 1/12 DN² (EMVA 1288). The black level is added
-//! before rounding and clipping, so read noise below zero survives.
-//! Left out: missing codes, integral and differential non-linearity of the converter.
+//! DN = clip(round(black level + K e), 0, 2ᵇⁱᵗˢ − 1), then, with a digital gain g ≠ 1, DN ← clip(round(black + g (DN − black))). K includes the
+//! analogue gain. Rounding is to the nearest, halves to even, without dither: dither and rounding together would double the quantisation noise of
+//! 1/12 DN² (EMVA 1288). The black level is added before rounding and clipping, so read noise below zero survives. Left out: missing codes, integral
+//! and differential non-linearity.
 
 use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Voltage};
 
 use crate::effect::{Effect, Row, SensorFacts, SignalLevels};
 use crate::{capture::Operation, check::Checks};
 
-/// The converter at the gain of a capture.
+/// The ADC at the gain of a capture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Converter {
-    /// Digital numbers an electron, analogue gain included.
+    /// Digital numbers per electron, analogue gain included.
     pub(crate) gain_dn_e: f64,
-    /// Digital number of no charge, DN.
+    /// Digital number of zero charge, DN.
     pub(crate) black_level_dn: f64,
     /// Bits of its numbers, 1 to 24.
     pub(crate) bits: u32,
@@ -24,7 +23,7 @@ pub(crate) struct Converter {
     pub(crate) digital_gain: f64,
 }
 
-/// The largest digital number of a converter; infinite beyond the bits that there are.
+/// The largest digital number of an ADC; infinite beyond the supported number of bits.
 pub(crate) fn largest_dn(bits: u32) -> f64 {
     if bits <= 24 { f64::from((1_u32 << bits) - 1) } else { f64::INFINITY }
 }
@@ -33,7 +32,7 @@ impl Effect for Converter {
     const NAME: &'static str = "converter";
     const KEY: &'static str = "sensor.bits";
 
-    /// Of the gain each factor is checked, as it is described.
+    /// Each factor of the gain is checked as described.
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
         checks.positive("gain_dn_per_e", facts.gain_dn_e);
         checks.positive("analogue_gain", facts.analogue_gain);
@@ -54,12 +53,12 @@ impl Effect for Converter {
         EffectStatus::Modelled(format!("{gain_dn_e} DN/e⁻, black at {black_level_dn} DN, {bits} bits{digital}"))
     }
 
-    /// A sensor is not without it.
+    /// A sensor always has an ADC.
     fn left_out_by(&self) -> Vec<KeyChange> {
         Vec::new()
     }
 
-    /// Rounding to whole numbers: a standard deviation of 1/√12 of a step.
+    /// Rounding to integers: a standard deviation of 1/√12 of a step.
     fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
         vec![KnownError { quantity: "rounding σ", value: 1.0 / 12.0_f64.sqrt(), unit: "DN" }]
     }
@@ -84,7 +83,7 @@ impl Converter {
         dn.round_ties_even().clamp(0.0, largest_dn(self.bits))
     }
 
-    /// The electrons that a digital number stands for.
+    /// The electrons of a digital number.
     pub(crate) fn electrons(&self, dn: f64) -> f64 {
         (dn - self.black_level_dn) / (self.digital_gain * self.gain_dn_e)
     }

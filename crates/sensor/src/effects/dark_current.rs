@@ -1,15 +1,15 @@
-//! Dark current: electrons that heat sets free, with their own shot noise.
+//! Dark current: thermally generated electrons, with their own shot noise.
 //!
-//! k ~ Poisson(I t), I the dark current (e⁻/s) of the pixel at the sensor's temperature ([`temperature`](super::temperature)); the
-//! mean I t itself where noise is off. I is the same for all pixels unless the description says how they differ:
+//! k ~ Poisson(I t), I the dark current (e⁻/s) of the pixel at the sensor's temperature ([`temperature`](super::temperature)); the mean I t itself if
+//! noise is off. I is the same for all pixels unless the description states a variation:
 //!
-//! - spread: I f, f of mean 1 (but for the cut) with a white, a row and a column part of stated standard deviation (fractions of the mean). Normal:
-//!   f = max(1 + d, 0). Log-normal (the long tail of most sensors): the white part is exp(s z − s²/2), s² = ln(1 + σ²);
-//! - hot pixels: a fraction of pixels has an exponential current more, of a stated mean;
-//! - blinking pixels: a fraction of pixels has it only at the upper one of two levels ([`two_level`]).
+//! - spread: I f, f of mean 1 (except for clipping) with a white, a row and a column part of stated standard deviation (fractions of the mean).
+//!   Normal: f = max(1 + d, 0). Log-normal (the long tail of most sensors): the white part is exp(s z − s²/2), s² = ln(1 + σ²);
+//! - hot pixels: a fraction of pixels has an additional exponential current of a stated mean;
+//! - blinking pixels: a fraction of pixels has it only at the upper of two levels ([`two_level`]).
 //!
-//! Draws: `Dark` of the pixel; of the specimen: `PixelDark`, `RowDark`, `ColumnDark`, `Hot`, `Blinking`; `BlinkingFlip`.
-//! All currents are stated at the reference temperature. Left out: glow of amplifiers, activation energies pixel by pixel.
+//! Random numbers: `Dark` of the pixel; of the unit: `PixelDark`, `RowDark`, `ColumnDark`, `Hot`, `Blinking`; `BlinkingFlip`. All currents are stated
+//! at the reference temperature. Left out: amplifier glow, activation energies per pixel.
 
 use etendue_core::maths::f64::{exp, ln_1p};
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
@@ -25,14 +25,14 @@ use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent
 /// Shape of the distribution of dark currents over pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SpreadDistribution {
-    /// Normal, cut at 0.
+    /// Normal, clipped at 0.
     #[default]
     Normal,
     /// Log-normal, of the same mean and standard deviation.
     LogNormal,
 }
 
-/// How pixels' dark currents differ: standard deviations as fractions of the mean.
+/// Variation of dark current over pixels: standard deviations as fractions of the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DarkSpread {
     /// From pixel to pixel.
@@ -59,9 +59,9 @@ pub struct Hot {
 pub struct DarkCurrent {
     /// Mean dark current of a pixel at the reference temperature, e⁻·s⁻¹.
     pub current_e_s: f64,
-    /// Temperatures; `None` where the stated current is that of the sensor as it is.
+    /// Temperatures; `None` if the stated current is that of the sensor as operated.
     pub temperature: Option<Temperature>,
-    /// How pixels differ.
+    /// Variation over pixels.
     pub spread: DarkSpread,
     /// Hot pixels.
     pub hot: Option<Hot>,
@@ -70,7 +70,7 @@ pub struct DarkCurrent {
 }
 
 impl DarkCurrent {
-    /// The same for all pixels, at the sensor's own temperature.
+    /// The same current for all pixels, at the sensor's own temperature.
     #[must_use]
     pub fn even(current_e_s: f64) -> Self {
         Self { current_e_s, temperature: None, spread: DarkSpread::default(), hot: None, dark_current_rts: None }
@@ -82,8 +82,8 @@ impl DarkCurrent {
         self.temperature.map_or(1.0, |t| t.factor())
     }
 
-    /// The mean over all pixels, hot ones among them, e⁻/s at the sensor's temperature; without what blinks, and but for the cut of a
-    /// wide normal spread at no current.
+    /// Mean over all pixels, hot ones included, e⁻/s at the sensor's temperature; without blinking pixels, and ignoring the clipping of a wide normal
+    /// spread at zero current.
     #[must_use]
     pub fn mean_e_s(&self) -> f64 {
         let hot = self.hot.map_or(0.0, |hot| hot.fraction * hot.mean_e_s);
@@ -162,7 +162,7 @@ impl EffectOn for DarkCurrent {
 }
 
 impl DarkCurrent {
-    /// The blinking pixels at their upper level. Without noise from frame to frame none is.
+    /// The blinking pixels at their upper level; none without noise from frame to frame.
     fn at_upper_level(&self, context: &Context, memory: &mut Memory) -> Vec<Site> {
         let Some(two) = self.dark_current_rts.filter(|_| context.facts.noise) else { return Vec::new() };
         let draws = Draws { which: NoiseDraw::Blinking, flip: NoiseDraw::BlinkingFlip };
@@ -199,15 +199,15 @@ fn differences(dark: &DarkCurrent) -> String {
 #[derive(Clone, Debug, PartialEq)]
 struct DarkElectrons {
     key: NoiseKey,
-    /// Mean of a pixel that is as all others, e⁻.
+    /// Mean of an ordinary pixel, e⁻.
     mean_e: f64,
-    /// `None` where only the mean is added.
+    /// `None` if only the mean is added.
     counts: Option<Poisson>,
-    /// `None` where all pixels are alike.
+    /// `None` if all pixels are equal.
     pattern: Option<DarkPattern>,
 }
 
-/// How pixels differ, prepared.
+/// Variation over pixels, prepared.
 #[derive(Clone, Debug, PartialEq)]
 struct DarkPattern {
     deviations: Deviations,
@@ -215,7 +215,7 @@ struct DarkPattern {
     log_normal: Option<(f64, NoiseKey)>,
     /// Fraction, and mean in electrons.
     hot: Option<(f64, f64, NoiseKey)>,
-    /// Pixels that are at their upper level, amplitudes in electrons.
+    /// Pixels at their upper level, amplitudes in electrons.
     dark_current_rts: Vec<Site>,
 }
 
@@ -314,7 +314,7 @@ mod tests {
             let mut p = one_dn_an_electron();
             p.charge.dark.current_e_s = mean / p.exposure.exposure_s;
             let m = moments(&p, 512);
-            // 512² counts; their variance is known to √((2 + 1/μ)/n); four of each. Whole numbers of DN lose nothing.
+            // 512² counts; their variance is known to √((2 + 1/μ)/n); tolerance: four of each. Integer DN lose nothing.
             let n: f64 = 262_144.0;
             assert!((m.mean() - mean).abs() < 4.0 * (mean / n).sqrt(), "{mean}: {}", m.mean());
             let relative = 4.0 * ((2.0 + 1.0 / mean) / n).sqrt();
@@ -329,7 +329,7 @@ mod tests {
             p.charge.dark.current_e_s = 1e4 / p.exposure.exposure_s;
             p.charge.dark.spread = DarkSpread { white: 0.1, row: 0.0, column: 0.0, distribution };
             let m = moments(&p, 512);
-            // The variance of a log-normal number of 10 % is known a little worse than that of a normal one: √(2.6/n) = 0.31 %.
+            // The variance of a log-normal variable with 10 % is known slightly less well than that of a normal one: √(2.6/n) = 0.31 %.
             assert!((m.mean() / 1e4 - 1.0).abs() < 4.0 * 0.1 / 512.0, "{distribution:?}");
             assert!((m.variance().expect("many") / 1e6 - 1.0).abs() < 0.0125, "{distribution:?}");
         }

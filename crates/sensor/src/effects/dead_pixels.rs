@@ -1,7 +1,7 @@
-//! Dead pixels: they hold no charge, whatever falls on them.
+//! Dead pixels: they hold no charge, regardless of the light.
 //!
-//! e ← 0 for a fraction of pixels, after the full well: they still drain and pass what overflows. Which ones is the specimen's.
-//! Draw: `Dead`. Left out: pixels stuck at other values, dead rows and columns, clusters.
+//! e ← 0 for a fraction of pixels, after the full well: they still drain and pass overflow. The selection belongs to the unit. Random numbers:
+//! `Dead`. Left out: pixels stuck at other values, dead rows and columns, clusters.
 
 use etendue_core::random::{NoiseDraw, NoiseKey};
 use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Charge};

@@ -1,12 +1,12 @@
-//! Full well: the most electrons a pixel holds, and where the rest goes.
+//! Full well: the maximum charge of a pixel, and the overflow above it.
 //!
-//! Without blooming e ← min(e, capacity), and the rest is lost. With it, a fraction b of what a pixel cannot hold goes on to its
-//! neighbours and 1 − b is taken by the overflow drain, again and again until every pixel holds what it has:
+//! Without blooming e ← min(e, capacity), and the rest is lost. With it, a fraction b of the excess goes on to the neighbours and 1 − b is taken by
+//! the overflow drain, repeatedly until no pixel exceeds its well:
 //!
-//! - along the column, half up and half down (`bloom_column`): a CCD, whose channel stops block sideways;
-//! - to all sides (`bloom_around`): a CMOS sensor.
+//! - along the column, half up and half down (`bloom_column`): a CCD (channel stops block sideways flow);
+//! - in all directions (`bloom_around`): a CMOS sensor.
 //!
-//! generated = collected + drained + spilt off the edge + clipped ([`ChargeAccount`]).
+//! generated = collected + drained + spilt at the edge + clipped ([`ChargeAccount`]).
 //! Left out: the bend of the response before the well is full (see [`response`](super::response)).
 
 use etendue_core::{EffectStatus, KeyChange, Plane, quantity::Charge};
@@ -17,26 +17,26 @@ use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, Row,
 use crate::signal_breakdown::{ChargeAccount, RowTally, SignalComponent};
 use crate::{capture::Operation, check::Checks};
 
-/// The most electrons a pixel holds.
+/// The maximum charge of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FullWell {
     /// Electrons that a pixel can hold, above 0; captures may have their own.
     pub capacity_e: f64,
-    /// Where charge above it goes; `None`: it is lost.
+    /// Blooming of the excess charge; `None`: it is lost.
     pub blooming: Option<Blooming>,
 }
 
-/// Where charge above the full well goes.
+/// Direction of the overflow above the full well.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blooming {
     /// Along the column (CCD).
     Column {
-        /// Fraction that goes on, above 0 and up to 1; the rest is drained.
+        /// Fraction passed on, above 0 and up to 1; the rest is drained.
         overflow_fraction: f64,
     },
-    /// To all sides (CMOS).
+    /// In all directions (CMOS).
     Around {
-        /// Fraction that goes on, above 0 and up to 0.95; the rest is drained.
+        /// Fraction passed on, above 0 and up to 0.95; the rest is drained.
         overflow_fraction: f64,
     },
 }
@@ -47,7 +47,7 @@ impl Blooming {
             Self::Column { overflow_fraction } => {
                 checks.fraction_above_0("blooming.overflow_fraction", overflow_fraction);
             }
-            // Without any drain, charge of a wide light would spread without end.
+            // Without a drain, the charge of an extended light would spread without limit.
             Self::Around { overflow_fraction } => {
                 checks.legal(
                     "blooming.overflow_fraction",
@@ -90,7 +90,7 @@ impl Effect for FullWell {
         }
     }
 
-    /// A sensor is not without it.
+    /// A sensor always has a full well.
     fn left_out_by(&self) -> Vec<KeyChange> {
         Vec::new()
     }
@@ -116,7 +116,7 @@ struct Clip {
 }
 
 impl RowEffect<Charge> for Clip {
-    /// Clips, where a pixel of the row needs it, and notes the row's charge.
+    /// Clips the pixels of the row that need it, and records the row's charge.
     fn apply(&self, row: &mut Row<'_, Charge>) {
         let electrons = &mut *row.values;
         let generated_e = row_sum(electrons);
@@ -130,7 +130,7 @@ impl RowEffect<Charge> for Clip {
     }
 }
 
-/// Sum of a row in eight strands, which always go the same way.
+/// Sum of a row in eight partial sums of fixed order.
 fn row_sum(electrons: &[f64]) -> f64 {
     let (strands, rest) = electrons.as_chunks::<8>();
     let mut sums = [0.0; 8];
@@ -155,7 +155,7 @@ impl PlaneEffect<Charge> for Overflow {
 }
 
 impl Overflow {
-    /// Moves what pixels cannot hold.
+    /// Moves the charge above the well.
     fn spread(&self, plane: &mut Plane<Charge>) -> ChargeAccount {
         let generated_e = sum(plane);
         // The well in the precision of the plane.
@@ -188,7 +188,7 @@ mod tests {
     use crate::frame::tests::{ADDRESS, quiet, run};
     use etendue_core::Plane;
 
-    /// 10 × 3 pixels of 500 e⁻, one of them with 5000, in wells of 2000: by hand, to rounding.
+    /// 10 × 3 pixels of 500 e⁻, one of them with 5000, in wells of 2000: computed by hand, to rounding.
     #[test]
     fn what_a_full_well_loses_is_accounted() {
         let mut p = quiet();

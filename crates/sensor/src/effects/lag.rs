@@ -1,14 +1,14 @@
-//! Lag: charge that traps keep and give back in later frames (image retention, persistence).
+//! Lag: charge that traps hold and release in later frames (image retention, persistence).
 //!
 //! For each kind of trap k, with capture fraction f_k and time constant τ_k, and frames T apart, a pixel's charge q and its trapped
 //! charge Q_k become
 //!
 //! - released: r_k = Q_k (1 − exp(−T/τ_k)), added to the pixel;
-//! - caught: c_k = f_k min(q + Σ r, full well), taken from it; Q_k ← Q_k − r_k + c_k.
+//! - captured: c_k = f_k min(q + Σ r, full well), taken from it; Q_k ← Q_k − r_k + c_k.
 //!
-//! Several captures of a pixel's one photodiode follow each other at equal parts of the frame period, and share its traps.
-//! Charge is conserved: q + Σ Q_k before is q + Σ Q_k after. (The linear limit of the trap model in Pyxel's `persistence`
-//! and of Smith et al. 2008.) Left out: shot noise of catching and releasing, traps that fill up, dependence on temperature.
+//! Several captures of a pixel's single photodiode follow each other at equal parts of the frame period, and share its traps. Charge is conserved:
+//! q + Σ Q_k before is q + Σ Q_k after. (The linear limit of the trap model in Pyxel's `persistence` and of Smith et al. 2008.) Left out: shot noise
+//! of capture and release, traps that fill up, dependence on temperature.
 
 use etendue_core::{EffectStatus, Plane, maths::f64::exp, quantity::Charge};
 use rayon::prelude::*;
@@ -20,13 +20,13 @@ use crate::{check::Checks, signal_breakdown::SignalComponent};
 /// A kind of trap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trap {
-    /// Fraction of a frame's charge that it keeps, above 0; all kinds together at most 0.5.
+    /// Fraction of a frame's charge captured, above 0; all kinds together at most 0.5.
     pub fraction: f64,
-    /// Time after which 1/e of it is left, s.
+    /// Time after which 1/e of the charge is left, s.
     pub time_constant_s: f64,
 }
 
-/// Traps that keep charge from frame to frame.
+/// Traps that hold charge from frame to frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lag {
     /// The kinds of traps; empty: none.
@@ -34,7 +34,7 @@ pub struct Lag {
 }
 
 impl Lag {
-    /// Fraction that all traps keep together.
+    /// Total fraction captured by all traps.
     fn kept(&self) -> f64 {
         self.traps.iter().map(|trap| trap.fraction).sum()
     }
@@ -85,7 +85,7 @@ impl EffectOn for Lag {
 /// Traps, prepared.
 #[derive(Clone, Debug, PartialEq)]
 struct Traps {
-    /// Fraction caught, and fraction released.
+    /// Fraction captured, and fraction released.
     kinds: Vec<(f64, f64)>,
     full_well_e: f64,
 }
@@ -105,7 +105,7 @@ impl Traps {
         if trapped_e.len() != self.kinds.len() || trapped_e.iter().any(|kind| kind.len() != size) {
             *trapped_e = vec![vec![0.0; size]; self.kinds.len()];
         }
-        // Kinds one after the other: each releases first, then each catches of the charge so far.
+        // Kinds one after the other: all release first, then each captures from the remaining charge.
         for (kind, (_, released)) in trapped_e.iter_mut().zip(&self.kinds) {
             kind.par_iter_mut().zip(plane.samples_mut().par_iter_mut()).for_each(|(trapped, q)| {
                 let back = (f64::from(*trapped) * released) as f32;
@@ -138,7 +138,7 @@ mod tests {
         Sensor::new(p).expect("legal")
     }
 
-    /// Two captures a frame: in the dark, traps keep as much from frame to frame as with one.
+    /// Two captures per frame: in the dark, traps hold as much from frame to frame as with one.
     #[test]
     fn captures_share_the_time_of_a_frame() {
         use crate::hdr::{Capture, HighDynamicRange};
@@ -151,7 +151,7 @@ mod tests {
         let sensor = Sensor::new(p.clone()).expect("legal");
         let kept = SensorState { trapped_e: vec![vec![1000.0; 4]], ..SensorState::default() };
         let (after, _) = sensor.step(kept, &Plane::new(2, 2), FrameAddress { frame: 1, ..ADDRESS });
-        // One second of time constant, two of 20 ms; each catches 1 % of what has come back.
+        // A time constant of one second, two captures of 20 ms; each captures 1 % of the released charge.
         let half = exp(-0.02);
         let want = 1000.0 * (half + 0.01 * (1.0 - half)) * (half + 0.01 * (1.0 - half));
         assert!((f64::from(after.trapped_e[0][0]) - want).abs() < 1e-3, "{} {want}", after.trapped_e[0][0]);
@@ -174,7 +174,7 @@ mod tests {
             fast += 0.05 * (a + b) - a;
             slow += 0.01 * (a + b) - b;
             given += read;
-            // The converter rounds to one electron.
+            // The ADC rounds to one electron.
             assert!(
                 (f64::from(raw.plane.at(1, 1)) - read).abs() <= 0.51,
                 "frame {frame}: {} {read}",

@@ -1,13 +1,12 @@
-//! The effects of a sensor, by what they act on.
+//! The effects of a sensor, by the quantity on which they act.
 //!
-//! Each file is an effect: its physics, its own parameters, what is illegal (`check`), whether a capture has it and why (`status`, whose
-//! sentence is the plan's), and what it does, prepared for a capture. What a capture does not have is absent: a strength of zero is never
-//! run. Light, charge and voltage have a list each, below, in physical order: checks, plan and run are made of it.
+//! Each file is an effect: its physics, its own parameters, its checks (`check`), its status for a capture with the reason (`status`; its sentence
+//! appears in the plan), and its action, prepared for a capture. An absent effect costs nothing: a strength of zero is never run. Light, charge and
+//! voltage have a list each, below, in physical order; checks, plan and execution are generated from it.
 //!
-//! What stands between the lists or around them is named by hand, twice: exposure control, shot noise, layout, response, converter, merging
-//! and companding stand beside the lists in `SensorParameters::show`, of which all checks and the plan are made, and in `Sensor::frame`
-//! and what it calls, which runs them. What needs the whole sensor or the picture's size is checked elsewhere: captures and companding in
-//! `validity`, the layout where the size is known.
+//! Steps between or outside the lists are named explicitly, twice: exposure control, shot noise, layout, response, converter, merging and companding
+//! are in `SensorParameters::show`, which generates all checks and the plan, and in `Sensor::frame` and its callees, which run them. Checks that need
+//! the whole sensor or the image's size are elsewhere: captures and companding in `validity`, the layout where the size is known.
 //!
 //! | effect | on | acts on |
 //! | --- | --- | --- |
@@ -66,45 +65,45 @@ use smear::Smear;
 use two_level::RtsNoise;
 
 domain! {
-    /// What light meets before it is counted.
+    /// Effects on light before it is counted.
     pub struct LightEffects on MeanElectrons {
         /// Response of the micro-lenses over the angle of the light.
         angle_response: Option<AngleResponse>,
-        /// Light that neighbours exchange.
+        /// Light exchanged between neighbours.
         crosstalk: Option<Crosstalk>,
         /// Differences in response to light (PRNU).
         photo_response: PhotoResponse,
-        /// Light that charge meets on its way down the column.
+        /// Light collected while charge moves down its column.
         smear: Option<Smear>,
     }
 }
 
 domain! {
-    /// What happens to charge in its pixel.
+    /// Effects on charge in its pixel.
     pub struct ChargeEffects on Charge {
-        /// Electrons that heat sets free.
+        /// Thermally generated electrons.
         dark: DarkCurrent,
-        /// Traps that keep charge from frame to frame.
+        /// Traps that hold charge from frame to frame.
         lag: Lag,
-        /// Borders that charge moves.
+        /// Pixel borders shifted by charge.
         brighter_fatter: BrighterFatter,
-        /// The most electrons a pixel holds, and where the rest goes.
+        /// The maximum charge of a pixel, and its overflow.
         full_well: FullWell,
-        /// Pixels that hold nothing.
+        /// Pixels that hold no charge.
         dead_pixels: DeadPixels,
     }
 }
 
 domain! {
-    /// What happens to voltage between the sense node and the converter.
+    /// Effects on voltage between the sense node and the ADC.
     pub struct VoltageEffects on Voltage {
-        /// Voltage that neighbours exchange.
+        /// Voltage coupled between neighbours.
         capacitance: Option<InterPixelCapacitance>,
         /// Differences without light that do not grow with time (DSNU).
         offset: OffsetPattern,
-        /// Noise of the chain.
+        /// Noise of the read-out chain.
         noise: ReadNoise,
-        /// Pixels whose noise has two levels.
+        /// Pixels with random telegraph noise.
         rts_noise: Option<RtsNoise>,
     }
 }

@@ -1,21 +1,17 @@
-//! What pixels exchange with their eight neighbours: a symmetric kernel of three by three, for optical crosstalk and inter-pixel capacitance.
+//! Exchange between a pixel and its eight neighbours: a symmetric 3 × 3 kernel, for optical crosstalk and inter-pixel capacitance.
 //!
-//! What pixels exchange with their eight neighbours: a symmetric kernel of three by three.
+//! out(p) = in(p) + Σ w_n (in(n) − in(p)) over the neighbours n inside the array. Each pair exchanges equal amounts, so the sum is preserved to
+//! rounding, a uniform plane stays uniform, and nothing crosses the array's edge.
 //!
-//! out(p) = in(p) + Σ w_n (in(n) − in(p)) over the neighbours n inside the array: each pair exchanges what it gives, so the
-//! sum is kept to the last bit of rounding, an even plane stays even, and nothing crosses the array's edge.
+//! Optical crosstalk: light that enters one pixel and is detected in its neighbour.
 //!
-//! Optical crosstalk: light that enters one pixel and is caught in its neighbour.
+//! Fractions of the mean photo-electrons go to the eight neighbours ([`Neighbours`]); energy is preserved. At the array's edge a pixel keeps the
+//! fraction of missing neighbours, as if the light beyond were the same. Left out: dependence on wavelength and angle, neighbours farther away.
 //!
-//! Fractions of the mean photo-electrons go to the eight neighbours ([`Neighbours`]); energy is kept. At the array's edge
-//! a pixel keeps what it has no neighbour for, as if the light beyond were the same.
-//! Left out: dependence on wavelength and angle, neighbours farther away.
+//! Inter-pixel capacitance: the voltage of a pixel couples to its neighbours.
 //!
-//! Inter-pixel capacitance: the voltage of a pixel is seen by its neighbours too.
-//!
-//! Fractions of the voltage are exchanged with the eight neighbours ([`Neighbours`]) after the well and the response: counts
-//! and their noise are made before it, so it correlates noise without adding any (Moore, Ninkov and Forrest 2006). Sums are kept.
-//! Left out: dependence on the signal.
+//! Fractions of the voltage are exchanged with the eight neighbours ([`Neighbours`]) after the well and the response. Counts and their noise arise
+//! before it, so it correlates noise without adding any (Moore, Ninkov and Forrest 2006). Sums are preserved. Left out: dependence on the signal.
 
 use etendue_core::quantity::{MeanElectrons, Quantity, Voltage};
 use etendue_core::{EffectStatus, Plane};
@@ -46,14 +42,14 @@ impl Neighbours {
         });
     }
 
-    /// Everything that a pixel gives away.
+    /// Total fraction that a pixel gives away.
     #[must_use]
     pub fn given(&self) -> f64 {
         2.0 * self.horizontal + 2.0 * self.vertical + 4.0 * self.corner
     }
 
-    /// The share of a pixel's value afterwards that comes from the pixel `dx` − 1 columns and `dy` − 1 rows from it, where no edge is near;
-    /// `dx` and `dy` are 0 to 2, and (1, 1) is the pixel itself.
+    /// The fraction of a pixel's final value that comes from the pixel `dx` − 1 columns and `dy` − 1 rows from it, away from edges; `dx` and `dy` are
+    /// 0 to 2, and (1, 1) is the pixel itself.
     #[must_use]
     pub fn weight(&self, dx: usize, dy: usize) -> f64 {
         match (dx, dy) {
@@ -105,7 +101,7 @@ impl<Q: Quantity<Sample = f32>> PlaneEffect<Q> for Exchange {
     }
 }
 
-/// Fractions of a pixel's light that its neighbours catch.
+/// Fractions of a pixel's light detected by its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crosstalk(pub Neighbours);
 
@@ -131,7 +127,7 @@ impl EffectOn for Crosstalk {
     }
 }
 
-/// Fractions of a pixel's voltage that couple to its neighbours.
+/// Fractions of a pixel's voltage coupled to its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterPixelCapacitance(pub Neighbours);
 
@@ -202,7 +198,7 @@ mod tests {
         // White noise of variance μ through the kernel: Σ k² at no shift, 2 k₀ k₁ at a shift of one (and 1/12 of rounding).
         let (own, one) = (0.96, 0.01);
         let variance = 10_000.0 * (own * own + 4.0 * one * one) + 1.0 / 12.0;
-        // A variance of n numbers is known to √(2/n) = 0.28 %, a covariance to √(1/n) = 0.2 % of the variance; four of each.
+        // A variance of n numbers is known to √(2/n) = 0.28 %, a covariance to √(1/n) = 0.2 % of the variance; tolerance: four of each.
         assert!((covariance(&raw, 0, 0) / variance - 1.0).abs() < 0.011);
         assert!((covariance(&raw, 1, 0) - 10_000.0 * 2.0 * own * one).abs() < 78.0);
         assert!((covariance(&raw, 0, 1) - 10_000.0 * 2.0 * own * one).abs() < 78.0);

@@ -1,16 +1,15 @@
-//! Deviations that the read-out adds to voltages: the offset pattern (DSNU) and read noise.
+//! Deviations added to voltages by the read-out: the offset pattern (DSNU) and read noise.
 //!
-//! Dark-signal non-uniformity (DSNU) of the read-out: offsets that are there after no time at all.
+//! Dark-signal non-uniformity (DSNU) of the read-out: offsets that are present at zero exposure time.
 //!
-//! e ← e + d, d normal with a white, a row and a column part, in electrons (EMVA 1288 release 4). The pattern is the specimen's.
-//! Draws: `PixelOffset`, `RowOffset`, `ColumnOffset`. What grows with the exposure is the spread of the
-//! [dark current](super::dark_current).
+//! e ← e + d, d normal with a white, a row and a column part, in electrons (EMVA 1288 release 4). The pattern belongs to the unit. Random numbers:
+//! `PixelOffset`, `RowOffset`, `ColumnOffset`. The part that grows with the exposure is the spread of the [dark current](super::dark_current).
 //!
-//! Read noise: what the read-out chain adds, stated in electrons at the input of the converter.
+//! Read noise: noise added by the read-out chain, in electrons at the input of the ADC.
 //!
-//! e ← e + d, d normal with a white, a row and a column part, new in every capture; the result may be negative, which the black
-//! level takes up. Draws: `Read` of the pixel, `RowRead`, `ColumnRead`.
-//! Left out: spread of σ over pixels (see [`rts_noise`](super::two_level) for its tail), correlation along a row (1/f).
+//! e ← e + d, d normal with a white, a row and a column part, new in every capture; the result may be negative, which the black level absorbs. Random
+//! numbers: `Read` of the pixel, `RowRead`, `ColumnRead`. Left out: spread of σ over pixels (see [`rts_noise`](super::two_level) for its tail),
+//! correlation along a row (1/f).
 
 use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Voltage, random::NoiseDraw};
 
@@ -18,7 +17,7 @@ use crate::effect::{Action, Context, Effect, EffectOn, Memory, NOISE_OFF, Row, R
 use crate::random::pattern::{Deviations, Sigmas};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
-/// Voltages that differ by deviations, prepared.
+/// Deviations of voltages, prepared.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct VoltageDeviations(pub(super) Deviations);
 

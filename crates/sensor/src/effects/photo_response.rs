@@ -1,8 +1,8 @@
-//! Photo-response non-uniformity (PRNU): pixels differ in how much of the light they count.
+//! Photo-response non-uniformity (PRNU): pixels differ in their response to light.
 //!
-//! μ ← μ max(1 + d, 0), d normal with a white, a row and a column part, each as a fraction (EMVA 1288 states them in per cent).
-//! The pattern is the specimen's: the same in every frame. Draws: `PixelResponse`, `RowResponse`, `ColumnResponse`.
-//! Left out: differences that depend on wavelength; patterns of lower frequency (shading).
+//! μ ← μ max(1 + d, 0), d normal with a white, a row and a column part, each as a fraction (EMVA 1288 states them in per cent). The pattern belongs
+//! to the unit: the same in every frame. Random numbers: `PixelResponse`, `RowResponse`, `ColumnResponse`. Left out: differences that depend on
+//! wavelength; patterns of lower frequency (shading).
 
 use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::MeanElectrons, random::NoiseDraw};
 
@@ -103,7 +103,7 @@ mod tests {
             let raw = run(&patterned(), &Plane::filled(512, 512, mean), ADDRESS);
             let sigma = 0.01 * f64::from(mean);
             let want = sigma * sigma + 1.0 / 12.0;
-            // A variance of 512² numbers is known to 0.28 %; four of those.
+            // A variance of 512² numbers is known to 0.28 %; tolerance: four of those.
             assert!((covariance(&raw, 0, 0) / want - 1.0).abs() < 0.0112, "{mean}");
         }
     }

@@ -1,11 +1,11 @@
-//! Response of a pixel: its voltage over its charge, in electrons' worth of the voltage at little light.
+//! Response of a pixel: its voltage over its charge, in equivalent electrons at low light.
 //!
 //! - linear: v = e;
 //! - knees: v = e up to the first knee, then straight lines of falling slopes (lateral overflow, stepped reset);
-//! - logarithmic above a charge e₀: v = e up to e₀, v = e₀ (1 + ln(e/e₀)) above, with a slope that does not jump (pixels that turn
-//!   logarithmic when their transistor conducts, Kavadias et al. 2000).
+//! - logarithmic above a charge e₀: v = e up to e₀, v = e₀ (1 + ln(e/e₀)) above, with a continuous slope (pixels that become logarithmic when their
+//!   transistor conducts, Kavadias et al. 2000).
 //!
-//! Acts after the well and before read noise, as it happens in the pixel. Left out: differences of knees from pixel to pixel.
+//! Acts after the well and before read noise, as in the pixel. Left out: differences of knees from pixel to pixel.
 
 use etendue_core::EffectStatus;
 use etendue_core::maths::f64::{exp, ln};
@@ -17,7 +17,7 @@ use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent
 /// A change of slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knee {
-    /// Charge at which it stands, e⁻.
+    /// Charge of the knee, e⁻.
     pub at_e: f64,
     /// Slope above it, (0, 1).
     pub slope: f64,
@@ -33,13 +33,13 @@ pub enum Response {
     Knees(Vec<Knee>),
     /// Logarithmic above a charge, e⁻.
     Logarithmic {
-        /// Where it begins, e⁻.
+        /// Start of the logarithmic part, e⁻.
         from_e: f64,
     },
 }
 
 impl Response {
-    /// Electrons' worth of the voltage of a charge.
+    /// Voltage of a charge, in equivalent electrons.
     #[must_use]
     pub fn voltage_e(&self, charge_e: f64) -> f64 {
         match self {
@@ -88,7 +88,7 @@ impl Response {
         }
     }
 
-    /// The response as what makes voltage of charge; `None` where the numbers are the same.
+    /// The response as a conversion from charge to voltage; `None` if the values are the same.
     pub(crate) fn prepare(&self) -> Option<Self> {
         (*self != Self::Linear).then(|| self.clone())
     }

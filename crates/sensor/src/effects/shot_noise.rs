@@ -1,7 +1,7 @@
 //! Photon shot noise: photo-electrons are counted, and counts fluctuate.
 //!
-//! k ~ Poisson(μ), μ the mean photo-electrons of the pixel during the exposure; exact at every mean.
-//! Draw: `NoiseDraw::Shot` of the pixel. Left out: several electrons a photon (below 400 nm).
+//! k ~ Poisson(μ), μ the mean photo-electrons of the pixel during the exposure; exact at every mean. Random numbers: `NoiseDraw::Shot` of the pixel.
+//! Left out: several electrons per photon (below 400 nm).
 
 use etendue_core::quantity::{Charge, MeanElectrons};
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
@@ -15,7 +15,7 @@ use crate::{capture::Operation, check::Checks, random::Poisson, signal_breakdown
 pub(crate) struct ShotNoise;
 
 impl ShotNoise {
-    /// Counting, prepared; `None` where charge is its mean.
+    /// Counting, prepared; `None` if charge equals its mean.
     pub(crate) fn prepare(self, context: &Context) -> Option<Counting> {
         let counted = self.status(&context.facts, &context.operation).is_modelled();
         counted.then(|| Counting { key: context.noise(NoiseDraw::Shot) })
@@ -38,7 +38,7 @@ impl Effect for ShotNoise {
         }
     }
 
-    /// The key switches off all randomness from frame to frame.
+    /// The key disables all temporal noise.
     fn left_out_by(&self) -> Vec<KeyChange> {
         vec![KeyChange { key: Self::KEY, value: Some("false") }]
     }
@@ -50,7 +50,7 @@ impl Effect for ShotNoise {
     }
 }
 
-/// Makes charge of mean electrons.
+/// Converts mean electrons to charge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Counting {
     key: NoiseKey,

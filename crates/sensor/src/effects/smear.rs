@@ -1,11 +1,11 @@
-//! Smear of a CCD: light that charge meets while it is moved down its column.
+//! Smear of a CCD: light collected by charge while it is moved down its column.
 //!
-//! Every row that a packet passes adds ε rate(x, y) t_line. Under steady light the total is the same for the whole column:
+//! Every row that a charge packet passes adds ε rate(x, y) t_line. Under constant light the total is the same for the whole column:
 //!
 //! S(x) = ε t_line Σ_y μ(x, y) / t_exp, added to the mean of every pixel of the column, dark rows included.
 //!
 //! - Interline: ε is a leak into the covered register, from the smear figure of the data sheet (dB, a spot of one tenth of the
-//!   picture's height): ε = 10 · 10^(Sm/20) · (t_acc/t_frame of that measurement); t_line = frame period / rows.
+//!   image's height): ε = 10 · 10^(Sm/20) · (t_acc/t_frame of that measurement); t_line = frame period / rows.
 //! - Frame transfer: the rows pass the open pixels, ε = 1, t_line = the time of one fast shift.
 //!
 //! S is added to the mean before counting, so it has its own shot noise: a sum of Poisson counts is a Poisson count.
@@ -17,10 +17,10 @@ use rayon::prelude::*;
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
 use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
-/// How charge is moved past the light.
+/// Transfer of charge past the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Smear {
-    /// Down a covered register beside the pixels.
+    /// Down a covered register next to the pixels.
     Interline {
         /// The data sheet's figure, dB: below 0.
         smear_db: f64,
@@ -35,7 +35,7 @@ pub enum Smear {
 }
 
 impl Smear {
-    /// The time in which charge passes one of so many rows, s.
+    /// The time for which charge passes one of this number of rows, s.
     fn line_s(&self, frame_period_s: Option<f64>, rows: usize) -> f64 {
         match *self {
             Self::Interline { .. } => frame_period_s.expect("checked with the parameters") / rows as f64,
@@ -43,12 +43,12 @@ impl Smear {
         }
     }
 
-    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many lit rows among `rows`, s.
+    /// The exposure, s, that smear adds to every pixel of a uniformly and steadily lit image of this number of lit rows among `rows`.
     pub(crate) fn even_s(&self, frame_period_s: Option<f64>, lit: usize, rows: usize) -> f64 {
         self.leak() * self.line_s(frame_period_s, rows) * lit as f64
     }
 
-    /// The fraction ε of the light that passing charge collects.
+    /// The fraction ε of the light collected by passing charge.
     #[must_use]
     pub fn leak(&self) -> f64 {
         match *self {
@@ -119,7 +119,7 @@ impl PlaneEffect<MeanElectrons> for ColumnSmear {
 }
 
 impl ColumnSmear {
-    /// Columns are summed from the top by one owner each, so the bits do not depend on threads.
+    /// Each column is summed from the top by one thread, so the bits do not depend on threads.
     fn of_columns(&self, means: &Plane<MeanElectrons>) -> Vec<f64> {
         const BLOCK: usize = 64;
         let mut sums = vec![0.0; means.width()];
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(raw.plane.at(0, 0), 0);
     }
 
-    /// An even picture shows what is told of it, with shielded rows and without.
+    /// A uniform image has the stated exposure, with and without shielded rows.
     #[test]
     fn an_even_picture_has_the_exposure_told() {
         for dark in [0, 20] {
@@ -202,7 +202,7 @@ mod tests {
         let raw = run(&smeared(true, 0.04), &means, ADDRESS);
         let dark = (1..1000).flat_map(|y| (0..64).map(move |x| (x, y)));
         let moments = Moments::of(dark.map(|(x, y)| f64::from(raw.plane.at(x, y))));
-        // 50 e⁻ a pixel; 63 936 pixels know the mean to 0.028 and the variance to 0.56 %; four of each (and 1/12 of rounding).
+        // 50 e⁻ per pixel; 63 936 pixels give the mean to 0.028 and the variance to 0.56 %; tolerance: four of each (and 1/12 of rounding).
         assert!((moments.mean() - 50.0).abs() < 0.12, "{}", moments.mean());
         assert!((moments.variance().expect("many") / 50.0 - 1.0).abs() < 0.023);
     }

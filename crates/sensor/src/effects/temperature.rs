@@ -9,12 +9,12 @@ use etendue_core::maths::f64::{exp, exp2, pow};
 
 use crate::check::Checks;
 
-/// How dark current grows with temperature.
+/// Law of dark current over temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TemperatureLaw {
-    /// A factor of two every so many kelvin.
+    /// A factor of two per temperature step.
     Doubling {
-        /// Kelvin for a factor of two.
+        /// Temperature step for a factor of two, K.
         step_k: f64,
     },
     /// Silicon's band gap.
@@ -24,7 +24,7 @@ pub enum TemperatureLaw {
     },
 }
 
-/// Temperature of a sensor, and the one its dark current was measured at.
+/// Temperature of a sensor, and that of its stated dark current.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Temperature {
     /// Temperature of the sensor, K.
@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn local_doubling_steps_of_silicon() {
-        // ΔT for a factor of two, from the slope of ln I over a kelvin; the figures are stated to a tenth of a kelvin.
+        // ΔT for a factor of two, from the slope of ln I over a kelvin; the values are stated to a tenth of a kelvin.
         let step = |diffusion_fraction, t: f64| {
             let law = TemperatureLaw::BandGap { diffusion_fraction };
             core::f64::consts::LN_2 / etendue_core::maths::f64::ln(factor(law, t - 0.5, t + 0.5))

@@ -1,14 +1,13 @@
-//! Pixels with two levels between which they jump at random: a telegraph signal over frames.
+//! Pixels that jump at random between two levels: a random telegraph signal over frames.
 //!
-//! A fraction of pixels has it; each has its own amplitude (exponential) and level. From frame to frame it changes its level with
-//! probability 1/dwell, so it stays for a mean of `dwell` frames at each; before the first frame both are as likely.
-//! Which pixels, and how much, are the specimen's; the jumps are the frames'.
-//! Left out: unequal dwell times of the two levels, more than two levels.
+//! A fraction of pixels is affected; each has its own amplitude (exponential) and level. From frame to frame it changes its level with probability
+//! 1/dwell, so it stays at each for a mean of `dwell` frames; before the first frame both are equally likely. The choice of pixels and the amplitudes
+//! belong to the unit; the jumps belong to the frames. Left out: unequal dwell times of the two levels, more than two levels.
 //!
-//! Random RTS noise: a trap at a pixel's transistor makes its voltage jump between two levels.
+//! RTS noise: a trap at a pixel's transistor makes its voltage jump between two levels.
 //!
-//! e ← e ± a/2 for a fraction of pixels, a exponential of a stated mean, the level from a two-level state over frames
-//! ([`TwoLevel`]). The mean of both levels is the pixel's own. Draws: `Telegraph` (specimen), `TelegraphFlip`.
+//! e ← e ± a/2 for a fraction of pixels, a exponential of a stated mean, the level from a two-level state over frames ([`TwoLevel`]). The mean of
+//! both levels is the pixel's own value. Random numbers: `Telegraph` (unit), `TelegraphFlip`.
 
 use etendue_core::random::{NoiseDraw, Pixel};
 use etendue_core::{EffectStatus, quantity::Voltage};
@@ -19,9 +18,9 @@ use crate::{capture::Operation, check::Checks, random::pattern, signal_breakdown
 /// Pixels that jump between two levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoLevel {
-    /// Fraction of pixels that do, above 0 and up to 1.
+    /// Fraction of affected pixels, above 0 and up to 1.
     pub fraction: f64,
-    /// Mean of their amplitudes, from the lower level to the upper one, in the unit of what jumps.
+    /// Mean of their amplitudes, from the lower level to the upper one, in the unit of the affected quantity.
     pub mean: f64,
     /// Mean number of frames at a level, 1 or more.
     pub dwell_frames: f64,
@@ -45,13 +44,13 @@ pub(crate) struct Site {
     pub(crate) amplitude: f64,
 }
 
-/// The draws of a kind of two-level pixels: which ones, and the jumps.
+/// The random numbers of a kind of two-level pixels: their selection, and the jumps.
 pub(crate) struct Draws {
     pub(crate) which: NoiseDraw,
     pub(crate) flip: NoiseDraw,
 }
 
-/// The sites of a capture's array, and which of them are at their upper level, where `before` says it of the frame before.
+/// The sites of a capture's array, and those at their upper level, given the levels `before` in the last frame.
 pub(crate) fn next(two: &TwoLevel, draws: Draws, context: &Context, before: &[bool]) -> (Vec<Site>, Vec<bool>) {
     let key = context.pattern(draws.which);
     let mut sites = Vec::new();
@@ -60,7 +59,7 @@ pub(crate) fn next(two: &TwoLevel, draws: Draws, context: &Context, before: &[bo
             sites.push(Site { x: x as u32, y, amplitude: pattern::exponential(two.mean, stream) });
         });
     }
-    // All captures of a frame see one level.
+    // All captures of a frame see the same level.
     let flips = context.frame_noise(draws.flip);
     let draw = |site: &Site| flips.stream(Pixel { x: site.x, y: site.y }).unit_f64();
     let high = if before.len() == sites.len() {
@@ -168,7 +167,7 @@ mod tests {
             up += next.iter().filter(|h| **h).count() as f64;
             high = next;
         }
-        // 50 n jumps of probability 1/4. The fraction up is correlated over (1 + r)/(1 − r) = 3 frames, r = 1 − 2/4.
+        // 50 n jumps of probability 1/4. The fraction at the upper level is correlated over (1 + r)/(1 − r) = 3 frames, r = 1 − 2/4.
         assert!((jumps / (50.0 * n) - 0.25).abs() < 4.0 * (0.1875 / (50.0 * n)).sqrt());
         assert!((up / (50.0 * n) - 0.5).abs() < 4.0 * (0.25 * 3.0 / (50.0 * n)).sqrt());
     }
@@ -191,7 +190,7 @@ mod tests {
         }
         assert!(seen.iter().all(|set| set.len() <= 2));
         let jumping = seen.iter().filter(|set| set.len() == 2).count() as f64;
-        // 102 ± 10 pixels; jumps below half a DN do not show (0.5 %), nor does a pixel that never jumps in 40 frames.
+        // 102 ± 10 pixels; jumps below half a DN are invisible (0.5 %), as is a pixel that never jumps in 40 frames.
         assert!((jumping - 102.0).abs() < 40.0, "{jumping}");
         assert!(seen.iter().filter(|s| s.len() == 2).all(|s| s.iter().sum::<u32>().abs_diff(2000) <= 1));
     }

@@ -1,7 +1,7 @@
-//! No time, a million seconds, no light, far too much, wells of an electron, converters of a bit: the statistics that follow.
+//! Extreme cases: zero time, a million seconds, no light, far too much light, wells of an electron, ADCs of one bit, and the resulting statistics.
 //!
-//! Frames have 256² pixels: a mean is known to σ/256, a variance of normal numbers to √2/256 = 0.55 %, a share s to
-//! √(s (1 − s))/256; four of each are allowed.
+//! Frames have 256² pixels: a mean is known to σ/256, a variance of normal numbers to √2/256 = 0.55 %, a fraction s to √(s (1 − s))/256; the
+//! tolerance is four of each.
 
 use etendue_stats::normal;
 
@@ -11,7 +11,7 @@ use crate::{parameters::SensorParameters, parameters::tests::ideal};
 const SIZE: usize = 256;
 const N: f64 = (SIZE * SIZE) as f64;
 
-/// Mean (above black) and variance of a flat frame, DN.
+/// Checks mean (above black) and variance of a flat frame, DN.
 #[track_caller]
 fn has(p: SensorParameters, mean_e: f32, mean_dn: f64, variance_dn2: f64) {
     let m = moments(&expose(p, mean_e, SIZE));
@@ -20,7 +20,7 @@ fn has(p: SensorParameters, mean_e: f32, mean_dn: f64, variance_dn2: f64) {
     assert!((variance - variance_dn2).abs() <= 4.0 * variance_dn2 * (2.0 / N).sqrt(), "{variance} for {variance_dn2}");
 }
 
-/// Share of the pixels of a flat frame that have the number.
+/// Checks the fraction of the pixels of a flat frame that have the number.
 #[track_caller]
 fn share_is(p: SensorParameters, mean_e: f32, dn: u32, share: f64) {
     let raw = expose(p, mean_e, SIZE);
@@ -64,7 +64,7 @@ fn a_million_seconds_are_counted_or_fill_the_well() {
 fn a_million_million_electrons_have_their_shot_noise() {
     let mut p = one_dn_an_electron();
     (p.charge.full_well.capacity_e, p.read_out.gain_dn_e) = (1e13, 1e-5);
-    // The mean as f32 has it; K² μ + 1/12.
+    // The mean as represented in f32; K² μ + 1/12.
     let mean_e = f64::from(1e12_f32);
     has(p, 1e12, 1e-5 * mean_e, 1e-10 * mean_e + 1.0 / 12.0);
 }

@@ -1,4 +1,4 @@
-//! From mean electrons to a raw picture, frame after frame.
+//! From mean electrons to a raw image, frame after frame.
 
 mod pass;
 
@@ -13,29 +13,28 @@ use crate::signal_breakdown::{ChargeAccount, SignalBreakdown};
 use crate::{effects::shot_noise::ShotNoise, hdr::merge::Merged, raw::Raw, sensor::Sensor};
 use pass::Pass;
 
-/// What a capture's charge has become.
+/// The result of reading a capture's charge.
 struct Reading {
     numbers: Plane<DigitalNumber>,
-    /// The number of a saturated pixel.
+    /// The digital number of a saturated pixel.
     white_dn: f64,
     signal_breakdown: Option<SignalBreakdown>,
-    /// Where its charge went at the full well, where the pass came by it.
+    /// Balance of its charge at the full well, if the pass includes one.
     account: Option<ChargeAccount>,
 }
 
-/// What all captures of a frame have become.
+/// The result of all captures of a frame.
 struct Taken {
     numbers: Plane<DigitalNumber>,
     signal_breakdown: Option<SignalBreakdown>,
-    /// Of each capture that has charge of its own: its place, and where its charge went where it overflows.
+    /// For each capture with its own charge: its index, and the balance of its charge if it overflows.
     accounts: Vec<(usize, ChargeAccount)>,
 }
 
 impl Sensor {
-    /// One frame: the raw picture that `mean_electrons` (of photons, in the described exposure) become, and the state for the
-    /// next frame.
+    /// Computes one frame: the raw image for `mean_electrons` (of photons, in the described exposure), and the state for the next frame.
     ///
-    /// Runs in the rayon pool of the caller; the bits depend on the state, `address` and the means alone.
+    /// Runs in the rayon pool of the caller; the bits depend only on the state, `address` and the means.
     #[must_use]
     pub fn step(
         &self,
@@ -46,7 +45,7 @@ impl Sensor {
         self.step_captures(state, CaptureLight::steady(mean_electrons), address)
     }
 
-    /// As [`Sensor::step`], of light that changes from capture to capture.
+    /// As [`Sensor::step`], for light that changes from capture to capture.
     #[must_use]
     pub fn step_captures(
         &self,
@@ -58,7 +57,7 @@ impl Sensor {
         (state, raw)
     }
 
-    /// The same, with what each pixel's value is made of.
+    /// The same, with the signal breakdown of each pixel.
     #[must_use]
     pub fn step_with_breakdown(
         &self,
@@ -69,7 +68,7 @@ impl Sensor {
         self.step_captures_with_breakdown(state, CaptureLight::steady(mean_electrons), address)
     }
 
-    /// As [`Sensor::step_with_breakdown`], of light that changes from capture to capture.
+    /// As [`Sensor::step_with_breakdown`], for light that changes from capture to capture.
     #[must_use]
     pub fn step_captures_with_breakdown(
         &self,
@@ -105,7 +104,7 @@ impl Sensor {
         (state, raw, signal_breakdown)
     }
 
-    /// The means of the whole array, optical black included: of each capture, or one for all where they see the same light.
+    /// The means of the whole array, optical black included: one per capture, or a single one if all see the same light.
     fn arrays<'a>(&self, light: CaptureLight<'a>) -> Vec<Cow<'a, Plane<MeanElectrons>>> {
         let layout = &self.parameters().read_out.layout;
         let array = |k: usize| {
@@ -136,7 +135,7 @@ impl Sensor {
         charge
     }
 
-    /// The digital numbers of charge, and what they are made of. `context` has the size of the array.
+    /// The digital numbers of a charge, and their breakdown. `context` has the size of the array.
     fn reading(&self, mut charge: Pass<'_, Charge>, context: &Context, memory: &mut Memory) -> Reading {
         let p = self.parameters();
         let mut context = *context;
@@ -151,7 +150,7 @@ impl Sensor {
         Reading { numbers, white_dn, signal_breakdown: voltage.signal_breakdown, account: voltage.account }
     }
 
-    /// The only capture, from means to numbers.
+    /// A single capture, from means to digital numbers.
     fn single(
         &self,
         array: &Plane<MeanElectrons>,
@@ -208,7 +207,7 @@ impl Sensor {
         Taken { numbers: self.rounded(&merged), signal_breakdown: merged.into_breakdown(), accounts }
     }
 
-    /// Merged numbers, companded where there is a curve, rounded once.
+    /// Merged numbers, companded if there is a curve, rounded once.
     fn rounded(&self, merged: &Merged) -> Plane<DigitalNumber> {
         let hdr = &self.parameters().hdr;
         let largest = f64::from((1_u32 << self.delivered_bits()) - 1);
@@ -219,7 +218,7 @@ impl Sensor {
         Plane::from_samples(width, height, samples).expect("whole rows")
     }
 
-    /// The raw of what was taken: numbers put together, the part that is read, what was no light.
+    /// The raw of the captures: binned numbers, the region that is read, invalid means.
     fn raw(&self, taken: Taken, array: &Plane<MeanElectrons>, point: OperatingPoint) -> (Raw, Option<SignalBreakdown>) {
         let p = self.parameters();
         let layout = &p.read_out.layout;

@@ -1,8 +1,8 @@
-//! Passes over the array: rows one after another in f64, planes in f32 where neighbours matter.
+//! Passes over the array: rows one after another in f64, planes in f32 for effects between neighbours.
 //!
-//! A pass says what its picture is: mean electrons, charge or voltage. Effects on rows that follow each other share one pass over the
-//! array, also where the picture becomes another quantity between them, and a plane is stored only before an effect on planes, before a
-//! second reading, and never where there is neither: an ordinary sensor goes from means to digital numbers row by row.
+//! The type of a pass states its quantity: mean electrons, charge or voltage. Consecutive effects on rows share one pass over the array, also across
+//! a conversion to another quantity. A plane is stored only before an effect on planes or before a second reading: an ordinary sensor goes from means
+//! to digital numbers row by row.
 
 use core::marker::PhantomData;
 use std::borrow::Cow;
@@ -15,12 +15,12 @@ use crate::effect::{Action, Row, RowConversion, Stage, Traces};
 use crate::signal_breakdown::{ChargeAccount, RowTally, SignalBreakdown, SignalComponent, SignalComponentRow};
 use crate::{capture::SensorState, cfa::Cfa, effects::converter::Converter, layout::Binning};
 
-/// A capture on its way: its picture, and what is noted beside it.
+/// A capture in progress: its image and the recorded breakdown.
 pub(super) struct Pass<'a, Q> {
     source: Source<'a>,
-    /// What is noted, where it is asked for.
+    /// The signal breakdown, if requested.
     pub(super) signal_breakdown: Option<SignalBreakdown>,
-    /// Where charge went at the full well.
+    /// Balance of charge at the full well.
     pub(super) account: Option<ChargeAccount>,
     quantity: PhantomData<Q>,
 }
@@ -35,7 +35,7 @@ impl<'a> Pass<'a, MeanElectrons> {
 }
 
 impl<'a, Q: Quantity<Sample = f32>> Pass<'a, Q> {
-    /// Runs effects, or lets them wait.
+    /// Applies effects, or defers them.
     pub(super) fn run(&mut self, stages: Vec<Stage<Q>>, after: &mut SensorState) {
         for Stage { component, action } in stages {
             match action {
@@ -56,7 +56,7 @@ impl<'a, Q: Quantity<Sample = f32>> Pass<'a, Q> {
         }
     }
 
-    /// The picture as the quantity that a conversion makes of it; the same numbers where there is none.
+    /// The image converted to another quantity; the same values without a conversion.
     pub(super) fn converted<C>(mut self, conversion: Option<C>) -> Pass<'a, C::To>
     where
         C: RowConversion<From = Q> + 'static,
@@ -71,7 +71,7 @@ impl<'a, Q: Quantity<Sample = f32>> Pass<'a, Q> {
         Pass { source, signal_breakdown, account, quantity: PhantomData }
     }
 
-    /// Runs what waits.
+    /// Applies the deferred effects.
     pub(super) fn settle(&mut self) {
         if self.source.waiting.is_empty() && matches!(self.source.samples, Cow::Owned(_)) {
             return;
@@ -85,7 +85,7 @@ impl<'a, Q: Quantity<Sample = f32>> Pass<'a, Q> {
         self.source = Source::owned(out);
     }
 
-    /// Runs what waits, so that the plane is that of the last effect; leaves an empty one in its place.
+    /// Applies the deferred effects and takes the plane; leaves an empty one in its place.
     fn take_plane(&mut self) -> Plane<Q> {
         self.settle();
         let Source { samples, width, height, .. } =
@@ -95,7 +95,7 @@ impl<'a, Q: Quantity<Sample = f32>> Pass<'a, Q> {
 }
 
 impl Pass<'_, Charge> {
-    /// A reading of this charge, which is at rest.
+    /// Another reading of this charge, which is complete.
     pub(super) fn again(&self) -> Pass<'_, Charge> {
         Pass {
             source: self.source.again(),
@@ -114,7 +114,7 @@ impl Pass<'_, Charge> {
 }
 
 impl Pass<'_, Voltage> {
-    /// The digital numbers.
+    /// Converts to digital numbers.
     pub(super) fn convert(&mut self, converter: &Converter, white_dn: f64) -> Plane<DigitalNumber> {
         let mut numbers = Plane::new(self.source.width, self.source.height);
         let finish = |out: &mut [u32], row: &Row<'_, Voltage>, notes: Option<&mut SignalComponentRow<'_>>| {
@@ -132,27 +132,27 @@ impl Pass<'_, Voltage> {
     }
 }
 
-/// Whether a mean can be a mean of electrons.
+/// True if a mean is valid as a mean of electrons.
 pub(super) fn is_valid(mean: f32) -> bool {
     mean.is_finite() && mean >= 0.0
 }
 
-/// Acts on the numbers of a row, its place in the plane and its tally of charge.
+/// Acts on the values of a row, its index in the plane and its tally of charge.
 type RowStep = dyn Fn(&mut [f64], u32, &mut Option<RowTally>) + Send + Sync;
 
-/// An effect on rows that waits for a pass, whatever its quantity: the pass that it waits in has it.
+/// A deferred effect on rows, without its quantity in the type: that of its pass applies.
 struct Step {
     component: SignalComponent,
     apply: Box<RowStep>,
 }
 
-/// Stored numbers, and the effects on rows that wait for a pass over them.
+/// Stored values, and the deferred effects on rows.
 struct Source<'a> {
-    /// Mean electrons that are not changed yet, or numbers of the pass's own; row by row.
+    /// Unchanged mean electrons, or the pass's own values; row by row.
     samples: Cow<'a, [f32]>,
     width: usize,
     height: usize,
-    /// Factor on the means; `None` where the numbers are those of a pass.
+    /// Factor on the means; `None` if the values are those of a pass.
     light: Option<f64>,
     waiting: Vec<Step>,
 }
@@ -168,14 +168,14 @@ impl<'a> Source<'a> {
         Self { samples: Cow::Owned(plane.into_samples()), width, height, light: None, waiting: Vec::new() }
     }
 
-    /// The same stored numbers; nothing waits.
+    /// The same stored values without deferred effects.
     fn again(&self) -> Source<'_> {
         debug_assert!(self.waiting.is_empty(), "a charge that is read again is at rest");
         Source { samples: Cow::Borrowed(&self.samples), waiting: Vec::new(), ..*self }
     }
 
-    /// Runs all rows in the caller's rayon pool; `finish` stores each, of the quantity that the last step makes. Answers where charge
-    /// went, if a full well is among the steps.
+    /// Processes all rows in the caller's rayon pool; `finish` stores each as the quantity of the last step. Returns the balance of charge if a full
+    /// well is among the steps.
     fn rows<T: Send, Q>(
         &self,
         out: &mut [T],
@@ -211,7 +211,7 @@ impl<'a> Source<'a> {
         tallies.map(|rows| ChargeAccount::of_rows(&rows))
     }
 
-    /// Fetches a row; what is no mean counts as none.
+    /// Loads a row; an invalid mean counts as zero.
     fn load(&self, values: &mut [f64], source: &[f32]) {
         match self.light {
             None => values.iter_mut().zip(source).for_each(|(e, q)| *e = f64::from(*q)),
@@ -223,7 +223,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// A row after all steps, each with what it added.
+    /// A row after all steps, with the contribution of each.
     fn noted_row(
         &self,
         source: &[f32],

@@ -1,4 +1,4 @@
-//! Frames as a whole: the photon-transfer method, extremes, the order of work.
+//! Frames as a whole: the photon-transfer method, extremes, the order of operations.
 
 use super::*;
 use crate::SignalComponent;
@@ -8,7 +8,7 @@ use etendue_stats::Moments;
 
 pub(crate) const ADDRESS: FrameAddress = FrameAddress { seed: 5, camera: 1, frame: 2, capture: 0 };
 
-/// Without noise, one DN an electron, no black level, 24 bits, a large well.
+/// Without noise, one DN per electron, no black level, 24 bits, a large well.
 pub(crate) fn quiet() -> SensorParameters {
     let mut p = ideal();
     p.noise = false;
@@ -18,7 +18,7 @@ pub(crate) fn quiet() -> SensorParameters {
     p
 }
 
-/// The same with the noise of counting.
+/// The same with shot noise.
 pub(crate) fn one_dn_an_electron() -> SensorParameters {
     SensorParameters { noise: true, ..quiet() }
 }
@@ -54,7 +54,7 @@ fn signal_to_noise_is_that_of_emva_1288() {
     for (mean, want) in [(100.0, 8.897), (1000.0, 31.21), (10_000.0, 99.87)] {
         let m = moments(&expose(ideal(), mean, 512));
         let snr = m.mean() / m.variance().expect("many").sqrt();
-        // A standard deviation of 512² numbers is known to 1/√(2n) = 0.14 %; four of those.
+        // A standard deviation of 512² numbers is known to 1/√(2n) = 0.14 %; tolerance: four of those.
         assert!((snr / want - 1.0).abs() < 0.0055, "{mean}: {snr}");
     }
 }
@@ -147,7 +147,7 @@ fn bits_are_pinned() {
 
 const PINNED: [u32; 9] = [404, 399, 400, 400, 408, 417, 416, 418, 421];
 
-/// A camera that has everything.
+/// A camera with all effects.
 fn everything() -> SensorParameters {
     use crate::effects::{angle_response, dark_current, full_well, lag, neighbours, smear, two_level};
     use crate::effects::{neighbours::Neighbours, two_level::TwoLevel};

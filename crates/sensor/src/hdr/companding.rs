@@ -1,16 +1,15 @@
-//! Companding: fewer bits by straight lines of falling slope, and back.
+//! Companding: fewer bits by straight lines of falling slope, and its inverse.
 //!
-//! Between the knees (x_i, y_i), from (0, 0): y = y_i + (x − x_i) s_i, s_i = (y_{i+1} − y_i)/(x_{i+1} − x_i) ≤ 1, rounded to the
-//! nearest whole number. Beyond the last knee y stays. Back: x = x_i + (y − y_i)/s_i. As no slope exceeds 1, going back and
-//! forth is exact on all numbers y. A step of y is 1/s_i of x: it should stay below √12 times the noise there.
-//! Companding acts on the merged number before rounding, and after all noise.
+//! Between the knees (x_i, y_i), from (0, 0): y = y_i + (x − x_i) s_i, s_i = (y_{i+1} − y_i)/(x_{i+1} − x_i) ≤ 1, rounded to the nearest integer.
+//! Beyond the last knee y is constant. Inverse: x = x_i + (y − y_i)/s_i. As no slope exceeds 1, the round trip is exact for all numbers y. A step of
+//! y is 1/s_i of x: it should stay below √12 times the noise there. Companding acts on the merged number before rounding, and after all noise.
 
 use etendue_core::EffectStatus;
 
 use crate::effect::{Effect, SensorFacts};
 use crate::{capture::Operation, check::Checks};
 
-/// Straight lines to fewer bits.
+/// A piecewise linear curve to fewer bits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Companding {
     /// Ends of the lines after (0, 0): linear number, companded number.
@@ -23,7 +22,7 @@ impl Effect for Companding {
     const NAME: &'static str = "companding";
     const KEY: &'static str = "sensor.companding";
 
-    /// It is checked with the whole sensor, as it begins where merging ends.
+    /// Checked with the whole sensor, because it begins where merging ends.
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
@@ -32,7 +31,7 @@ impl Effect for Companding {
 }
 
 impl Companding {
-    /// Refuses a curve that does not take numbers of so many bits, or cannot be undone.
+    /// Refuses a curve that does not accept numbers of this many bits, or is not invertible.
     pub(crate) fn check_curve(&self, linear_bits: u32, checks: &mut Checks) {
         checks.legal(
             "companding.bits",
@@ -79,7 +78,7 @@ impl Companding {
     }
 }
 
-/// Linear interpolation from (0, 0) over the knees as `turned`, constant beyond the last.
+/// Linear interpolation from (0, 0) over the knees transformed by `turned`, constant beyond the last.
 fn along(knees: &[[f64; 2]], x: f64, turned: impl Fn([f64; 2]) -> [f64; 2]) -> f64 {
     let above = knees.partition_point(|knee| turned(*knee)[0] <= x);
     let [x0, y0] = above.checked_sub(1).map_or([0.0, 0.0], |i| turned(knees[i]));
@@ -93,7 +92,7 @@ fn along(knees: &[[f64; 2]], x: f64, turned: impl Fn([f64; 2]) -> [f64; 2]) -> f
 mod tests {
     use super::*;
 
-    /// 20 to 12 bits, as an automotive sensor has it.
+    /// 20 to 12 bits, as in an automotive sensor.
     fn curve() -> Companding {
         let knees = vec![[512.0, 512.0], [4096.0, 1408.0], [65_536.0, 2368.0], [1_048_575.0, 4095.0]];
         Companding { knees, bits: 12 }

@@ -1,8 +1,8 @@
-//! Merging captures: the first that is not saturated, scaled.
+//! Merging of captures: the first unsaturated one, scaled.
 //!
-//! value = black + s_k (DN_k − black), k the first capture with DN_k − black ≤ switch · (white_k − black), or the last one;
-//! s_k the product of what the capture lost in time, sensitivity and gain. The value is in numbers of the first capture.
-//! Left out: blending around the switch, weights by noise.
+//! value = black + s_k (DN_k − black), k the first capture with DN_k − black ≤ switch · (white_k − black), or the last one; s_k is the inverse of the
+//! capture's relative time, sensitivity and gain. The value is in numbers of the first capture. Left out: blending around the switch, noise
+//! weighting.
 
 use etendue_core::{Plane, quantity::DigitalNumber};
 
@@ -14,20 +14,20 @@ pub(crate) struct Merged {
     black_level_dn: f64,
     width: usize,
     values: Vec<f32>,
-    /// Whether no capture so far was below its switch.
+    /// True if no capture so far was below its switch.
     pending: Vec<bool>,
-    /// SignalBreakdown of the captures that were taken, where they are noted.
+    /// Signal breakdown of the captures used, if recorded.
     signal_breakdown: Option<SignalBreakdown>,
 }
 
 impl Merged {
-    /// None yet.
+    /// No captures yet.
     pub(crate) fn new(black_level_dn: f64) -> Self {
         Self { black_level_dn, width: 0, values: Vec::new(), pending: Vec::new(), signal_breakdown: None }
     }
 
-    /// Takes the next capture; numbers up to `switch_dn` are good. Values have 24 bits, which f32 holds. `signal_breakdown`: those of the
-    /// capture, and what an electron of it is in electrons of the first.
+    /// Adds the next capture; numbers up to `switch_dn` are valid. Values have 24 bits, which f32 represents exactly. `signal_breakdown`: the
+    /// breakdown of the capture, and the factor from its electrons to those of the first.
     pub(crate) fn take(
         &mut self,
         numbers: &Plane<DigitalNumber>,
@@ -65,7 +65,7 @@ impl Merged {
         &self.values
     }
 
-    /// SignalBreakdown of the merged numbers, where they are noted.
+    /// Signal breakdown of the merged numbers, if recorded.
     pub(crate) fn into_breakdown(self) -> Option<SignalBreakdown> {
         self.signal_breakdown
     }
@@ -80,7 +80,7 @@ pub(crate) mod tests {
     use etendue_core::Plane;
     use etendue_stats::Moments;
 
-    /// 12 bits; a well of 4000 e⁻ at one DN an electron.
+    /// 12 bits; a well of 4000 e⁻ at one DN per electron.
     fn three_exposures() -> SensorParameters {
         let mut p = quiet();
         (p.charge.full_well.capacity_e, p.read_out.bits, p.read_out.black_level_dn) = (3900.0, 12, 100.0);
@@ -97,7 +97,7 @@ pub(crate) mod tests {
         let means = [0.0, 100.0, 3000.0, 20_000.0, 50_000.0, 400_000.0, 900_000.0];
         let raw = run(&three_exposures(), &Plane::from_samples(7, 1, means.to_vec()).expect("filled"), ADDRESS);
         for (mean, dn) in means.iter().zip(raw.plane.samples()) {
-            // A capture rounds to one of its own numbers.
+            // A capture rounds to its own numbers.
             let step = if *mean <= 3500.0 {
                 1.0
             } else if *mean <= 56_000.0 {
@@ -122,7 +122,7 @@ pub(crate) mod tests {
             m.mean() / m.variance().expect("many").sqrt()
         };
         let (before, after) = (snr(3200.0), snr(4200.0));
-        // μ/√(μ + σ² + 1/12) of the capture that is used; 65 536 pixels know it to 0.28 %, four of those.
+        // μ/√(μ + σ² + 1/12) of the capture used; 65 536 pixels give it to 0.28 %; tolerance: four of those.
         let of = |e: f64| e / (e + 4.0 + 1.0 / 12.0).sqrt();
         assert!((before / of(3200.0) - 1.0).abs() < 0.0112 && (after / of(4200.0 / 16.0) - 1.0).abs() < 0.0112);
     }
@@ -146,7 +146,7 @@ pub(crate) mod tests {
             assert!((sum - (f64::from(raw.plane.at(x, 0)) - 100.0)).abs() < 0.05 + 1e-6 * sum.abs(), "{x}: {sum}");
             assert!((of(SignalComponent::Signal) / f64::from(means.at(x, 0)).max(1e-9) - 1.0).abs() < 1e-6 || x == 0);
         }
-        // Counts of a capture of 1/256 of the time are counts of 256.
+        // Counts of a capture of 1/256 of the time are multiples of 256.
         let counted = (signal_breakdown.layer(SignalComponent::Signal).at(4, 0)
             + signal_breakdown.layer(SignalComponent::Shot).at(4, 0))
             / 256.0;
@@ -173,7 +173,7 @@ pub(crate) mod tests {
         p.hdr.bits = Some(16);
         let means = Plane::filled(64, 64, 20_000.0);
         let merged = run(&p, &means, ADDRESS);
-        // Without read noise the low gain sees the counts of the shot noise of the first capture, in steps of 16.
+        // Without read noise the low gain sees the shot-noise counts of the first capture, in steps of 16.
         let mut single = p.clone();
         single.hdr = super::super::HighDynamicRange::default();
         single.read_out.bits = 16;
@@ -195,10 +195,10 @@ pub(crate) mod tests {
         assert!(refused(&|p| p.hdr.captures[0].dual_conversion_gain = true));
         assert!(refused(&|p| p.hdr.captures.insert(0, Capture::default())), "a capture that is never used");
         assert!(refused(&|p| p.read_out.response = Response::Logarithmic { from_e: 1000.0 }), "merging is linear");
-        // Exposures of 1, 1/16 and 1/256 of a second follow each other on the one photodiode.
+        // Exposures of 1, 1/16 and 1/256 of a second follow each other on the single photodiode.
         let period = |s: f64| refused(&|p| p.exposure.frame_period_s = Some(s * p.exposure.exposure_s));
         assert!(period(1.06) && !period(1.07));
-        // The third capture has to go on where the second ends: 0.9 · 3900 · 16 e⁻, of which its well holds 256th parts.
+        // The third capture must continue where the second ends: 0.9 · 3900 · 16 e⁻, of which its well holds 1/256.
         assert!(!refused(&|p| p.hdr.captures[1].full_well_e = Some(220.0)));
         assert!(refused(&|p| p.hdr.captures[1].full_well_e = Some(219.0)));
     }

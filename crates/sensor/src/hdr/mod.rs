@@ -1,15 +1,15 @@
-//! High dynamic range: several captures of one frame, merged, and put into fewer bits.
+//! High dynamic range: several captures of one frame, merged and companded to fewer bits.
 //!
 //! A capture may differ from the first in its time, in the sensitivity of its photodiode, and in its conversion gain:
 //!
-//! | way | what differs |
+//! | method | difference |
 //! | --- | --- |
 //! | multiple exposures | time |
 //! | split pixel | sensitivity, full well |
 //! | dual conversion gain | gain and read noise; the same charge is read again |
 //!
-//! and these may be combined (a split pixel read at two gains each is four captures). Captures see the same light, each with its
-//! own shot and read noise; a second reading has its own read noise only. Captures are listed by falling sensitivity.
+//! These may be combined (a split pixel read at two gains each is four captures). Captures see the same light, each with its own shot and read noise;
+//! a second reading has its own read noise only. Captures are listed by falling sensitivity.
 //!
 //! - [`merge`]: the first capture that is not saturated, scaled ([`merge`](mod@merge)).
 //! - [`companding`]: fewer bits by straight lines ([`companding`](mod@companding)).
@@ -38,11 +38,11 @@ pub struct Capture {
     pub full_well_e: Option<f64>,
     /// Its read noise, e⁻; `None`: the first's.
     pub read_noise_e: Option<f64>,
-    /// Whether it reads the charge of the capture before it once more.
+    /// True if it reads the charge of the previous capture again.
     pub dual_conversion_gain: bool,
 }
 
-/// The first capture once more.
+/// Equal to the first capture.
 impl Default for Capture {
     fn default() -> Self {
         Self {
@@ -56,27 +56,27 @@ impl Default for Capture {
     }
 }
 
-/// Several captures a frame, and fewer bits by a curve.
+/// Several captures per frame, and fewer bits by a curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HighDynamicRange {
     /// Captures after the first.
     pub captures: Vec<Capture>,
-    /// Fraction of a capture's range above which the next one is taken, (0, 1); `None`: 0.9.
+    /// Fraction of a capture's range above which the next one is used, (0, 1); `None`: 0.9.
     pub transition_level: Option<f64>,
-    /// Bits of the merged number, the converter's to 24; `None` without captures.
+    /// Bits of the merged number, from the ADC's to 24; `None` without captures.
     pub bits: Option<u32>,
-    /// Fewer bits by a curve.
+    /// Companding to fewer bits.
     pub companding: Option<Companding>,
 }
 
 impl Capture {
-    /// Numbers of the first capture a number of this one.
+    /// Numbers of the first capture per number of this one.
     #[must_use]
     pub fn scale(&self) -> f64 {
         1.0 / (self.exposure_ratio * self.sensitivity_ratio * self.gain_ratio)
     }
 
-    /// How this capture is taken, where `first` is how the first one is.
+    /// The operation of this capture, given that of the `first`.
     pub(crate) fn operation(&self, first: &Operation) -> Operation {
         Operation {
             exposure_s: first.exposure_s * self.exposure_ratio,
@@ -105,12 +105,12 @@ impl Capture {
 }
 
 impl HighDynamicRange {
-    /// The fraction of a capture's range above which the next one is taken.
+    /// The fraction of a capture's range above which the next one is used.
     pub(crate) fn switch(&self) -> f64 {
         self.transition_level.unwrap_or(0.9)
     }
 
-    /// Numbers of the first capture a number of capture `k`; a second reading is relative to the charge it reads.
+    /// Numbers of the first capture per number of capture `k`; a second reading is relative to the charge it reads.
     pub(crate) fn scale(&self, k: usize) -> f64 {
         match k.checked_sub(1) {
             None => 1.0,
@@ -119,7 +119,7 @@ impl HighDynamicRange {
         }
     }
 
-    /// The scale, but for the gain, of the charge that capture `k` holds.
+    /// The scale, without the gain, of the charge that capture `k` holds.
     fn charge_scale(&self, k: usize) -> f64 {
         match k.checked_sub(1).map(|i| &self.captures[i]) {
             None => 1.0,
@@ -128,7 +128,7 @@ impl HighDynamicRange {
         }
     }
 
-    /// How all captures are taken.
+    /// The operations of all captures.
     pub(crate) fn operations(&self, first: Operation) -> Vec<Operation> {
         let mut all = vec![first];
         for capture in &self.captures {
@@ -142,7 +142,7 @@ impl HighDynamicRange {
         all
     }
 
-    /// Refuses captures that are illegal, one by one.
+    /// Refuses captures that are illegal individually.
     pub(crate) fn check_each(&self, checks: &mut Checks) {
         self.captures.iter().enumerate().for_each(|(i, capture)| capture.check(i, checks));
         if let Some(level) = self.transition_level {
@@ -158,7 +158,7 @@ impl Effect for HighDynamicRange {
     const NAME: &'static str = "merging of captures";
     const KEY: &'static str = "sensor.hdr";
 
-    /// Captures are checked with the whole sensor, when its own figures are legal.
+    /// Captures are checked with the whole sensor, once its own values are legal.
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {

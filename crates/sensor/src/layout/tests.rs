@@ -46,7 +46,7 @@ fn the_delivered_picture_has_its_size_and_its_coordinates() {
     assert_eq!(sensor.in_picture([5.0, 3.0]), [1.5, 1.0]);
 }
 
-/// Bayer tiles, of every two columns of tiles and three rows of them the first, of 8 × 12 pixels that are each its own number.
+/// Bayer tiles: of every two columns and three rows of tiles only the first is read, of 8 × 12 pixels that each hold their own number.
 #[test]
 fn skipped_tiles_are_not_in_the_raw_and_leave_the_others_as_they_are() {
     let mut p = quiet();
@@ -72,7 +72,7 @@ fn skipped_tiles_are_not_in_the_raw_and_leave_the_others_as_they_are() {
     assert_eq!(part, Region { x: 2, y: 2, width: 2, height: 2 }.of(&read));
 }
 
-/// The middle of the tile that is read, and of the next one.
+/// The centre of the tile that is read, and of the next one.
 #[test]
 fn points_of_a_thinned_picture_lie_where_its_tiles_do() {
     let mut layout = Layout { skipping: Some(Skipping { columns: 2, rows: 3 }), ..Layout::default() };

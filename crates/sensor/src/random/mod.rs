@@ -1,4 +1,4 @@
-//! Random numbers for sensors: our own, because their bits are promised.
+//! Random numbers for sensors: our own implementation, because their bits are guaranteed.
 
 mod normal;
 pub(crate) mod pattern;

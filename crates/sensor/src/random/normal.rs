@@ -1,19 +1,18 @@
 //! Standard normal numbers by inversion.
 //!
-//! One double word makes one number: u = (52 bits + ½)/2⁵² in (0, 1), then Wichura's quantile (1988, AS 241, PPND16:
-//! relative error about 1e-16). Nine in ten draws need no transcendental function. The tails end at ±8.2 standard
-//! deviations, where the probability beyond is 2⁻⁵³.
+//! One double word gives one number: u = (52 bits + ½)/2⁵² in (0, 1), then Wichura's quantile (1988, AS 241, PPND16: relative error about 1e-16).
+//! Nine in ten samples need no transcendental function. The tails end at ±8.2 standard deviations, where the probability beyond is 2⁻⁵³.
 
 use etendue_core::{maths::f64::ln, random::NoiseStream};
 
-/// The next standard normal number of a stream.
+/// Samples the next standard normal number of a stream.
 #[must_use]
 pub fn standard_normal(stream: &mut NoiseStream) -> f64 {
     let u = ((stream.double_word() >> 12) as f64 + 0.5) * (1.0 / 4_503_599_627_370_496.0);
     quantile(u)
 }
 
-/// The standard normal number below which a fraction `u` in (0, 1) lies.
+/// The quantile of the standard normal distribution at `u` in (0, 1).
 fn quantile(u: f64) -> f64 {
     let q = u - 0.5;
     if q.abs() <= 0.425 {
@@ -113,7 +112,7 @@ mod tests {
 
     #[test]
     fn the_quantile_is_that_of_another_method() {
-        // stats finds it by Halley's iteration on erfc, to 1e-12.
+        // The stats crate finds it by Halley's iteration on erfc, to 1e-12.
         for i in 1..2000 {
             let u = f64::from(i) / 2000.0;
             assert!((quantile(u) - normal::quantile(u)).abs() < 1e-12 * normal::quantile(u).abs().max(0.01), "{u}");

@@ -1,13 +1,12 @@
 //! Normal deviations with a white, a row and a column part.
 //!
-//! d(x, y) = σ_w z(x, y) + σ_r z(y) + σ_c z(x), z standard normal and independent (EMVA 1288 release 4 splits non-uniformity in
-//! the same three parts). A part of zero draws nothing.
+//! d(x, y) = σ_w z(x, y) + σ_r z(y) + σ_c z(x), z standard normal and independent (EMVA 1288 release 4 splits non-uniformity into the same three
+//! parts). A zero part uses no random numbers.
 //!
-//! A small fraction of pixels, found without asking each.
+//! A small fraction of pixels, selected without testing each pixel.
 //!
-//! Each pixel is chosen with probability p, independently. The gaps between chosen pixels of a row are then geometric,
-//! P(gap ≥ n) = (1 − p)ⁿ, and are drawn by inversion: ⌊ln u / ln (1 − p)⌋. What is said of a chosen pixel is drawn from the
-//! same stream, right after it.
+//! Each pixel is selected with probability p, independently. The gaps between selected pixels of a row are then geometric, P(gap ≥ n) = (1 − p)ⁿ, and
+//! are sampled by inversion: ⌊ln u / ln (1 − p)⌋. The properties of a selected pixel come from the same stream, directly after it.
 
 use etendue_core::maths::f64::{ln, ln_1p};
 use etendue_core::random::{NoiseDraw, NoiseKey, NoiseStream, Pixel};
@@ -29,7 +28,7 @@ impl Sigmas {
 }
 
 impl Sigmas {
-    /// The parts that there are, in words: `pixels by 0.01, rows by 0.002`, each with its unit.
+    /// The non-zero parts in words: `pixels by 0.01, rows by 0.002`, each with its unit.
     pub(crate) fn described(self, unit: &str) -> String {
         let parts = [("pixels", self.white), ("rows", self.row), ("columns", self.column)];
         let stated = parts.into_iter().filter(|(_, sigma)| *sigma > 0.0);
@@ -37,7 +36,7 @@ impl Sigmas {
     }
 }
 
-/// Draws of the three parts: of a pixel, of a row (at column 0), of a column (at row 0).
+/// Random numbers of the three parts: of a pixel, of a row (at column 0), of a column (at row 0).
 pub(crate) type Draws = [NoiseDraw; 3];
 
 /// Deviations of an array, prepared.
@@ -45,7 +44,7 @@ pub(crate) type Draws = [NoiseDraw; 3];
 pub(crate) struct Deviations {
     white: Option<(f64, NoiseKey)>,
     row: Option<(f64, NoiseKey)>,
-    /// Empty where there is no column part.
+    /// Empty if there is no column part.
     columns: Vec<f64>,
 }
 
@@ -60,7 +59,7 @@ impl Deviations {
         Self { white: part(sigmas.white, white), row: part(sigmas.row, row), columns }
     }
 
-    /// The deviations of row `y`, each given to `take` with its column.
+    /// Calls `take` with the column and deviation of each pixel of row `y`.
     pub(crate) fn of_row(&self, y: u32, width: usize, mut take: impl FnMut(usize, f64)) {
         let row = self.row.map_or(0.0, |(sigma, key)| sigma * normal(key, 0, y));
         for x in 0..width {
@@ -75,7 +74,7 @@ fn normal(key: NoiseKey, x: u32, y: u32) -> f64 {
     standard_normal(&mut key.stream(Pixel { x, y }))
 }
 
-/// The columns of row `y` that a fraction of pixels has, in order, with the stream for what is said of each.
+/// Visits the selected columns of row `y` in order, with the stream for the properties of each.
 pub(crate) fn each(key: NoiseKey, y: u32, fraction: f64, width: usize, mut take: impl FnMut(usize, &mut NoiseStream)) {
     let mut stream = key.stream(Pixel { x: 0, y });
     let mut x = 0;
@@ -97,7 +96,7 @@ fn after_gap(x: usize, fraction: f64, width: usize, stream: &mut NoiseStream) ->
     if gap < (width - x) as f64 { x + gap as usize } else { width }
 }
 
-/// A number of the exponential distribution of a mean.
+/// A sample of the exponential distribution of a mean.
 pub(crate) fn exponential(mean: f64, stream: &mut NoiseStream) -> f64 {
     -mean * ln(1.0 - stream.unit_f64())
 }
@@ -121,8 +120,8 @@ mod tests {
         let row_means: Vec<f64> = d.iter().map(|row| row.iter().sum::<f64>() / n as f64).collect();
         let column_means: Vec<f64> = (0..n).map(|x| d.iter().map(|row| row[x]).sum::<f64>() / n as f64).collect();
         let variance = |values: &[f64]| Moments::of(values.iter().copied()).variance().expect("many");
-        // A mean over n pixels keeps σ_w²/n and, common to all, the mean of the other part. A variance of n normal numbers is
-        // known to √(2/n) = 6.3 %; four of those.
+        // A mean over n pixels keeps σ_w²/n and, common to all, the mean of the other part. A variance of n normal numbers is known to √(2/n) = 6.3
+        // %; tolerance: four of those.
         assert!((variance(&row_means) / (4.0 + 9.0 / 512.0) - 1.0).abs() < 0.25);
         assert!((variance(&column_means) / (1.0 + 9.0 / 512.0) - 1.0).abs() < 0.25);
         let mean = row_means.iter().sum::<f64>() / n as f64;

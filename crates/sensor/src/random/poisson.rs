@@ -1,12 +1,10 @@
 //! Poisson numbers, exact at every mean.
 //!
-//! - Mean below 10: inversion by sequential search, one uniform number of 53 bits. Probabilities are those of the
-//!   distribution to 2⁻⁵³.
-//! - Mean of 10 and above: transformed rejection with squeeze, PTRS (Hörmann 1993, "The transformed rejection method for
-//!   generating Poisson random variables"), 1.1 to 1.2 trials a number. The acceptance test compares with ln of the
-//!   probability in Loader's saddle-point form (2000, "Fast and accurate computation of binomial probabilities"):
-//!   ln p(k) = −½ ln(2πk) − δ(k) − D, D = k ln(k/μ) + μ − k without cancellation, so it holds its digits at means of
-//!   1e12 and above, where −μ + k ln μ − ln k! would not.
+//! - Mean below 10: inversion by sequential search, with one uniform number of 53 bits. Probabilities are those of the distribution to 2⁻⁵³.
+//! - Mean of 10 and above: transformed rejection with squeeze, PTRS (Hörmann 1993, "The transformed rejection method for generating Poisson random
+//!   variables"), 1.1 to 1.2 trials per number. The acceptance test compares with ln of the probability in Loader's saddle-point form (2000, "Fast
+//!   and accurate computation of binomial probabilities"): ln p(k) = −½ ln(2πk) − δ(k) − D, D = k ln(k/μ) + μ − k without cancellation. It keeps its
+//!   digits at means of 1e12 and above, where −μ + k ln μ − ln k! would not.
 //!
 //! No normal approximation at any mean: a rounded normal number fails a χ² test far above a mean of 50.
 
@@ -15,7 +13,7 @@ use core::f64::consts::PI;
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::NoiseStream;
 
-/// A Poisson distribution, prepared for drawing.
+/// A Poisson distribution, prepared for sampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Poisson {
     mean: f64,
@@ -32,7 +30,7 @@ enum Method {
 const REJECTION_FROM: f64 = 10.0;
 
 impl Poisson {
-    /// The distribution of a mean. `None` where the mean is negative or not finite.
+    /// The distribution of a mean. `None` if the mean is negative or not finite.
     #[must_use]
     pub fn new(mean: f64) -> Option<Self> {
         if !(mean.is_finite() && mean >= 0.0) {
@@ -56,7 +54,7 @@ impl Poisson {
         }
     }
 
-    /// The next number of a stream: whole, and exact as long as it is below 2⁵³.
+    /// Samples the next number of a stream: an integer, exact below 2⁵³.
     #[must_use]
     pub fn draw(&self, stream: &mut NoiseStream) -> f64 {
         match self.method {
@@ -95,7 +93,7 @@ fn invert(mean: f64, probability_of_zero: f64, u: f64) -> f64 {
     k
 }
 
-/// ln of the probability of k (whole, not negative) under a mean of at least 10.
+/// ln of the probability of k (an integer, not negative) under a mean of at least 10.
 fn ln_probability(k: f64, mean: f64) -> f64 {
     if k < 10.0 {
         let factorial = (1..=k as u32).fold(1.0, |f, i| f * f64::from(i));
@@ -104,13 +102,13 @@ fn ln_probability(k: f64, mean: f64) -> f64 {
     -0.5 * ln(2.0 * PI * k) - stirling_error(k) - deviance(k, mean)
 }
 
-/// δ(k) = ln k! − ((k + ½) ln k − k + ½ ln 2π), by its series; below 1e-13 off at k = 10.
+/// δ(k) = ln k! − ((k + ½) ln k − k + ½ ln 2π), by its series; the error is below 1e-13 at k = 10.
 fn stirling_error(k: f64) -> f64 {
     let s = 1.0 / (k * k);
     (1.0 / 12.0 - s * (1.0 / 360.0 - s * (1.0 / 1260.0 - s * (1.0 / 1680.0 - s * (1.0 / 1188.0))))) / k
 }
 
-/// k ln(k/μ) + μ − k, by its series in v = (k − μ)/(k + μ) where the terms would cancel.
+/// k ln(k/μ) + μ − k, by its series in v = (k − μ)/(k + μ) if the terms would cancel.
 fn deviance(k: f64, mean: f64) -> f64 {
     let difference = k - mean;
     if difference.abs() >= 0.1 * (k + mean) {
@@ -149,7 +147,7 @@ mod tests {
         (0..count).map(|_| poisson.draw(&mut stream)).collect()
     }
 
-    /// Edges of up to 80 bins over ±4 standard deviations: a bin holds the whole numbers from its edge to the next.
+    /// Edges of up to 80 bins over ±4 standard deviations: a bin holds the integers from its edge to the next.
     fn edges(mean: f64) -> Vec<f64> {
         let step = (mean.sqrt() / 10.0).ceil().max(1.0);
         let low = ((mean - 40.0 * step).max(0.0)).floor();
@@ -176,7 +174,7 @@ mod tests {
 
     #[test]
     fn draws_are_poisson() {
-        // Each χ² fails wrongly once in a thousand seeds; these are fixed.
+        // Each χ² test fails wrongly for one in a thousand seeds; these seeds are fixed.
         for (i, mean) in [0.1, 1.0, 9.9, 10.0, 14.3, 50.0, 1e4, 1e6].into_iter().enumerate() {
             let edges = edges(mean);
             let counts = counted(&draws(mean, 100 + i as u64, DRAWS), &edges);
@@ -238,7 +236,7 @@ mod tests {
         for mean in [-1.0, f64::NAN, f64::INFINITY] {
             assert!(Poisson::new(mean).is_none());
         }
-        // The last of all uniform numbers ends the search.
+        // The largest uniform number terminates the search.
         assert!(invert(9.99, exp(-9.99), 1.0 - f64::EPSILON / 2.0) < 60.0);
     }
 

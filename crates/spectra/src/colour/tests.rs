@@ -36,7 +36,7 @@ fn what_is_no_colour_space_is_none() {
 fn white_is_that_of_the_tables() {
     let xyz = observer::xyz_of_reflectance(&Spectrum::constant(1.0), illuminant::d65());
     for c in 0..3 {
-        // Tables are kept in f32: 6e-8 a value, averaged over hundreds.
+        // Tables are stored in f32: 6e-8 per value, averaged over hundreds.
         assert!((xyz[c] - D65_WHITE[c]).abs() < 5e-8, "{xyz:?}");
     }
     // The standard's white, x = 0.3127, y = 0.3290, rounded to four digits.

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::Spectrum;
 
-/// One band of a sky, its radiance a product of functions of one angle each.
+/// One band of a sky; its radiance is a product of functions of one angle each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyBand {
     /// A, B, C, D, E, F, G, I, H, in the order of the authors' tables.
@@ -26,13 +26,13 @@ impl SkyBand {
         self.scale
     }
 
-    /// 1 + A e^(B/(cos θ + 0.01)): from zenith to horizon.
+    /// 1 + A e^(B/(cos θ + 0.01)): gradient from zenith to horizon.
     #[must_use]
     pub fn gradient(&self, cos_zenith: f64) -> f64 {
         1.0 + self.shape[0] * maths::f64::exp(self.shape[1] / (cos_zenith + 0.01))
     }
 
-    /// C + D e^(Eγ) + F cos²γ + G χ(H, γ): about the Sun.
+    /// C + D e^(Eγ) + F cos²γ + G χ(H, γ): glow about the Sun.
     #[must_use]
     pub fn glow(&self, cos_sun: f64) -> f64 {
         let [_, _, c, d, e, f, g, _, h] = self.shape;
@@ -66,11 +66,11 @@ pub struct SkyModel {
 }
 
 impl SkyModel {
-    /// The sky at a turbidity of 1 to 10, over ground of an albedo of 0 to 1, with the Sun at an elevation of −π/2 to
-    /// π/2; below the horizon see [`sky`](super).
+    /// Creates the sky at a turbidity of 1 to 10, over ground of an albedo of 0 to 1, with the Sun at an elevation of −π/2 to π/2; for the Sun below
+    /// the horizon see [`sky`](super).
     ///
     /// # Errors
-    /// Where a number is out of range.
+    /// If a number is out of range.
     pub fn new(turbidity: f64, ground_albedo: f64, sun_elevation_rad: f64) -> Result<Self, SkyError> {
         check_turbidity(turbidity)?;
         check_albedo(ground_albedo)?;
@@ -100,7 +100,7 @@ impl SkyModel {
         &self.bands
     }
 
-    /// Elevation of the point from which γ is measured: the Sun, or the horizon under which it stands.
+    /// Elevation of the point from which γ is measured: the Sun, or the horizon point above it if it has set.
     #[must_use]
     pub fn glow_elevation_rad(&self) -> f64 {
         self.glow_elevation_rad
@@ -149,13 +149,13 @@ impl SkyModel {
     }
 }
 
-/// Cosine of the angle between a direction and the Sun, whose elevation has the sine and cosine given.
+/// Cosine of the angle between a direction and the Sun, given the sine and cosine of the Sun's elevation.
 fn cos_between(cos_zenith: f64, sun_sin: f64, sun_cos: f64, azimuth: f64) -> f64 {
     let sin_zenith = (1.0 - cos_zenith * cos_zenith).max(0.0).sqrt();
     cos_zenith * sun_sin + sin_zenith * sun_cos * maths::f64::cos(azimuth)
 }
 
-/// What the four corners in albedo and turbidity weigh, and the six control points of an elevation.
+/// Weights of the four corners in albedo and turbidity, and of the six control points of an elevation.
 struct Corners {
     weights: [(usize, f64); 4],
     points: [f64; 6],
@@ -173,7 +173,7 @@ impl Corners {
         Self { weights, points: bernstein(maths::f64::cbrt((elevation_rad / FRAC_PI_2).min(1.0))) }
     }
 
-    /// Number `k` of `count` a control point, in a band.
+    /// Value `k` of `count` per control point, in a band.
     fn value(&self, table: &[Row], count: usize, k: usize, band: usize) -> f64 {
         let curve =
             |corner: usize| -> f64 { (0..6).map(|p| self.points[p] * table[(corner * 6 + p) * count + k][band]).sum() };
@@ -199,7 +199,7 @@ mod tests {
 
     #[test]
     fn control_points_are_the_tables_own() {
-        // At the horizon the curve is its first control point, in the zenith its last.
+        // At the horizon the curve is its first control point, at the zenith its last.
         for (elevation, point) in [(0.0, 0), (90.0, 5)] {
             let sky = model(4.0, 1.0, elevation);
             for (b, band) in sky.bands().iter().enumerate() {
@@ -242,13 +242,13 @@ mod tests {
         }
         let fine = 2.0 * PI * FRAC_PI_2 * sum / f64::from(rings * sectors);
         let got = f64::from(sky.horizontal_irradiance().at(560.0));
-        // The glow of some degrees about the Sun is the finest thing in the sky; a cell is 2° to 4°.
+        // The glow within some degrees of the Sun is the finest feature of the sky; a cell is 2° to 4°.
         assert!((got / fine - 1.0).abs() < 2e-3, "{got} against {fine}");
     }
 
     #[test]
     fn a_clear_sky_is_as_bright_as_measured() {
-        // A clear sky without its Sun gives 10 to 20 klx by day, as is commonly stated; haze and ground add to it.
+        // A clear sky without its Sun gives 10 to 20 klx by day, as commonly stated; haze and ground add to it.
         let lux =
             [(2.0, 0.0), (2.0, 0.2), (4.0, 0.2), (6.0, 0.2)].map(|(t, a)| model(t, a, 60.0).horizontal_illuminance());
         assert!((10e3..20e3).contains(&lux[1]), "{lux:?}");
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn brightness_goes_on_below_the_horizon() {
         let lux = |elevation| model(3.0, 0.2, elevation).horizontal_illuminance();
-        // A Sun of 1e-6° more or less: the cube root of 1e-6/90 is 0.002, of which the curve takes some times as much.
+        // A change of the Sun's elevation by 1e-6°: the cube root of 1e-6/90 is 0.002; the curve changes by some times as much.
         assert!((lux(-1e-6) / lux(1e-6) - 1.0).abs() < 0.02, "{} and {}", lux(-1e-6), lux(1e-6));
         assert!((lux(-1e-6) / lux(0.0) - 1.0).abs() < 1e-6);
         for elevation in [-6.0, -9.0, -15.0, -18.0, -50.0, -90.0] {

@@ -1,25 +1,24 @@
 //! Sun and sky: the clear sky of Hosek & Wilkie (2012) and the Sun through it (Hosek & Wilkie 2013).
 //!
-//! **Sky.** With θ the angle of a direction from the zenith and γ its angle from the Sun, a band's radiance is
-//! L = L̄ · (1 + A e^(B/(cos θ + 0.01))) · (C + D e^(Eγ) + F cos²γ + G χ(H, γ) + I √cos θ), with
-//! χ(H, γ) = (1 + cos²γ)/(1 + H² − 2H cos γ)^(3/2), in W·m⁻²·sr⁻¹·nm⁻¹. The nine coefficients and L̄ are tabulated for
-//! bands at 320, 360, … 720 nm, turbidity 1, 2, … 10 and ground albedo 0 and 1; between these they are linear, and in
-//! the Sun's elevation quintic Bézier curves over the cube root of elevation/90°. Radiance is linear in wavelength
-//! between bands. The fit dips below zero in some directions low over the horizon at a low Sun: there it is zero.
+//! **Sky.** With θ the angle of a direction from the zenith and γ its angle from the Sun, a band's radiance is L = L̄ · (1 + A e^(B/(cos θ + 0.01)))
+//! · (C + D e^(Eγ) + F cos²γ + G χ(H, γ) + I √cos θ), with χ(H, γ) = (1 + cos²γ)/(1 + H² − 2H cos γ)^(3/2), in W·m⁻²·sr⁻¹·nm⁻¹. The nine coefficients
+//! and L̄ are tabulated for bands at 320, 360, … 720 nm, turbidity 1, 2, … 10 and ground albedo 0 and 1. They are linear between these, and quintic
+//! Bézier curves over the cube root of elevation/90° in the Sun's elevation. Radiance is linear in wavelength between bands. The fit is negative in
+//! some directions near the horizon at a low Sun: there the radiance is zero.
 //!
-//! **Ranges.** Turbidity 1 to 10, albedo 0 to 1, elevation −90° to 90°; 300 to 1 100 nm, continued below. The
-//! albedo is one number for all bands. Directions below the horizon have no sky: zero.
+//! **Ranges.** Turbidity 1 to 10, albedo 0 to 1, elevation −90° to 90°; 300 to 1 100 nm, continued as described below. The albedo is one number for
+//! all bands. The radiance of directions below the horizon is zero.
 //!
-//! **Below the horizon** the model ends. See below for the sky, [`mod@sun`] for the Sun.
+//! **Sun below the horizon**: outside the model. See below for the sky, [`mod@sun`] for the Sun.
 //!
-//! **Left out.** Clouds, refraction, altitude, polarisation, ozone and water vapour that vary, the blue hour's colour,
-//! city light, Moon and stars but for the floor of the night.
+//! **Left out.** Clouds, refraction, altitude, polarisation, variable ozone and water vapour, the colour of twilight, city light, Moon and stars
+//! (except for the minimum brightness at night).
 //!
 //! Sources: L. Hosek and A. Wilkie, *An Analytic Model for Full Spectral Sky-Dome Radiance*, ACM TOG 31(4), 2012;
 //! *Adding a Solar-Radiance Function to the Hošek–Wilkie Skylight Model*, IEEE CG&A 33(3), 2013; the authors' tables,
 //! version 1.4a.
 //!
-//! The sky when the Sun is below the horizon: a stated fallback, right in brightness and not in form or colour.
+//! The sky with the Sun below the horizon: a documented fallback, correct in brightness but not in form or colour.
 //!
 //! The sky of a Sun at the horizon is scaled so that level ground receives the published illuminance of a clear sky at
 //! the Sun's depression: log₁₀ E = Σ lₖ xᵏ with E in lx and x = elevation/90°, fitted piecewise to measurements
@@ -27,27 +26,25 @@
 //! 750 lx at the horizon, 3.4 lx at −6°, 0.008 lx at −12° and 6.5·10⁻⁴ lx at −18°. Below −18° the sky keeps that last
 //! value, about that of a moonless, starlit night.
 //!
-//! The model's own sky at the horizon differs from the published one, so that their ratio, to the power 1 − d/6°, is
-//! kept down to a depression d of 6°: brightness goes on without a step and is the published one from there on.
+//! The model's own sky at the horizon differs from the published one. Their ratio, to the power 1 − d/6°, is applied down to a depression d of 6°:
+//! brightness is continuous and equals the published one from there on.
 //!
 //! **Left out:** the glow's true form, the Earth's shadow, the blue of ozone, Moon, city light.
 //!
-//! Between the bands, and beyond them to 300 and 1 100 nm.
+//! Spectral interpolation between the bands, and extrapolation to 300 and 1 100 nm.
 //!
-//! Between 320 and 720 nm radiance is linear between bands. Beyond, it has the shape of ASTM G-173: the Sun that of
-//! direct light, the sky that of global less direct light, at the scale
-//! L(λ) = L(band) · S(λ)/S̄(band), with S̄ the mean of the shape S over the outermost band:
+//! Between 320 and 720 nm radiance is linear between bands. Beyond, it has the shape of ASTM G-173: direct light for the Sun, global less direct
+//! light for the sky, at the scale L(λ) = L(band) · S(λ)/S̄(band), with S̄ the mean of the shape S over the outermost band:
 //!
-//! - **320 nm**: under the hat 1 − |λ − 320 nm|/20 nm (300–340 nm: the shape has nothing below);
-//! - **720 nm**: under the hat 1 − |λ − 720 nm|/40 nm (680–760 nm, the band's own weight in the interpolation), leaving
-//!   out 686–695 nm and 714–735 nm, where oxygen and water absorb: the tables of the model know neither.
+//! - **320 nm**: with the triangular weight 1 − |λ − 320 nm|/20 nm (300–340 nm: the shape has no data below);
+//! - **720 nm**: with the triangular weight 1 − |λ − 720 nm|/40 nm (680–760 nm, the band's own weight in the interpolation), leaving out 686–695 nm
+//!   and 714–735 nm, the absorption bands of oxygen and water, which the model's tables do not contain.
 //!
-//! So band means go on without a step while the shape's own absorption lines remain: just above 720 nm lies the rest of
-//! a water band, which the model below lacks.
+//! Band means are therefore continuous, while the shape's own absorption lines remain: the end of a water band lies just above 720 nm, which the
+//! model below lacks.
 //!
-//! **Left out.** The shape is that of one air mass (1.5), one turbidity and one albedo; a low Sun is redder beyond
-//! 720 nm. The global light of the standard falls on a plane tilted 37° and holds light from the ground.
-//! Source: ASTM G-173-03 (2012).
+//! **Left out.** The shape is that of one air mass (1.5), one turbidity and one albedo; a low Sun is redder beyond 720 nm. The global light of the
+//! standard falls on a plane tilted 37° and includes light from the ground. Source: ASTM G-173-03 (2012).
 
 mod dome;
 pub mod sun;
@@ -62,18 +59,18 @@ use crate::{Spectrum, illuminant, table};
 
 pub use dome::{SkyBand, SkyModel};
 
-/// How many bands the tables have.
+/// Number of bands in the tables.
 pub const BANDS: usize = 11;
 /// The first band, nm.
 pub const FIRST_NM: f64 = 320.0;
 /// The last band, nm.
 pub const LAST_NM: f64 = 720.0;
-/// From one band to the next, nm.
+/// Distance between bands, nm.
 pub const STEP_NM: f64 = 40.0;
 /// Turbidities of the tables.
 pub const TURBIDITIES: RangeInclusive<f64> = 1.0..=10.0;
 
-/// Why there is no such sky.
+/// Error of a sky's parameters.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SkyError {
     /// Turbidity outside the tables.
@@ -81,19 +78,19 @@ pub enum SkyError {
         "turbidity {found} is outside 1 to 10: 1 is air without haze, 2 very clear, 3 clear, 6 hazy, 10 thick haze"
     )]
     Turbidity {
-        /// The number given.
+        /// Value given.
         found: f64,
     },
-    /// An albedo that is none.
+    /// An albedo outside 0 to 1.
     #[error("ground albedo {found} is outside 0 to 1: give the share of light that the land around reflects")]
     Albedo {
-        /// The number given.
+        /// Value given.
         found: f64,
     },
-    /// An elevation that is none.
+    /// An elevation outside −90° to 90°.
     #[error("the Sun's elevation of {degrees}° is outside −90° to 90°: give its angle above the horizon")]
     Elevation {
-        /// The angle given, degrees.
+        /// Angle given, degrees.
         degrees: f64,
     },
 }
@@ -107,17 +104,17 @@ fn check_albedo(found: f64) -> Result<(), SkyError> {
 }
 
 fn check_elevation(rad: f64) -> Result<(), SkyError> {
-    // A hair more than 90°, for angles that were converted.
+    // Slightly more than 90° is accepted, for converted angles.
     if rad.abs() <= FRAC_PI_2 + 1e-12 { Ok(()) } else { Err(SkyError::Elevation { degrees: rad.to_degrees() }) }
 }
 
-/// The table's turbidity at or below, counted from 0 and never the last, and how far on it lies.
+/// The table's turbidity at or below, counted from 0 and never the last, and the fraction towards the next.
 fn turbidity_step(turbidity: f64) -> (usize, f64) {
     let low = ((turbidity - 1.0) as usize).min(8);
     (low, turbidity - 1.0 - low as f64)
 }
 
-/// One row of a table: a number for each band.
+/// One row of a table: a value per band.
 type Row = [f64; BANDS];
 
 fn rows(text: &str) -> Vec<Row> {
@@ -142,17 +139,17 @@ static LIMB: LazyLock<Vec<[f64; 6]>> = LazyLock::new(|| {
     rows.into_iter().map(|(_, [_nm, powers @ ..])| powers).collect()
 });
 
-/// Lowest elevation at which a fit ends, degrees, and the fit.
+/// Lower limit of each fit's elevation, degrees, and the fit.
 const FITS: [(f64, [f64; 4]); 3] = [
     (-5.0, [2.88, 21.81, -258.11, -858.36]),
     (-12.0, [2.70, 12.17, -431.69, -1899.83]),
     (NIGHT_DEG, [13.84, 262.72, 1447.42, 2797.93]),
 ];
 
-/// From here down the sky stays as it is, degrees.
+/// Elevation below which the sky is constant, degrees.
 pub const NIGHT_DEG: f64 = -18.0;
 
-/// From here down the illuminance is the published one, degrees.
+/// Elevation below which the illuminance is the published one, degrees.
 const PUBLISHED_DEG: f64 = -6.0;
 
 /// Illuminance of level ground under a clear sky with the Sun at an elevation of 0° or below, lx.
@@ -164,17 +161,17 @@ pub fn illuminance(elevation_deg: f64) -> f64 {
     maths::f64::pow(10.0, fit.iter().rev().fold(0.0, |sum, l| sum * x + l))
 }
 
-/// What scales a sky that gives `horizon_lx` with the Sun at the horizon.
+/// Scale factor of a sky that gives `horizon_lx` with the Sun at the horizon.
 fn factor(horizon_lx: f64, elevation_deg: f64) -> f64 {
     let kept = (1.0 - elevation_deg / PUBLISHED_DEG).max(0.0);
     let ratio = maths::f64::pow(horizon_lx / illuminance(0.0), kept);
     illuminance(elevation_deg) * ratio / horizon_lx
 }
 
-/// Wavelengths at which oxygen and water absorb, left out of means, nm.
+/// Absorption bands of oxygen and water, excluded from means, nm.
 const GAS_NM: [(f64, f64); 2] = [(686.0, 695.0), (714.0, 735.0)];
 
-/// How much of two neighbouring bands makes the radiance at a wavelength.
+/// Weights of two neighbouring bands for the radiance at a wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mix {
     /// The lower band.
@@ -184,7 +181,7 @@ pub struct Mix {
 }
 
 impl Mix {
-    /// The mix of one value a band.
+    /// The mix of one value per band.
     #[must_use]
     pub fn of(&self, values: &[f64; BANDS]) -> f64 {
         self.weights[0] * values[self.band] + self.weights[1] * values[self.band + 1]
@@ -203,13 +200,13 @@ pub fn sun(nm: f64) -> Mix {
     mix(nm, &CONTINUATION_SUN)
 }
 
-/// The sky's spectrum from one value a band.
+/// The sky's spectrum from one value per band.
 #[must_use]
 pub fn sky_spectrum(values: &[f64; BANDS]) -> Spectrum {
     Spectrum::from_fn(|nm| sky(nm).of(values))
 }
 
-/// The Sun's spectrum from one value a band.
+/// The Sun's spectrum from one value per band.
 #[must_use]
 pub fn sun_spectrum(values: &[f64; BANDS]) -> Spectrum {
     Spectrum::from_fn(|nm| sun(nm).of(values))
@@ -233,7 +230,7 @@ fn shape(light: &Spectrum) -> Shape {
     Shape { below: relative(FIRST_NM, FIRST_NM - 300.0), above: relative(LAST_NM, STEP_NM) }
 }
 
-/// The mean about a wavelength with weights that fall linearly to zero, without the gases' bands.
+/// The mean about a wavelength with triangular weights, excluding the gas bands.
 fn mean_under_hat(light: &Spectrum, centre_nm: f64, half_nm: f64) -> f64 {
     let in_gas = |nm: f64| GAS_NM.iter().any(|(low, high)| (*low..=*high).contains(&nm));
     let weight = |nm: f64| if in_gas(nm) { 0.0 } else { (1.0 - (nm - centre_nm).abs() / half_nm).max(0.0) };
@@ -256,7 +253,7 @@ fn mix(nm: f64, shape: &Shape) -> Mix {
     Mix { band, weights: [1.0 - t, t] }
 }
 
-/// The band at or below a wavelength, never the last, and how far on the wavelength lies, in [0, 1].
+/// The band at or below a wavelength, never the last, and the fraction towards the next, in [0, 1].
 fn band_below(nm: f64) -> (usize, f64) {
     let x = ((nm - FIRST_NM) / STEP_NM).clamp(0.0, (BANDS - 1) as f64);
     let band = (x as usize).min(BANDS - 2);
@@ -290,8 +287,7 @@ mod tests {
 
     #[test]
     fn published_figures() {
-        // Illuminances commonly stated for these moments: 759, 3.4, 8.3e-3 and 6.5e-4 lx; fits of such data are good to 0.03
-        // in the logarithm.
+        // Commonly stated illuminances for these moments: 759, 3.4, 8.3e-3 and 6.5e-4 lx; fits of such data are accurate to 0.03 in the logarithm.
         for (degrees, lux) in [(0.0, 759.0), (-6.0, 3.4), (-12.0, 8.3e-3), (-18.0, 6.5e-4)] {
             let off = maths::f64::log10(illuminance(degrees) / lux);
             assert!(off.abs() < 0.03, "{degrees}°: {}", illuminance(degrees));
@@ -302,7 +298,7 @@ mod tests {
     #[test]
     fn fits_meet() {
         for degrees in [-5.0, -12.0, -18.0] {
-            // As good as the fits themselves.
+            // Accuracy of the fits themselves.
             let step = maths::f64::log10(illuminance(degrees - 1e-9) / illuminance(degrees + 1e-9));
             assert!(step.abs() < 0.03, "{degrees}°: {step}");
         }
@@ -317,16 +313,15 @@ mod tests {
         }
     }
 
-    /// The band's mean, by its own weights and without the gases, is the band: nothing steps there but what the gases
-    /// take.
+    /// The band's mean, with its own weights and without the gases, equals the band: the only steps there are the gas bands.
     #[test]
     fn means_go_on_across_the_joins() {
         for mix in [sky, sun] {
             for (centre, half, pick) in [(320.0, 20.0, 0), (720.0, 40.0, 1)] {
                 let shape = if pick == 0 { &SKY.below } else { &SKY.above };
                 assert!((mean_under_hat(shape, centre, half) - 1.0).abs() < 1e-6);
-                // Just outside the join and its gases the shape is near its mean. The light of 300 to 340 nm grows
-                // thirtyfold, so that its middle lies within a quarter of its mean; that of 735 nm loses 9 % to 15 nm.
+                // Just outside the join and its gases the shape is near its mean. The light of 300 to 340 nm grows thirtyfold, so its centre is
+                // within a quarter of its mean; the light at 735 nm loses 9 % to 15 nm.
                 let outside: f64 = if pick == 0 { 319.0 } else { 737.0 };
                 let value = mix(outside).weights[pick];
                 assert!((value - 1.0).abs() < if pick == 0 { 0.25 } else { 0.09 }, "{outside} nm: {value}");

@@ -1,15 +1,13 @@
 //! The Sun through the atmosphere: Hosek & Wilkie (2013).
 //!
-//! Radiance at the disc's centre, W·m⁻²·sr⁻¹·nm⁻¹, is a cubic in the elevation above the piece's lower end, in each of
-//! 45 pieces of equal width in the cube root of elevation/90°; linear in turbidity and between bands, continued beyond
-//! them as [`continuation`](super) says. With µ = √(1 − (sin γ/sin R)²) at the angle γ from the centre of
-//! a disc of radius R, a point of the disc has that radiance times Σ aₖ µᵏ (k = 0 … 5), which is 1 at the centre; its
-//! mean over the disc is Σ 2aₖ/(k + 2). Outside 320–720 nm the end bands' limb is held.
+//! Radiance at the disc's centre, W·m⁻²·sr⁻¹·nm⁻¹, is a cubic in the elevation above the piece's lower end, in each of 45 pieces of equal width in
+//! the cube root of elevation/90°. It is linear in turbidity and between bands, and extrapolated beyond them as described in [`continuation`](super).
+//! With µ = √(1 − (sin γ/sin R)²) at the angle γ from the centre of a disc of radius R, a point of the disc has that radiance times Σ aₖ µᵏ (k = 0 …
+//! 5), which is 1 at the centre; its mean over the disc is Σ 2aₖ/(k + 2). Outside 320–720 nm the limb darkening of the end bands is used.
 //!
-//! The tables hold the radiance of the real Sun, so the irradiance follows the disc: 0.5338° across.
-//! **Below the horizon** there is no direct light: the disc is whole while its centre stands at or above the horizon
-//! and gone when it stands below. The authors take each point of the disc at its own elevation; here the disc has its
-//! centre's. **Left out:** refraction, the flattened disc, the Earth's distance (±3.4 % over the
+//! The tables hold the radiance of the real Sun, so the irradiance follows the disc: 0.5338° across. **Below the horizon** there is no direct light:
+//! the disc is complete while its centre is at or above the horizon and absent when it is below. The authors evaluate each point of the disc at its
+//! own elevation; here the whole disc uses that of its centre. **Left out:** refraction, the flattened disc, the Earth's distance (±3.4 % over the
 //! year), spots.
 
 use core::f64::consts::{FRAC_PI_2, PI};
@@ -22,14 +20,14 @@ use crate::Spectrum;
 /// Diameter of the disc at the Earth's mean distance, degrees.
 pub const ANGULAR_DIAMETER_DEG: f64 = 0.5338;
 
-/// Pieces of the elevation.
+/// Number of elevation pieces.
 const PIECES: usize = 45;
 
-/// Spectral radiance at the disc's centre, W·m⁻²·sr⁻¹·nm⁻¹, 300 to 1 100 nm, at a turbidity of 1 to 10 and an elevation
-/// of −π/2 to π/2; zero below the horizon.
+/// Spectral radiance at the disc's centre, W·m⁻²·sr⁻¹·nm⁻¹, 300 to 1 100 nm, at a turbidity of 1 to 10 and an elevation of −π/2 to π/2; zero below
+/// the horizon.
 ///
 /// # Errors
-/// Where a number is out of range.
+/// If a number is out of range.
 pub fn radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     Ok(sun_spectrum(&band_radiances(turbidity, elevation_rad)?))
 }
@@ -37,7 +35,7 @@ pub fn radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError
 /// Radiance at the disc's centre in each band, W·m⁻²·sr⁻¹·nm⁻¹.
 ///
 /// # Errors
-/// Where a number is out of range.
+/// If a number is out of range.
 pub fn band_radiances(turbidity: f64, elevation_rad: f64) -> Result<[f64; BANDS], SkyError> {
     check_turbidity(turbidity)?;
     check_elevation(elevation_rad)?;
@@ -83,18 +81,18 @@ pub fn limb(nm: f64) -> [f64; 6] {
     core::array::from_fn(|k| (1.0 - t) * LIMB[band][k] + t * LIMB[band + 1][k])
 }
 
-/// Spectral radiance in the mean over the disc, W·m⁻²·sr⁻¹·nm⁻¹.
+/// Mean spectral radiance over the disc, W·m⁻²·sr⁻¹·nm⁻¹.
 ///
 /// # Errors
-/// Where a number is out of range.
+/// If a number is out of range.
 pub fn mean_radiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     Ok(radiance(turbidity, elevation_rad)?.product(&Spectrum::from_fn(limb_mean)))
 }
 
-/// Spectral irradiance of a plane that faces the Sun, W·m⁻²·nm⁻¹: π sin²R times the mean radiance.
+/// Spectral irradiance of a plane facing the Sun, W·m⁻²·nm⁻¹: π sin²R times the mean radiance.
 ///
 /// # Errors
-/// Where a number is out of range.
+/// If a number is out of range.
 pub fn normal_irradiance(turbidity: f64, elevation_rad: f64) -> Result<Spectrum, SkyError> {
     let sin = maths::f64::sin(0.5 * ANGULAR_DIAMETER_DEG.to_radians());
     Ok(mean_radiance(turbidity, elevation_rad)?.scaled(PI * sin * sin))
@@ -122,7 +120,7 @@ mod tests {
         }
     }
 
-    /// The fit was made piece by piece.
+    /// The fit is continuous across its pieces.
     #[test]
     fn pieces_meet() {
         for number in 1..PIECES {
@@ -142,7 +140,7 @@ mod tests {
     #[test]
     fn the_limb_is_one_at_the_centre_and_its_mean_is_an_integral() {
         for nm in [300.0, 320.0, 433.0, 560.0, 720.0, 1100.0] {
-            // As far as the authors' six digits and their fit go.
+            // Limited by the authors' six digits and their fit.
             assert!((limb_darkening(nm, 1.0) - 1.0).abs() < 2e-3, "{nm} nm");
             assert!((0..100).map(|i| limb_darkening(nm, f64::from(i) / 100.0)).is_sorted(), "{nm} nm");
             let n = 2000;
@@ -153,7 +151,7 @@ mod tests {
         assert_eq!((limb(300.0), limb(900.0)), (LIMB[0], LIMB[10]));
     }
 
-    /// The issue's bounds: clear sun at 60°, turbidity 2.
+    /// The bounds of the issue: clear sun at 60°, turbidity 2.
     #[test]
     fn a_clear_sun_is_as_bright_as_the_sun() {
         let e = 60f64.to_radians();
@@ -165,8 +163,8 @@ mod tests {
         assert!((85e3..110e3).contains(&(direct + sky)), "{direct} lx and {sky} lx");
     }
 
-    /// Through 1.5 air masses, against the standard's direct light, which has more haze (aerosol depth 0.084 at 500 nm)
-    /// and 2.5° of glow about the disc.
+    /// Through 1.5 air masses, compared with the standard's direct light, which has more haze (aerosol depth 0.084 at 500 nm) and 2.5° of glow about
+    /// the disc.
     #[test]
     fn the_sun_is_near_the_standards() {
         let got = normal_irradiance(2.0, 41.8f64.to_radians()).expect("in range").integral(360.0, 1100.0);

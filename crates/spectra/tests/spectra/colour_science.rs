@@ -1,7 +1,7 @@
-//! Against colour-science: figures of `tests/oracles/colour.py`.
+//! Comparison with colour-science: reference values of `tests/oracles/colour.py`.
 //!
-//! The script lays its tables on the same grid of 1 nm, linear between points, so what remains is this crate's storage
-//! in single precision: 6e-8 a value, less in sums.
+//! The script puts its tables on the same grid of 1 nm, linear between points, so the remaining difference is this crate's storage in single
+//! precision: 6e-8 per value, less in sums.
 
 use etendue_spectra::colour::{Lab, ciede2000, lab};
 use etendue_spectra::{Spectrum, illuminant, observer, reflectance};
@@ -54,7 +54,7 @@ fn colours_of_the_colorchecker_under_d65() {
         let xyz = observer::xyz_of_reflectance(&patch.reflectance, illuminant::d65());
         close(xyz, triple(&expected["xyz"]), 2.0 * SINGLE, patch.name);
         let Lab { l, a, b } = lab(xyz, white);
-        // The slopes of L*, a*, b* reach 1 000 for dark colours; the script's white went through x and y.
+        // The slopes of L*, a*, b* reach 1 000 for dark colours; the script's white was converted through x and y.
         close([l, a, b], triple(&expected["lab"]), 1000.0 * SINGLE, patch.name);
     }
 }

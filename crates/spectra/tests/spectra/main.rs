@@ -1,4 +1,4 @@
-//! Spectra and skies beside other programs.
+//! Spectra and skies compared with other programs.
 
 mod colour_science;
 mod mitsuba_sky;

@@ -1,4 +1,4 @@
-//! Against Mitsuba's `sunsky` emitter, another reading of the same tables: figures of `tests/oracles/sky.py`.
+//! Comparison with Mitsuba's `sunsky` emitter, another implementation of the same tables: reference values of `tests/oracles/sky.py`.
 
 use etendue_core::maths::f64::{cos, sin};
 use etendue_spectra::sky::{self, SkyModel, sun};
@@ -54,7 +54,7 @@ fn the_sun_is_that_of_the_oracle() {
         let scale = expected.iter().fold(0.0, |top: f64, v| top.max(*v));
         for (nm, expected) in nm.iter().zip(&expected) {
             let got = sky::sun(*nm).of(&bands) * sun::limb_darkening(*nm, mu);
-            // At the limb the oracle finds µ from sines of 0.005, to 1e-3 in single precision.
+            // At the limb the reference computes µ from sines of 0.005, to 1e-3 in single precision.
             let tolerance = if mu == 1.0 { 2e-5 } else { 2e-3 };
             assert!((got - expected).abs() <= tolerance * scale, "{value:?} at {nm} nm: {got}");
         }

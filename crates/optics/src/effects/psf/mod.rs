@@ -1,17 +1,16 @@
-//! The point-spread function of a real aperture: diffraction, and the wavefront's error by Zernike terms.
+//! The point-spread function of a real aperture: diffraction, and a wavefront error in Zernike terms.
 //!
-//! For each band the patterns (`pattern.rs`) of wavelengths at most 10 nm apart are averaged and shared among the pixels
-//! (`band.rs`), with all of the light in them. Away from the axis the pupil looks smaller from the sensor: by cos θ′ along
-//! the rim and cos³ θ′ towards the axis, θ′ the chief ray's angle at the exit pupil, so that the pattern is wider by as much
-//! (Goodman, Introduction to Fourier Optics).
+//! For each band the patterns (`pattern.rs`) of wavelengths at most 10 nm apart are averaged and distributed over the pixels (`band.rs`), with all of
+//! their light. Off the axis the pupil appears smaller from the sensor: by cos θ′ tangentially and cos³ θ′ radially, θ′ the chief-ray angle at the
+//! exit pupil. The pattern is wider by the same factors (Goodman, Introduction to Fourier Optics).
 //!
-//! The function varies over the picture by patches (`patches`).
+//! The function varies over the image by patches (`patches`).
 //!
-//! Zernike terms are in units of length (root mean square over the pupil of the f-number), the same at all wavelengths. Terms
-//! with a table over the field turn with it: they are stated for a point of the picture to the right of the axis.
+//! Zernike terms are lengths (root mean square over the pupil of the f-number), the same at all wavelengths. Terms with a table over the field rotate
+//! with the field: they are defined for a point of the image to the right of the axis.
 //!
-//! Left out: the pupil's being cut by rims away from the axis; what the lens's own rays make of a wavefront (a traced lens
-//! has its aberrations already); light beyond the pattern's end, which is shared out over it.
+//! Left out: vignetting of the pupil off the axis; the wavefront of the lens's own rays (a traced lens already has its aberrations); light beyond the
+//! end of the pattern, which is redistributed over the pattern.
 
 mod pattern;
 mod patterns;
@@ -34,13 +33,13 @@ pub use pattern::Zernike;
 pub(super) use patterns::{MAX_PX, Ready};
 
 pub(super) const MM_PER_UM: f64 = 1e-3;
-/// Wavelengths for which the pupil's lattice must hold the wavefront, nm.
+/// Wavelengths, nm, for which the lattice of the pupil must resolve the wavefront.
 pub(super) const VISIBLE: WavelengthRange = WavelengthRange::new(380.0, 780.0);
-/// Steps of the pattern in λN, or in px where that is more, of what samples are displaced by.
+/// Step of the pattern used to displace samples, per λN, or per pixel where the pixel is larger.
 const CORE_STEPS: f64 = 16.0;
-/// Patches where the function varies and nothing is said.
+/// Default number of patches where the function varies.
 const PATCHES: [usize; 2] = [5, 3];
-/// A pattern that is wider by less in the picture's corner counts as the same everywhere.
+/// Relative width in the corner of the image below which the function counts as uniform.
 const SAME: f64 = 1.05;
 
 /// A Zernike term of the wavefront.
@@ -48,14 +47,14 @@ const SAME: f64 = 1.05;
 pub struct ZernikeTerm {
     /// The polynomial.
     pub zernike: Zernike,
-    /// Distances from the axis, mm, rising; empty where the term is the same everywhere.
+    /// Distances from the axis, mm, rising; empty if the term is constant over the field.
     pub field_mm: Vec<f64>,
-    /// Root mean square at each, µm; one where the term is the same everywhere.
+    /// Root mean square at each distance, µm; a single value if the term is constant.
     pub rms_um: Vec<f64>,
 }
 
 impl ZernikeTerm {
-    /// The coefficient at a distance from the axis, linear in between, the ends held.
+    /// The coefficient at a distance from the axis: linear interpolation, clamped at the ends.
     fn at(&self, radius_mm: f64) -> f64 {
         let (field, rms) = (&self.field_mm, &self.rms_um);
         let next = field.partition_point(|r| *r <= radius_mm);
@@ -80,22 +79,22 @@ impl ZernikeTerm {
     }
 }
 
-/// An aperture and its wavefront.
+/// Parameters of an aperture and its wavefront.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PsfParameters {
     /// Blades of the diaphragm; 0 for a circle.
     pub blades: u32,
     /// Curvature of the blades: 0 straight, 1 a circle.
     pub curvature: f64,
-    /// Where the first corner stands, from the picture's x towards its y, rad.
+    /// Position of the first corner, from the image's x towards its y, rad.
     pub rotation_rad: f64,
-    /// Radius of an obstruction in the middle over the pupil's.
+    /// Radius of a central obstruction over the pupil radius.
     pub obstruction: f64,
-    /// The wavefront's error.
+    /// The wavefront error.
     pub wavefront: Vec<ZernikeTerm>,
-    /// Where the function ends, mm; `None` for as far as it is computed.
+    /// Radius at which the function is cut off, mm; `None`: as far as it is computed.
     pub reach_mm: Option<f64>,
-    /// Patches across and down; `None` for one where the function is nearly the same everywhere, and 5 × 3.
+    /// Patches across and down; `None`: one if the function is nearly uniform, else 5 × 3.
     pub patches: Option<[usize; 2]>,
 }
 
@@ -112,10 +111,10 @@ pub struct Psf {
 }
 
 impl Psf {
-    /// The function behind `lens` over a picture.
+    /// The function of `lens` for an image.
     ///
     /// # Errors
-    /// Where a table is none, or the wavefront is steeper than the pupil's lattice can hold.
+    /// If a table is malformed, or the wavefront is steeper than the lattice of the pupil can resolve.
     pub fn new(parameters: PsfParameters, lens: &Lens, picture: &Raster) -> Result<Self, EffectsError> {
         parameters.wavefront.iter().try_for_each(ZernikeTerm::check)?;
         let (f_number, exit_mm) = (lens.working_f_number(), lens.exit_pupil_distance_mm());
@@ -128,7 +127,7 @@ impl Psf {
         Ok(psf)
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &PsfParameters {
         &self.parameters
@@ -161,7 +160,7 @@ impl Psf {
         EffectStatus::Modelled(format!("diffraction of {shape} at f/{n}, {error}, in {x} × {y} patches"))
     }
 
-    /// Columns and rows that light is spread over.
+    /// Columns and rows over which light is spread.
     pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
         let fineness = self.fineness(VISIBLE.high_nm, pitch_mm.min_element());
         let reach = self.extent(fineness).reach_px(VISIBLE.high_nm, pitch_mm.min_element(), 1.0);
@@ -173,7 +172,7 @@ impl Psf {
         Outline::new(p.blades, p.curvature, p.rotation_rad, p.obstruction)
     }
 
-    /// Steps of the pattern in λN: at least two, and two a pixel for the longest wavelength; one a pixel where λN is more than sixteen of them.
+    /// Steps of the pattern per λN: at least two; two per pixel at the longest wavelength for λN up to 16 px, at least one per pixel beyond.
     fn fineness(&self, longest_nm: f64, pitch_mm: f64) -> f64 {
         let pixels = longest_nm * MM_PER_NM * self.f_number / pitch_mm;
         (2.0 * pixels.ceil().clamp(1.0, 16.0)).max(pixels) * self.outline().radius()
@@ -183,7 +182,7 @@ impl Psf {
         Extent { f_number: self.f_number, reach_mm: self.parameters.reach_mm, fineness }
     }
 
-    /// How much wider the pattern is along the radius and across it, at a distance from the axis on the sensor.
+    /// Widening of the pattern along the radius and across it, at a distance from the axis on the sensor.
     #[must_use]
     pub fn stretch(&self, radius_mm: f64) -> [f64; 2] {
         let tangent = radius_mm / self.exit_mm;
@@ -191,8 +190,8 @@ impl Psf {
         [across * across * across, across]
     }
 
-    /// The pattern is held to [`MAX_PX`] pixels, beyond which a fraction of about 0.2/ρ of the light falls, ρ in units of λN, and the lattice has
-    /// fewer cells over the pupil the more pixels λN has: at the limit ρ is 8, 2.5 % are lost and the pupil is 16 cells wide.
+    /// Limits the pattern to [`MAX_PX`] pixels. A fraction of about 0.2/ρ of the light falls beyond it, ρ in units of λN; the more pixels λN spans,
+    /// the fewer lattice cells span the pupil. At the limit ρ is 8, 2.5 % of the light is lost and the pupil is 16 cells wide.
     fn check_width(&self, pitch_mm: f64) -> Result<(), EffectsError> {
         let most = MAX_LAMBDA_N_PX * pitch_mm / (VISIBLE.high_nm * MM_PER_NM);
         if self.f_number <= most {
@@ -205,7 +204,7 @@ impl Psf {
         })
     }
 
-    /// Rays must land within the pattern at all visible wavelengths.
+    /// Checks that rays land within the pattern at all visible wavelengths.
     fn check_slope(&self, pitch_mm: f64) -> Result<(), EffectsError> {
         let limit_um = 0.25 * CELLS as f64 / self.fineness(VISIBLE.high_nm, pitch_mm) * VISIBLE.low_nm / NM_PER_UM;
         let radii: Vec<f64> = self.parameters.wavefront.iter().flat_map(|t| t.field_mm.clone()).chain([0.0]).collect();
@@ -213,7 +212,7 @@ impl Psf {
         if slope_um < limit_um { Ok(()) } else { Err(EffectsError::Slope { slope_um, limit_um }) }
     }
 
-    /// The steepest slope of the wavefront over the pupil's radius, by differences.
+    /// The maximum slope of the wavefront over the pupil radius, by finite differences.
     fn slope_um(&self, radius_mm: f64) -> f64 {
         const CELLS: usize = 64;
         let step = 2.0 / CELLS as f64;
@@ -233,7 +232,7 @@ impl Psf {
         self.parameters.wavefront.iter().map(term).sum()
     }
 
-    /// What it has to do on so many pictures a band: all bands as the middle one.
+    /// Operation counts for the given number of images per band; all bands count as the middle one.
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let half_nm = 0.5 * bands.width_nm();
         let middle_nm = bands.low_nm() + half_nm * bands.count() as f64;
@@ -261,7 +260,7 @@ impl Psf {
         Patches::new(self.patches, Stand::Middles, canvas)
     }
 
-    /// The function made ready for a film and the wavelengths of a range.
+    /// The function prepared for a film and the wavelengths of a range.
     pub(super) fn ready(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> Ready {
         let fineness = self.fineness(range.high_nm, canvas.pitch_mm().min_element());
         Ready { part, patterns: self.patterns(canvas, fineness) }
@@ -276,7 +275,7 @@ impl Psf {
         Patterns { extent: self.extent(fineness), canvas: *canvas, pupil, shared, places, patches }
     }
 
-    /// Adds where light of a wavelength lands by the function in the middle of the picture, px, and how much.
+    /// Deposits light of a wavelength by the function at the centre of the image: positions, px, and fractions.
     pub(super) fn deposit_middle(&self, canvas: &Canvas, nm: f64, to: impl FnMut(DVec2, f64)) {
         let [columns, rows] = self.patches;
         let only = Self { patches: [1, 1], ..self.clone() };

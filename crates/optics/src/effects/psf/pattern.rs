@@ -1,20 +1,19 @@
 //! The diffraction pattern of a pupil: |∫ P(u) exp(2πi (W(u)/λ − u·x/2λN)) du|².
 //!
-//! u is a point of the pupil in units of its radius, x one of the picture, N the working f-number, W the wavefront error: a
-//! ray through u lands at x = 2N ∂W/∂u, in the axes of the erect picture. The pupil is sampled on a square lattice, each
-//! cell with the share of it that is open; the pattern then comes at steps of λN/Q, as far as the lattice's number of cells
-//! times half of that. Q is at least 2, so that its sum is its integral.
+//! u is a point of the pupil in units of its radius, x a point of the image, N the working f-number and W the wavefront error. A ray through u lands
+//! at x = 2N ∂W/∂u, in the axes of the erect image. The pupil is sampled on a square lattice; each cell holds its open fraction. The pattern then has
+//! a step of λN/Q and extends to half the number of lattice cells times that step. Q is at least 2, so the sum of the pattern equals its integral.
 //!
-//! The outline of the aperture, in units of the radius that the f-number states.
+//! The aperture outline is in units of the radius that the f-number defines.
 //!
-//! A circle, or as many arcs as there are blades: with the curvature c the radius of the arcs is the corners' radius over c,
-//! so 0 is a polygon and 1 the circle. The area is that of the circle of the f-number: the light is the same. A round
-//! obstruction in the middle (a mirror lens) is cut out of it.
+//! It is a circle, or one arc per blade: with the curvature c the radius of the arcs is the corner radius over c, so 0 is a polygon and 1 the circle.
+//! The area always equals that of the circle of the f-number, so the amount of light is the same. A round central obstruction (mirror lens) is
+//! removed from it.
 //!
-//! Zernike's circle polynomials, of root mean square one over the unit disc.
+//! Zernike circle polynomials, normalised to a root mean square of one over the unit disc.
 //!
-//! Z = √(n + 1) R_n⁰ for m = 0, else √(2(n + 1)) R_n^|m| times cos mθ (m > 0) or sin |m|θ (m < 0), with the angle from x
-//! towards y. Single indices by Noll (1976), from 1, or by ANSI Z80.28 / OSA, from 0.
+//! Z = √(n + 1) R_n⁰ for m = 0, else √(2(n + 1)) R_n^|m| times cos mθ (m > 0) or sin |m|θ (m < 0), with the angle from x towards y. Single indices
+//! follow Noll (1976), from 1, or ANSI Z80.28 / OSA, from 0.
 
 use core::f64::consts::{PI, TAU};
 
@@ -23,23 +22,23 @@ use glam::DVec2;
 
 use crate::effects::fourier::{Grid, Plan};
 
-/// Cells of the lattice along a side.
+/// Lattice cells along a side.
 pub(super) const CELLS: usize = 1024;
-/// Parts of a cell, along a side, by which its open share is found.
+/// Subdivisions of a cell along a side, used to estimate its open fraction.
 const PARTS: usize = 4;
 
 /// The sampled pupil.
 #[derive(Clone, Debug)]
 pub(super) struct Pupil {
-    /// Q.
+    /// Oversampling Q.
     fineness: f64,
-    /// Rows that are not all dark, and the cells of one side about the middle.
+    /// Rows that are not all dark, and the number of cells on one side of the centre.
     half: usize,
-    /// Open shares of the cells about the middle, row by row.
+    /// Open fractions of the cells about the centre, row by row.
     open: Vec<f64>,
 }
 
-/// Intensities whose sum is one, over the lattice about the middle.
+/// Intensities over the lattice about the centre; they sum to one.
 #[derive(Clone, Debug)]
 pub(super) struct Pattern {
     values: Vec<f64>,
@@ -63,7 +62,7 @@ impl Pupil {
         (DVec2::new(x as f64, y as f64) - half as f64 + 0.5) * step
     }
 
-    /// A number at every open cell, 0 elsewhere: a wavefront.
+    /// Evaluates `f` at every open cell (a wavefront); 0 elsewhere.
     pub(super) fn map(&self, f: impl Fn(DVec2) -> f64) -> Vec<f64> {
         let step = Self::step(self.fineness);
         let value = |i: usize| if self.open[i] > 0.0 { f(Self::cell(i, self.half, step)) } else { 0.0 };
@@ -98,13 +97,13 @@ fn open(outline: &Outline, centre: DVec2, step: f64) -> f64 {
 }
 
 impl Pattern {
-    /// Places, in steps of λN/Q, and shares of the light.
+    /// Positions, in steps of λN/Q, and fractions of the light.
     #[cfg(test)]
     pub(super) fn points(&self) -> impl Iterator<Item = (DVec2, f64)> {
         self.points_within(CELLS / 2)
     }
 
-    /// The places at most `steps` from the middle along rows and columns.
+    /// Positions at most `steps` from the centre along rows and columns.
     pub(super) fn points_within(&self, steps: usize) -> impl Iterator<Item = (DVec2, f64)> {
         let near = steps.min(CELLS / 2) as isize;
         let range = move || -near..(near + 1).min(CELLS as isize / 2);
@@ -116,11 +115,11 @@ impl Pattern {
     }
 }
 
-/// An aperture.
+/// The outline of an aperture.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Outline {
     edges: Vec<Edge>,
-    /// Radius of the corners, or of the circle.
+    /// Radius of the corners or of the circle.
     radius: f64,
     obstruction: f64,
 }
@@ -141,7 +140,7 @@ impl Outline {
         }
         let half = PI / f64::from(blades);
         let (sine, cosine) = sin_cos(half);
-        // For corners at radius one: triangles, and the segments between chord and arc.
+        // Corners at radius one: triangles, and the segments between chord and arc.
         let segment = if curvature > 0.0 {
             let arc = 1.0 / curvature;
             arc * arc * asin((sine / arc).min(1.0)) - sine * (arc * arc - sine * sine).sqrt()
@@ -161,12 +160,12 @@ impl Outline {
         Self { edges: (0..blades).map(edge).collect(), radius, obstruction }
     }
 
-    /// The radius that holds all of it.
+    /// The radius of the smallest enclosing circle about the centre.
     pub(super) fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Whether light passes at a point.
+    /// True if light passes at a point.
     pub(super) fn passes(&self, point: DVec2) -> bool {
         let r2 = point.length_squared();
         let within = |edge: &Edge| match edge.curve {
@@ -180,7 +179,7 @@ impl Outline {
 /// The largest radial order.
 const MAX_ORDER: u32 = 12;
 
-/// A polynomial.
+/// A Zernike polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Zernike {
     n: u32,
@@ -188,7 +187,7 @@ pub struct Zernike {
 }
 
 impl Zernike {
-    /// By Noll's index, from 1; `None` beyond the order 12.
+    /// The polynomial of a Noll index (from 1); `None` beyond order 12.
     #[must_use]
     pub fn noll(index: u32) -> Option<Self> {
         let n = (0..=MAX_ORDER).find(|n| index >= 1 && index <= (n + 1) * (n + 2) / 2)?;
@@ -198,20 +197,20 @@ impl Zernike {
         Some(Self { n, m: if index.is_multiple_of(2) { m } else { -m } })
     }
 
-    /// By the index of OSA and ANSI, from 0; `None` beyond the order 12.
+    /// The polynomial of an OSA/ANSI index (from 0); `None` beyond order 12.
     #[must_use]
     pub fn osa(index: u32) -> Option<Self> {
         let n = (0..=MAX_ORDER).find(|n| index < (n + 1) * (n + 2) / 2)?;
         Some(Self { n, m: (2 * index).cast_signed() - (n * (n + 2)).cast_signed() })
     }
 
-    /// Radial and azimuthal order.
+    /// Radial and azimuthal orders.
     #[must_use]
     pub fn radial_and_azimuthal_order(&self) -> (u32, i32) {
         (self.n, self.m)
     }
 
-    /// The polynomial at a point of the pupil; beyond the unit disc it goes on.
+    /// The polynomial at a point of the pupil; it is also evaluated beyond the unit disc.
     #[must_use]
     pub fn at(&self, point: DVec2) -> f64 {
         let m = self.m.unsigned_abs();
@@ -248,7 +247,7 @@ mod tests {
         Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), fineness).pattern(None)
     }
 
-    /// Share of the light within a radius in units of λN.
+    /// Fraction of the light within a radius, in units of λN.
     fn within(pattern: &Pattern, fineness: f64, radius: f64) -> f64 {
         pattern.points().filter(|(p, _)| p.length() <= radius * fineness).map(|(_, v)| v).sum()
     }
@@ -260,8 +259,8 @@ mod tests {
         let along = |i: usize| pattern.values[i];
         let zero = (1..32).min_by(|a, b| along(*a).total_cmp(&along(*b))).expect("some");
         assert!((zero as f64 / 16.0 - 1.2197).abs() < 0.5 / 16.0, "{zero}");
-        // Within it 83.8 %, within the second 91.0 % (Rayleigh 1881), of all light: 2/(π² 32) = 0.6 % of it lies beyond the
-        // lattice's 32 λN, and the border cells' shares take half as much from what lies just before its end.
+        // Within the first zero lies 83.8 %, within the second 91.0 % (Rayleigh 1881), of all light: 2/(π² 32) = 0.6 % lies beyond the lattice's 32
+        // λN, and the fractions of the border cells take half as much from just inside its end.
         for (radius, share) in [(1.2197, 0.838), (2.233, 0.910)] {
             let found = within(&pattern, 16.0, radius);
             assert!((found - share).abs() < 0.01, "{radius}: {found} for {share}");
@@ -275,7 +274,7 @@ mod tests {
             let wave = |(p, share): (DVec2, f64)| share * sin_cos(TAU * v * p.x / 4.0).1;
             let found: f64 = pattern.points().map(wave).sum();
             let expected = 2.0 / PI * (acos(v) - v * (1.0 - v * v).sqrt());
-            // Of the light 2/(π² 128) = 0.16 % lies beyond the lattice, and as much is taken from what lies before its end.
+            // 2/(π² 128) = 0.16 % of the light lies beyond the lattice, and as much is taken from just inside its end.
             assert!((found - expected).abs() < 3.2e-3, "{v}: {found} for {expected}");
         }
     }
@@ -289,7 +288,7 @@ mod tests {
             let waves = pupil.map(|u| rms * zernike.at(u));
             let strehl = pupil.pattern(Some(&waves)).values[0] / clean;
             let phase = TAU * rms;
-            // The next order of the logarithm: for these below (2πσ)⁴/4.
+            // The next order of the logarithm: here below (2πσ)⁴/4.
             assert!(
                 (strehl - etendue_core::maths::f64::exp(-phase * phase)).abs()
                     < (phase * phase) * (phase * phase) / 4.0 + 1e-3,
@@ -308,7 +307,7 @@ mod tests {
         let pattern = pupil.pattern(Some(&waves));
         for share in [0.3, 0.6, 0.9] {
             let found = within(&pattern, fineness, share * 80.0);
-            // Fresnel's fringe at the disc's border is 37 % brighter over some 1/√40 of the radius.
+            // Fresnel's fringe at the border of the disc is 37 % brighter over about 1/√40 of the radius.
             assert!((found - share * share).abs() < 0.05, "{share}: {found}");
         }
         assert!(within(&pattern, fineness, 88.0) > 0.98);
@@ -340,7 +339,7 @@ mod tests {
             let centre = |i: i32| (f64::from(i) + 0.5) * side - outline.radius();
             let inside = |i: i32| (0..cells).filter(|j| outline.passes(DVec2::new(centre(i), centre(*j)))).count();
             let area = (0..cells).map(inside).sum::<usize>() as f64 * side * side;
-            // Cells at the border: some 1e-4 of the area.
+            // Border cells: about 1e-4 of the area.
             assert!((area / PI - 1.0).abs() < 3e-4, "{blades} {curvature}: {area}");
         }
     }
@@ -389,7 +388,7 @@ mod tests {
         }
         for (i, sum) in sums.iter().enumerate() {
             let expected = f64::from(u8::from(i % all.len() == i / all.len()));
-            // Midpoint rule in 400 rings: second order, times the slopes of polynomials of the sixth order.
+            // Midpoint rule with 400 rings: second order, times the slopes of polynomials of the sixth order.
             assert!((sum - expected).abs() < 1e-3, "{i}: {sum}");
         }
     }

@@ -8,7 +8,7 @@ use crate::effects::core_table::{CORE_PX, CoreBuilder, CoreTable};
 use crate::effects::film_part::{FilmPart, KernelBuilder, MM_PER_NM, NM_PER_UM, mid_wavelengths};
 use crate::{effects::Canvas, effects::convolve::Field, effects::kernel::Kernel, effects::patches::Patches};
 
-/// A part of the picture with a function of its own.
+/// A part of the image with its own function.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     pub(super) stretch: DMat2,
@@ -16,16 +16,16 @@ pub(super) struct Patch {
     pub(super) wavefront_um: Option<Vec<f64>>,
 }
 
-/// The farthest that a function reaches, px.
+/// The maximum reach of a function, px.
 pub(in crate::effects) const MAX_PX: usize = 512;
 
-/// How far patterns reach, and in what steps.
+/// Reach and step of patterns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) f_number: f64,
-    /// Where the function ends; `None` for as far as it is computed.
+    /// Cut-off radius; `None`: as far as it is computed.
     pub(super) reach_mm: Option<f64>,
-    /// Steps of the pattern in λN.
+    /// Steps of the pattern per λN.
     pub(super) fineness: f64,
 }
 
@@ -35,7 +35,7 @@ impl Extent {
         nm * MM_PER_NM * self.f_number / self.fineness
     }
 
-    /// How far the pattern reaches, px, where it is so many times as wide as on the axis.
+    /// Reach of the pattern, px, where it is `stretch` times as wide as on the axis.
     pub(super) fn reach_px(&self, longest_nm: f64, pitch_mm: f64, stretch: f64) -> usize {
         let computed = 0.5 * CELLS as f64 * self.step_mm(longest_nm) * stretch;
         let reach = self.reach_mm.map_or(computed, |mm| mm.min(computed));
@@ -49,7 +49,7 @@ pub(super) struct Patterns {
     pub(super) extent: Extent,
     pub(super) canvas: Canvas,
     pub(super) pupil: Pupil,
-    /// The pattern that all patches and wavelengths share, where there is no wavefront error.
+    /// The pattern shared by all patches and wavelengths, if there is no wavefront error.
     pub(super) shared: Option<Pattern>,
     pub(super) places: Patches,
     /// In the order of `places`.
@@ -57,7 +57,7 @@ pub(super) struct Patterns {
 }
 
 impl Patterns {
-    /// Adds where light of a wavelength lands, px, and how much; at least of what lands within `reach_px` along rows and columns.
+    /// Deposits the light of a wavelength (positions, px, and fractions); at least the part within `reach_px` along rows and columns.
     pub(super) fn deposit(&self, nm: f64, patch: &Patch, reach_px: f64, mut to: impl FnMut(DVec2, f64)) {
         let own = patch.wavefront_um.as_ref().map(|wavefront| {
             let waves: Vec<f64> = wavefront.iter().map(|um| um * NM_PER_UM / nm).collect();
@@ -77,7 +77,7 @@ impl Patterns {
         }
     }
 
-    /// The core of a patch at a wavelength; `None` where no light is in it.
+    /// The core of a patch at a wavelength; `None` if it holds no light.
     pub(super) fn core(&self, nm: f64, patch: &Patch) -> Option<CoreTable> {
         let mut builder = CoreBuilder::default();
         self.deposit(nm, patch, CORE_PX, |offset_px, mass| builder.deposit(offset_px, mass));

@@ -1,4 +1,4 @@
-//! A point's light at one place of the field, as samples on the sensor.
+//! The light of a point at one field position, as samples on the sensor.
 
 use core::fmt;
 
@@ -8,17 +8,17 @@ use glam::{DMat2, DVec2};
 use crate::effects::error::{EffectsError, positive};
 use crate::effects::psf::{MAX_PX, MM_PER_UM};
 
-/// The farthest that samples lie apart, px; the rest is rounding.
+/// The largest distance between samples, px; the rest is rounding.
 const WIDEST_STEP_PX: f64 = 1.0 + 1e-9;
-/// Distances from the axis that count as on it, mm.
+/// Distances from the axis up to this count as zero, mm.
 const ON_AXIS_MM: f64 = 1e-6;
 
-/// A point's light at one place of the field.
+/// The light of a point at one field position.
 #[derive(Clone, PartialEq)]
 pub struct FieldSpread {
-    /// Where the point is on the sensor from the axis, mm, by the samples' own axes: x along their rows, y down their columns.
+    /// Position of the point on the sensor relative to the axis, mm, in the samples' axes: x along their rows, y down their columns.
     pub place_mm: DVec2,
-    /// Distance of samples on the sensor, µm.
+    /// Pitch of the samples on the sensor, µm.
     pub pitch_um: f64,
     /// Samples in a row.
     pub width: usize,
@@ -29,7 +29,7 @@ pub struct FieldSpread {
 }
 
 impl fmt::Debug for FieldSpread {
-    /// Without the samples, which are those of a file.
+    /// Omits the samples, which come from a file.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { place_mm, pitch_um, width, light, point } = self;
         write!(f, "FieldSpread({place_mm} mm, {} of {width} a row, {pitch_um:?} µm, {point:?})", light.len())
@@ -37,10 +37,10 @@ impl fmt::Debug for FieldSpread {
 }
 
 impl FieldSpread {
-    /// Whether the samples can stand on the pixels of a picture.
+    /// Checks that the samples suit the pixels of an image.
     ///
     /// # Errors
-    /// Where they are no light, are farther apart than pixels, or reach beyond 512 px.
+    /// If they are not valid light, are farther apart than pixels, or reach beyond 512 px.
     pub fn check(&self, picture: &Raster) -> Result<(), EffectsError> {
         let step_mm = positive("spacing", self.pitch_um)? * MM_PER_UM;
         let (width, count) = (self.width, self.light.len());
@@ -61,7 +61,7 @@ impl FieldSpread {
         if reach_px > MAX_PX { Err(EffectsError::WideFunction { reach_px, most_px: MAX_PX }) } else { Ok(()) }
     }
 
-    /// Where lit samples lie from the point, mm, by the samples' own axes, and their light.
+    /// Offsets of the lit samples from the point, mm, in the samples' axes, and their light.
     fn lit(&self) -> impl Iterator<Item = (DVec2, f64)> {
         let point = DVec2::new(self.point[0] as f64, self.point[1] as f64);
         let place = move |i: usize| DVec2::new((i % self.width) as f64, (i / self.width) as f64) - point;
@@ -70,7 +70,7 @@ impl FieldSpread {
         lit.map(move |(i, light)| (place(i) * step_mm, f64::from(*light)))
     }
 
-    /// How far from the point light falls.
+    /// Maximum distance of the light from the point.
     pub(super) fn reach_mm(&self) -> f64 {
         self.lit().map(|(offset, _)| offset.length_squared()).fold(0.0, f64::max).sqrt()
     }
@@ -80,29 +80,29 @@ impl FieldSpread {
         if radius > ON_AXIS_MM { radius } else { 0.0 }
     }
 
-    /// Away from the axis, by the samples' own axes; `None` on the axis.
+    /// Direction away from the axis, in the samples' axes; `None` on the axis.
     pub(super) fn outwards(&self) -> Option<DVec2> {
         (self.radius_mm() > 0.0).then(|| self.place_mm.normalize())
     }
 }
 
-/// A function made ready to be turned.
+/// A function prepared for rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Function {
     spread: FieldSpread,
     pub(super) radius_mm: f64,
     pub(super) reach_mm: f64,
-    /// From the samples' axes to those along the radius and across it.
+    /// Rotation from the samples' axes to those along the radius and across it.
     turn: DMat2,
     sum: f64,
-    /// How far the centroid lies outwards of the point, mm.
+    /// Distance of the centroid outwards from the point, mm.
     pub(super) centroid_mm: f64,
     /// Second moments about the point along the radius and across it, mm².
     moments: DMat2,
 }
 
 impl Function {
-    /// With the direction that is away from the axis for one on it.
+    /// `outwards_on_axis` is the direction away from the axis for a function on the axis.
     pub(super) fn new(spread: FieldSpread, outwards_on_axis: DVec2) -> Self {
         let outwards = spread.outwards().unwrap_or(outwards_on_axis);
         let turn = axes(outwards).transpose();
@@ -118,7 +118,7 @@ impl Function {
         Self { spread, radius_mm, reach_mm, turn, sum, centroid_mm, moments }
     }
 
-    /// Where light lands around a place of the sensor, mm, and which share of all.
+    /// Offsets of the light about a position on the sensor, mm, and fractions of the total.
     pub(super) fn landings(&self, outwards: DVec2) -> impl Iterator<Item = (DVec2, f64)> {
         let turn = axes(outwards) * self.turn;
         self.spread.lit().map(move |(offset, light)| (turn * offset, light / self.sum))
@@ -128,7 +128,7 @@ impl Function {
         self.spread.light.len()
     }
 
-    /// Second moments about the point in the picture, mm².
+    /// Second moments about the point in the image, mm².
     pub(super) fn moments(&self, outwards: DVec2) -> DMat2 {
         let turn = axes(outwards);
         turn * self.moments * turn.transpose()
@@ -140,31 +140,31 @@ fn axes(outwards: DVec2) -> DMat2 {
     DMat2::from_cols(outwards, outwards.perp())
 }
 
-/// Where a function's light lies about its point, mm and mm².
+/// Centroid and second moments of a function's light about its point, mm and mm².
 #[derive(Clone, Copy)]
 pub(super) struct Shape {
     pub(super) centroid: DVec2,
     pub(super) moments: DMat2,
 }
 
-/// The most across, where nothing is said.
+/// Maximum default number of patches across.
 const MOST: usize = 11;
-/// By how much second moments midway between patches may be off: of their sum, and px².
+/// Tolerance of second moments midway between patches: relative to their sum, and px².
 const RELATIVE: f64 = 0.005;
 const ABSOLUTE_PX2: f64 = 0.005;
-/// And the centroid: of the root of that sum, and px.
+/// Tolerance of the centroid: relative to the root of that sum, and px.
 const RELATIVE_CENTROID: f64 = 0.01;
 const CENTROID_PX: f64 = 0.01;
 
-/// As few patches as keep centroid and second moments (by the place on the sensor, mm) between them, odd numbers, so that one stands in the middle; and
-/// whether the most do.
+/// The smallest odd numbers of patches that keep centroid and second moments (by the position on the sensor, mm) between them, so that one patch is
+/// at the centre; and whether the maximum suffices.
 pub(super) fn patches_needed(picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> ([usize; 2], bool) {
     let mut counts = (1..=MOST).step_by(2).map(|across| [across, down(across, picture)]);
     let kept = |counts: &[usize; 2]| keeps_shapes(*counts, picture, &shape);
     counts.find(kept).map_or(([MOST, down(MOST, picture)], false), |counts| (counts, true))
 }
 
-/// Whether centroids and second moments at patches and midway between them are near those of the mean of the nearest patches.
+/// True if centroids and second moments at patches and midway between them are close to the mean of the nearest patches.
 pub(super) fn keeps_shapes([across, down]: [usize; 2], picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> bool {
     let size = DVec2::new(picture.width() as f64, picture.height() as f64);
     let at = |x: f64, y: f64| shape(picture.sensor_mm(size * DVec2::new(x, y)));
@@ -182,8 +182,8 @@ pub(super) fn keeps_shapes([across, down]: [usize; 2], picture: &Raster, shape: 
     })
 }
 
-/// Places along an axis, as shares of its length, each with the two patches that its pixels are between: those of patches and midway between them; of a single one,
-/// which holds from edge to edge, the edges and the middle.
+/// Positions along an axis, as fractions of its length, each with the two patches around it: at the patches and midway between them; for a single
+/// patch, which holds from edge to edge, the edges and the centre.
 fn stations(count: usize) -> Vec<(f64, [f64; 2])> {
     if count == 1 {
         return [0.0, 0.5, 1.0].map(|place| (place, [0.5; 2])).to_vec();
@@ -202,7 +202,7 @@ fn is_near(wanted: &Shape, found: &Shape, picture: &Raster) -> bool {
     is_in_place && off.to_cols_array().into_iter().all(|v| v.abs() <= most)
 }
 
-/// Patches down for so many across: about square, an odd number.
+/// Patches down for the number across: about square, an odd number.
 fn down(across: usize, picture: &Raster) -> usize {
     let aspect = picture.height() as f64 * picture.pitch_mm().y / (picture.width() as f64 * picture.pitch_mm().x);
     let half = 0.5 * (across - 1) as f64 * aspect;

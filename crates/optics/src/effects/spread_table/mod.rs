@@ -1,24 +1,25 @@
-//! Point-spread functions over the field from tables, as a lens program makes them: samples for places of the field and for wavelengths.
+//! Point-spread functions over the field from tables, as produced by lens-design programs: samples for field positions and for wavelengths.
 //!
-//! A function is stated for one place of the field, and turns with the azimuth: lenses that are symmetric about their axis have the same
-//! function at all places of one distance from it, as seen from there. With the direction e away from the axis and e⊥ across it, from x towards y,
-//! light that falls at o from the point in the samples' axes falls at
+//! A function is given for one field position and rotates with the azimuth: a lens that is symmetric about its axis has the same function at all
+//! positions of one distance from it, as seen from there. With the direction e away from the axis and e⊥ across it, from x towards y, light at an
+//! offset o from the point in the samples' axes falls at
 //!
 //! ```text
-//! u (e·o) + u⊥ (e⊥·o)        u away from the axis at the place in the picture, u⊥ across it
+//! u (e·o) + u⊥ (e⊥·o)        u away from the axis at the place in the image, u⊥ across it
 //! ```
 //!
-//! Samples have their rows from the top and their columns from the left as the physical image is seen against the light, and x·y turn from the
-//! right to the bottom, as in the picture. The picture taken is that image turned by 180° about the axis, so nothing is mirrored, and
-//! what points away from the axis there does so here.
+//! Samples have their rows from the top and their columns from the left as the physical image is seen against the light, and x and y run to the right
+//! and to the bottom, as in the image. The captured image is that image rotated by 180° about the axis, so nothing is mirrored, and directions away
+//! from the axis are kept.
 //!
-//! Between the two nearest distances, and between the two nearest wavelengths, the function is the linear mean of both; beyond the ends that of the end. One
-//! function on the axis alone has no direction of its own: it takes that of the farthest.
+//! Between the two nearest distances, and between the two nearest wavelengths, the function is interpolated linearly; it is clamped at the ends. A
+//! single function on the axis has no direction of its own: it takes that of the farthest.
 //!
-//! The picture has patches (`patches`) whose functions stand on its edges and evenly between. Unless their number is said, there are as few as
-//! keep centroids midway between patches within a hundredth of the width and second moments within half a per cent of the table's, eleven across at most.
+//! The image has patches (`patches`) whose functions hold on its edges and uniformly between. By default their number is the smallest that keeps
+//! centroids midway between patches within a hundredth of the width and second moments within half a per cent of the table's, eleven across at most.
 //!
-//! Left out: lenses that are not symmetric about their axis; the change of shape between two distances (both are seen at once, weighted); light beyond the samples.
+//! Left out: lenses that are not symmetric about their axis; the change of shape between two distances (both shapes are mixed by weight); light
+//! beyond the samples.
 
 mod function;
 mod table;
@@ -41,7 +42,7 @@ pub(super) struct ReadyTable {
     canvas: Canvas,
     part: FilmPart,
     places: Patches,
-    /// Of each patch, where they are the same at all wavelengths.
+    /// Kernels of the patches, if they are the same at all wavelengths.
     shared: Option<Vec<Kernel>>,
 }
 

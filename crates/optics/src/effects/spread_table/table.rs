@@ -1,4 +1,4 @@
-//! The table of functions: by wavelength and by distance from the axis.
+//! Tabulated point-spread functions by wavelength and distance from the axis.
 
 use std::sync::Arc;
 
@@ -16,25 +16,25 @@ use crate::{
     effects::Canvas, effects::error::EffectsError, effects::psf::VISIBLE, effects::sample_spread::SampleSpread,
 };
 
-/// The functions of a wavelength.
+/// The functions of one wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TabledWavelength {
-    /// Which, nm; `None` for the same at all wavelengths.
+    /// Wavelength, nm; `None` if the functions hold at all wavelengths.
     pub nm: Option<f64>,
-    /// From the axis outwards.
+    /// Functions from the axis outwards.
     pub fields: Vec<FieldSpread>,
 }
 
 /// Point-spread functions over the field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpreadTableParameters {
-    /// Rising; one, or all with a wavelength.
+    /// By rising wavelength; a single entry, or all with a wavelength.
     pub wavelengths: Vec<TabledWavelength>,
-    /// Patches across and down; `None` for as many as the functions need.
+    /// Patches across and down; `None`: as many as the functions need.
     pub patches: Option<[usize; 2]>,
 }
 
-/// The functions of a wavelength, made ready.
+/// The prepared functions of one wavelength.
 #[derive(Clone, Debug, PartialEq)]
 struct Wavelength {
     nm: Option<f64>,
@@ -50,10 +50,10 @@ pub struct SpreadTable {
 }
 
 impl SpreadTable {
-    /// The functions over a picture.
+    /// Prepares the functions for an image.
     ///
     /// # Errors
-    /// Where distances or wavelengths do not rise or are not the same number everywhere, or a function cannot stand on the pixels.
+    /// If distances or wavelengths do not rise or differ in number, or a function cannot be sampled on the pixels.
     pub fn new(parameters: SpreadTableParameters, picture: &Raster) -> Result<Self, EffectsError> {
         let SpreadTableParameters { wavelengths, patches } = parameters;
         check_grid(&wavelengths)?;
@@ -73,25 +73,25 @@ impl SpreadTable {
         self.patches
     }
 
-    /// Whether centroids and second moments between the patches are kept, to a hundredth of the width and half a hundredth.
+    /// True if centroids and second moments are reproduced between the patches: centroids to 1/100 of the width, second moments to 1/200.
     #[must_use]
     pub fn keeps_shapes(&self) -> bool {
         self.keeps_shapes
     }
 
-    /// Distances from the axis, mm, rising; where they differ by wavelength those of the shortest.
+    /// Distances from the axis, mm, rising; those of the shortest wavelength where they differ by wavelength.
     #[must_use]
     pub fn radii_mm(&self) -> Vec<f64> {
         self.wavelengths[0].functions.iter().map(|function| function.radius_mm).collect()
     }
 
-    /// The wavelengths, nm, rising; none where the functions hold for all.
+    /// Wavelengths, nm, rising; empty if the functions hold for all.
     #[must_use]
     pub fn wavelengths_nm(&self) -> Vec<f64> {
         self.wavelengths.iter().filter_map(|wavelength| wavelength.nm).collect()
     }
 
-    /// Whether the function is of another shape at other wavelengths.
+    /// True if the shape of the function depends on the wavelength.
     pub(in crate::effects) fn varies_by_wavelength(&self) -> bool {
         self.wavelengths.len() > 1
     }
@@ -118,15 +118,15 @@ impl SpreadTable {
         ))
     }
 
-    /// By how much a point's light is off at most, relatively: each pixel takes the functions of its own place, so that of a point comes more or less by the
-    /// divergence of the centroids over the field, dc/dr + c/r; within the first distance c is held.
+    /// Maximum relative error of the light of a point. Each pixel takes the functions of its own position, so the light of a point varies by the
+    /// divergence of the centroids over the field, dc/dr + c/r; within the first distance c is held constant.
     #[must_use]
     pub fn light_error(&self) -> f64 {
         let pairs = self.wavelengths.iter().flat_map(|wavelength| wavelength.functions.windows(2));
         let divergence = |pair: &[Function]| {
             let [near, far] = pair else { return 0.0 };
             let slope = (far.centroid_mm - near.centroid_mm) / (far.radius_mm - near.radius_mm);
-            // c/r is greatest at one of the ends.
+            // The maximum of c/r is at one of the ends.
             (slope + turned(near)).abs().max((slope + turned(far)).abs())
         };
         let held = self.wavelengths.iter().map(|wavelength| turned(&wavelength.functions[0]).abs());
@@ -137,14 +137,14 @@ impl SpreadTable {
         self.wavelengths.iter().flat_map(|wavelength| &wavelength.functions)
     }
 
-    /// Columns and rows that light is spread over.
+    /// Columns and rows over which light is spread.
     pub(in crate::effects) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
         let reach_mm = self.functions().map(|function| function.reach_mm).fold(0.0, f64::max);
         let reach = (DVec2::splat(reach_mm) / pitch_mm).ceil();
         [reach.x as usize, reach.y as usize]
     }
 
-    /// The functions that make up that of a wavelength and a distance from the axis, with their weights.
+    /// The functions, with weights, that are mixed for a wavelength and a distance from the axis.
     fn mix(&self, nm: f64, radius_mm: f64) -> impl Iterator<Item = (&Function, f64)> {
         let of_wavelength = between(&self.wavelengths, nm, |wavelength| wavelength.nm.unwrap_or(0.0));
         let of_field = move |wavelength: &'_ Wavelength| between(&wavelength.functions, radius_mm, |f| f.radius_mm);
@@ -156,7 +156,7 @@ impl SpreadTable {
         })
     }
 
-    /// Adds where light of a wavelength lands from a point of the sensor, mm, and how much of it.
+    /// Deposits the light of a point of the sensor (mm) at a wavelength: positions and fractions.
     pub(super) fn deposit(&self, nm: f64, at_mm: DVec2, mut to: impl FnMut(DVec2, f64)) {
         let radius_mm = at_mm.length();
         let outwards = if radius_mm > 0.0 { at_mm / radius_mm } else { DVec2::X };
@@ -165,7 +165,7 @@ impl SpreadTable {
         }
     }
 
-    /// Centroid and second moments at a place; the mean over the wavelengths.
+    /// Centroid and second moments at a position; the mean over the wavelengths.
     fn shape(&self, at_mm: DVec2) -> Shape {
         let radius_mm = at_mm.length();
         let outwards = if radius_mm > 0.0 { at_mm / radius_mm } else { DVec2::X };
@@ -185,7 +185,7 @@ impl SpreadTable {
         Shape { centroid, moments }
     }
 
-    /// The transfer function of a wavelength at a point of the sensor for a frequency, cycles/mm: its real part and its imaginary part.
+    /// The transfer function (real and imaginary part) at a wavelength and sensor point, for a frequency in cycles/mm.
     #[must_use]
     pub fn transfer(&self, nm: f64, at_mm: DVec2, cycles_per_mm: DVec2) -> DVec2 {
         let mut sum = DVec2::ZERO;
@@ -196,7 +196,7 @@ impl SpreadTable {
         sum
     }
 
-    /// The corner that is farthest from the axis, mm.
+    /// The corner farthest from the axis, mm.
     fn corner_mm(canvas: &Canvas) -> DVec2 {
         let region = canvas.picture();
         let corners = [region.x.start, region.x.end].into_iter().flat_map(|x| [(x, region.y.start), (x, region.y.end)]);
@@ -204,7 +204,7 @@ impl SpreadTable {
         places.max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or(DVec2::ZERO)
     }
 
-    /// How narrow it is where it is widest: on the axis, at the distances within the picture that have functions, and in the corner.
+    /// Width of the function where it is widest: the maximum over the axis, the tabulated distances within the image, and the corner.
     pub(in crate::effects) fn width(&self, canvas: &Canvas, nm: f64) -> SpreadWidth {
         let (corner_mm, pitch_mm) = (Self::corner_mm(canvas), canvas.pitch_mm());
         let outwards = corner_mm.try_normalize().unwrap_or(DVec2::X);
@@ -221,7 +221,7 @@ impl SpreadTable {
         Patches::new(self.patches, Stand::Edges, canvas)
     }
 
-    /// The cores by which samples are displaced, for the wavelengths of a range; `None` where no light is in them.
+    /// The cores by which samples are displaced, for the wavelengths of a range; `None` if they hold no light.
     pub(in crate::effects) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         let places = self.places(canvas);
         let parts = if self.varies_by_wavelength() { mid_wavelengths(range).count() } else { 1 };
@@ -240,7 +240,7 @@ impl SpreadTable {
         Some(SampleSpread::new(places.into_hats(), range.low_nm, step_nm, tables))
     }
 
-    /// What it has to do on so many pictures a band: all bands as the middle one.
+    /// Operation counts for the given number of images per band; all bands count as the middle one.
     pub(in crate::effects) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let (places, reach) = (self.places(canvas), self.reach_px(canvas.pitch_mm()));
         let count = bands.count() as f64;
@@ -255,13 +255,13 @@ impl SpreadTable {
         (0..places.count()).map(of).sum()
     }
 
-    /// The wavelengths that stand for a band.
+    /// The representative wavelengths of a band.
     pub(super) fn wavelengths_of(&self, band: WavelengthRange) -> Vec<f64> {
         if self.varies_by_wavelength() { mid_wavelengths(band).collect() } else { vec![VISIBLE.low_nm] }
     }
 }
 
-/// c/r, what turning a function about the axis does; none on it.
+/// c/r, the effect of rotating a function about the axis; 0 on the axis.
 fn turned(function: &Function) -> f64 {
     if function.radius_mm > 0.0 { function.centroid_mm / function.radius_mm } else { 0.0 }
 }
@@ -282,7 +282,7 @@ fn ready_wavelength(wavelength: TabledWavelength) -> Wavelength {
     Wavelength { nm, functions: fields.into_iter().map(|field| Function::new(field, outwards)).collect() }
 }
 
-/// The two that are nearest to a value, by index, with their weights: linear between, the ends held.
+/// The two nearest entries to a value, by index with weights: linear interpolation, clamped at the ends.
 fn between<T>(rising: &[T], at: f64, value: impl Fn(&T) -> f64) -> [(usize, f64); 2] {
     match rising.partition_point(|item| value(item) <= at) {
         0 => [(0, 1.0), (0, 0.0)],

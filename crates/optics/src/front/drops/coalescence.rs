@@ -1,9 +1,9 @@
 //! The shape of a drop on glass: a spherical cap.
 //!
-//! Drops that touch become one of their joint volume.
+//! Touching drops coalesce to one of their joint volume.
 //!
-//! Caps of one contact angle are similar, so volumes add as cubes of base radii. The new drop lies at the mean of the two middles,
-//! weighted by volume. It may touch others in turn, so this goes on until no two touch.
+//! Caps of one contact angle are similar, so volumes are proportional to the cubes of base radii. The new drop lies at the volume-weighted mean of
+//! the two centres. It may touch others in turn; this is repeated until no two touch.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -12,10 +12,10 @@ use glam::DVec2;
 
 use super::course::Droplet;
 
-/// A spherical cap of liquid: base radius a and contact angle θ, the angle within the liquid between glass and surface. The
-/// sphere has R = a/sin θ, the cap the height h = R(1 − cos θ) and the volume π h (3a² + h²)/6.
+/// A spherical cap of liquid: base radius a and contact angle θ, the angle within the liquid between glass and surface. The sphere has R = a/sin θ,
+/// the cap the height h = R(1 − cos θ) and the volume π h (3a² + h²)/6.
 ///
-/// A drop of water keeps this shape while gravity bends it little: for a well below the capillary length √(γ/ρg) = 2.7 mm.
+/// A drop of water has this shape while gravity deforms it little: for a well below the capillary length √(γ/ρg) = 2.7 mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cap {
     base_mm: f64,
@@ -24,7 +24,7 @@ pub struct Cap {
 }
 
 impl Cap {
-    /// A cap of a base radius, mm, and a contact angle, rad, above 0 and below π.
+    /// Creates a cap from a base radius, mm, and a contact angle, rad, above 0 and below π.
     #[must_use]
     pub fn new(base_mm: f64, contact_angle_rad: f64) -> Self {
         let (sine, cosine) = sin_cos(contact_angle_rad);
@@ -62,25 +62,25 @@ impl Cap {
         PI * h * (3.0 * a * a + h * h) / 6.0
     }
 
-    /// Focal length R/(n − 1) of the cap as a plano-convex lens in air, paraxially, mm.
+    /// Paraxial focal length R/(n − 1) of the cap as a plano-convex lens in air, mm.
     #[must_use]
     pub fn focal_length_mm(&self, index: f64) -> f64 {
         self.sphere_radius_mm() / (index - 1.0)
     }
 }
 
-/// How far a cap reaches aside, by its base radius: 1 up to 90°, beyond that the sphere bulges over its base.
+/// Lateral extent of a cap over its base radius: 1 up to 90°; beyond that the sphere bulges over its base.
 pub(super) fn reach_factor(contact_angle_rad: f64) -> f64 {
     if contact_angle_rad > FRAC_PI_2 { 1.0 / sin_cos(contact_angle_rad).0 } else { 1.0 }
 }
 
-/// Joins drops until no two are nearer than their reaches (`reach_factor` × base radius) together. The order of those that remain is kept;
-/// of two that join, the first in order remains.
+/// Joins drops until no two are closer than the sum of their reaches (`reach_factor` × base radius). The order of the remaining drops is kept; of two
+/// that join, the first in order remains.
 pub(super) fn coalesce(drops: &mut Vec<Droplet>, reach_factor: f64) {
     while pass(drops, reach_factor) {}
 }
 
-/// The drop that two become.
+/// The drop formed by two.
 fn joined(a: Droplet, b: Droplet) -> Droplet {
     let cube = |d: Droplet| d.radius_mm * d.radius_mm * d.radius_mm;
     let (va, vb) = (cube(a), cube(b));
@@ -88,7 +88,7 @@ fn joined(a: Droplet, b: Droplet) -> Droplet {
     Droplet { centre_mm, radius_mm: cbrt(va + vb) }
 }
 
-/// Looks at all neighbours once; whether any two joined.
+/// Visits all neighbours once; returns whether any two joined.
 fn pass(drops: &mut Vec<Droplet>, reach_factor: f64) -> bool {
     let Some(bins) = Bins::of(drops, reach_factor) else { return false };
     let mut gone = vec![false; drops.len()];
@@ -120,7 +120,7 @@ struct Bins {
 }
 
 impl Bins {
-    /// `None` without drops. Bins are as wide as the two greatest drops reach, so that those that touch are in neighbouring ones.
+    /// `None` without drops. Bins are as wide as the reaches of the two largest drops, so that touching drops are in neighbouring bins.
     fn of(drops: &[Droplet], reach_factor: f64) -> Option<Self> {
         let greatest = drops.iter().map(|d| d.radius_mm).max_by(f64::total_cmp)?;
         let width_mm = 2.0 * greatest * reach_factor;
@@ -148,7 +148,7 @@ mod tests {
     use super::super::{Cap, DropsParameters, population::first, tests::parameters};
     use super::*;
 
-    /// Figures of a drop of 1 mm at 60°: R 1.1547 mm, h 0.57735 mm, 1.0077 µl, and 3.467 mm of focal length in water of 1.333.
+    /// Reference values of a drop of 1 mm at 60°: R 1.1547 mm, h 0.57735 mm, 1.0077 µl, and 3.467 mm of focal length in water of 1.333.
     #[test]
     fn a_drop_of_a_millimetre_at_60_degrees() {
         let cap = Cap::new(1.0, PI / 3.0);
@@ -156,7 +156,7 @@ mod tests {
         assert!((cap.height_mm() - 0.577_350_269).abs() < 1e-9);
         assert!((cap.volume_mm3() - 1.007_666).abs() < 1e-6, "{}", cap.volume_mm3());
         assert!((cap.focal_length_mm(1.333) - 3.467_569).abs() < 1e-6, "{}", cap.focal_length_mm(1.333));
-        // The circle through the rim and the apex.
+        // The circle through base edge and apex.
         let depth = cap.sphere_radius_mm() - cap.height_mm();
         assert!((depth + cap.centre_height_mm()).abs() < 1e-12);
         assert!((depth * depth + 1.0 - cap.sphere_radius_mm() * cap.sphere_radius_mm()).abs() < 1e-12);

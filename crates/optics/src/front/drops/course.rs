@@ -1,20 +1,20 @@
-//! The course of drops over time: a drop by its place and size, how it slides down the glass, and how a wiper clears it away.
+//! Drops over time: position and size, sliding down the glass, and removal by a wiper.
 //!
-//! How drops slide down tilted glass.
+//! Sliding on tilted glass.
 //!
-//! A drop stays where it is until its weight along the glass overcomes the hysteresis of its contact angle (C. G. L. Furmidge, J. Colloid Sci. 17,
-//! 1962), and slides at a speed that grows evenly with the Bond number beyond that (T. Podgorski, J.-M. Flesselles and L. Limat, Phys.
-//! Rev. Lett. 87, 2001), for similar drops the square of the radius:
+//! A drop stays in place until its weight along the glass overcomes the hysteresis of its contact angle (C. G. L. Furmidge, J. Colloid Sci. 17,
+//! 1962). Beyond that its speed grows linearly with the Bond number (T. Podgorski, J.-M. Flesselles and L. Limat, Phys. Rev. Lett. 87, 2001), for
+//! similar drops the square of the radius:
 //!
 //! v = v₁ (a² sin α − a₀²)/(a₁² − a₀²), never below 0,
 //!
-//! with the slope α of the glass, the radius a₀ below which a drop stays on upright glass, and the speed v₁ there of a drop of the greatest
-//! radius a₁ that falls. Larger ones, which have joined, are faster. Left out: wind along the glass, trails, paths that wind.
+//! with the slope α of the glass, the radius a₀ below which a drop stays on upright glass, and the speed v₁ there of a drop of the largest arriving
+//! radius a₁. Larger drops, formed by coalescence, are faster. Left out: wind along the glass, trails, winding paths.
 //!
 //! A wiper that clears drops along its arc.
 //!
-//! The blade turns at an even rate from one angle to the other, back again, and rests there for the rest of its period. A drop that it
-//! touches is gone. Left out: the wiper itself, which is not seen, the film that it leaves, and drops that it pushes on.
+//! The blade turns at a constant rate from one angle to the other and back, and rests there for the remainder of its period. A drop that it touches
+//! disappears. Left out: the visible wiper itself, the film that it leaves, and drops that it pushes on.
 
 use core::f64::consts::{PI, TAU};
 
@@ -26,18 +26,18 @@ use crate::error::front::{FrontError, positive};
 /// A drop on the glass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Droplet {
-    /// Its middle in the glass's frame, x to the right, y down, mm.
+    /// Centre in the glass's frame, x to the right, y down, mm.
     pub centre_mm: DVec2,
     /// Radius of its base, mm.
     pub radius_mm: f64,
 }
 
-/// How drops slide.
+/// Parameters of sliding drops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sliding {
-    /// Speed of a drop of the greatest radius that falls on upright glass, mm/s.
+    /// Speed on upright glass of a drop of the largest arriving radius, mm/s.
     pub speed_mm_s: f64,
-    /// Radius below which a drop stays on upright glass, mm; below the greatest radius.
+    /// Radius below which a drop stays on upright glass, mm; below the largest radius.
     pub still_radius_mm: f64,
 }
 
@@ -49,7 +49,7 @@ impl Sliding {
         if right { Ok(()) } else { Err(FrontError::Number { name, value, range: "0 or more and below max_radius_mm" }) }
     }
 
-    /// Velocity of a drop, mm/s, where `down` is gravity's direction along the glass, as long as the sine of its slope.
+    /// Velocity of a drop, mm/s; `down` is the direction of gravity along the glass, its length the sine of the slope.
     pub(super) fn velocity_mm_s(&self, drop: Droplet, down: DVec2, greatest_mm: f64) -> DVec2 {
         let (sine, still) = (down.length(), self.still_radius_mm * self.still_radius_mm);
         let excess = drop.radius_mm * drop.radius_mm * sine - still;
@@ -63,17 +63,17 @@ impl Sliding {
 /// A wiper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wiper {
-    /// Its axis in the glass's frame, x to the right, y down, mm.
+    /// Pivot in the glass's frame, x to the right, y down, mm.
     pub pivot_mm: DVec2,
-    /// Where the blade begins and ends, from the axis, mm.
+    /// Distances of the blade's ends from the pivot, mm.
     pub blade_mm: [f64; 2],
-    /// Where it rests and where it turns back: from upwards, clockwise as the camera sees it, rad; less than a full turn apart.
+    /// Rest angle and turning angle: from upwards, clockwise as seen by the camera, rad; less than a full turn apart.
     pub angles_rad: [f64; 2],
-    /// How long one way takes, s.
+    /// Duration of a sweep in one direction, s.
     pub sweep_s: f64,
-    /// From the beginning of one sweep to that of the next, s; at least twice `sweep_s`.
+    /// Time from the start of one sweep to that of the next, s; at least twice `sweep_s`.
     pub period_s: f64,
-    /// When the first sweep begins, s of simulated time.
+    /// Start of the first sweep, s of simulated time.
     pub start_s: f64,
 }
 
@@ -110,7 +110,7 @@ impl Wiper {
         rest + (turn - rest) * way
     }
 
-    /// What the blade passes between two times less than a sweep apart, least and greatest angle, rad; `None` while it rests.
+    /// The angles passed by the blade between two times less than a sweep apart, smallest and largest, rad; `None` while it rests.
     fn passed_rad(&self, from_s: f64, to_s: f64) -> Option<[f64; 2]> {
         let first = ((from_s - self.start_s) / self.period_s).floor();
         let turns = [0.0, 1.0].iter().flat_map(|n| {
@@ -123,7 +123,7 @@ impl Wiper {
         (high > low).then_some([low, high])
     }
 
-    /// Takes away what the blade touches between two times less than a sweep apart.
+    /// Removes the drops touched by the blade between two times less than a sweep apart.
     pub(super) fn wipe(&self, drops: &mut Vec<Droplet>, from_s: f64, to_s: f64) {
         let Some(angles) = self.passed_rad(from_s, to_s) else { return };
         drops.retain(|drop| self.gap_mm(drop.centre_mm, angles) > drop.radius_mm);
@@ -149,18 +149,18 @@ impl Wiper {
     }
 }
 
-/// What changes drops over time.
+/// Changes of drops over time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Course {
-    /// Simulated time at which the first drops lie on the glass, s; before it they do not change.
+    /// Simulated time of the initial drops, s; before it they do not change.
     pub start_s: f64,
-    /// How they slide; `None` for drops that stay.
+    /// Sliding; `None`: drops stay in place.
     pub sliding: Option<Sliding>,
-    /// How long a drop of the greatest radius that falls takes to dry, s; `None` for drops that do not.
+    /// Drying time of a drop of the largest arriving radius, s; `None`: drops do not dry.
     pub drying_s: Option<f64>,
-    /// Drops that fall on the rectangle, 1/s; 0 for none.
+    /// Rate of drops arriving on the rectangle, 1/s; 0 for none.
     pub arrivals_hz: f64,
-    /// What wipes them away.
+    /// Wiper; `None` for none.
     pub wiper: Option<Wiper>,
 }
 

@@ -1,11 +1,10 @@
-//! Drops over time: they fall, dry, slide, join and are wiped away.
+//! Drops over time: they arrive, dry, slide, coalesce and are wiped away.
 //!
-//! The drops at a time are a pure function of the parameters and the time: they are followed from their beginning in steps of [`STEP_S`] at
-//! fixed times, and in one shorter step to the time asked for. Frames may be made in any order, anywhere. What that costs grows with
-//! the time since the beginning.
+//! The drops at a time are a pure function of the parameters and the time. They are simulated from the start in steps of [`STEP_S`] at fixed times,
+//! with one shorter step to the requested time. Frames may be computed in any order, on any machine. The cost grows with the time since the start.
 //!
-//! In a step, drops arrive, shrink, slide, join, are wiped, and leave the rectangle, in this order. A drop that dries keeps its contact angle,
-//! and the square of its radius falls evenly with time (R. G. Picknett and R. Bexon, J. Colloid Interface Sci. 61, 1977).
+//! In a step, drops arrive, shrink, slide, coalesce, are wiped, and leave the rectangle, in this order. A drying drop keeps its contact angle, and
+//! the square of its radius falls linearly with time (R. G. Picknett and R. Bexon, J. Colloid Interface Sci. 61, 1977).
 
 use glam::DVec2;
 
@@ -13,10 +12,10 @@ use super::coalescence::{coalesce, reach_factor};
 use super::course::{Course, Droplet};
 use super::population::{self, Batch, DropsParameters};
 
-/// Time of a step, s. Usual drops slide less than their radius in it.
+/// Time step, s. Usual drops slide less than their radius in it.
 const STEP_S: f64 = 0.02;
 
-/// The drops at a time, s; `down` is gravity's direction along the glass, as long as the sine of its slope.
+/// The drops at a time, s; `down` is the direction of gravity along the glass, its length the sine of the slope.
 pub(super) fn at(p: &DropsParameters, course: &Course, time_s: f64, down: DVec2) -> Vec<Droplet> {
     let mut drops = population::first(p);
     coalesce(&mut drops, reach_factor(p.contact_angle_rad));
@@ -32,7 +31,7 @@ pub(super) fn at(p: &DropsParameters, course: &Course, time_s: f64, down: DVec2)
     drops
 }
 
-/// Drops a little later.
+/// Advances the drops by a step.
 fn advance(drops: &mut Vec<Droplet>, p: &DropsParameters, course: &Course, [from_s, to_s]: [f64; 2], down: DVec2) {
     let [_, greatest_mm] = p.radius_mm;
     let passed_s = to_s - from_s;
@@ -61,14 +60,14 @@ fn advance(drops: &mut Vec<Droplet>, p: &DropsParameters, course: &Course, [from
     drops.retain(|drop| ((drop.centre_mm - p.offset_mm).abs() - drop.radius_mm).cmple(0.5 * p.size_mm).all());
 }
 
-/// Drops that fall after one time and no later than another; whether there are any.
+/// Adds the drops that arrive after one time and no later than another; returns whether there are any.
 fn arrive(drops: &mut Vec<Droplet>, p: &DropsParameters, course: &Course, [from_s, to_s]: [f64; 2]) -> bool {
     if course.arrivals_hz == 0.0 {
         return false;
     }
     let number = |time_s: f64| ((time_s - course.start_s) * course.arrivals_hz).max(0.0) as u64;
     let before = drops.len();
-    // The drop of a number arrives in its own interval of 1/rate; one more on both sides for rounding.
+    // Drop number n arrives in its own interval of 1/rate; one more on both sides for rounding.
     for number in number(from_s).saturating_sub(1)..=number(to_s) + 1 {
         let (drop, u) = population::droplet(p, Batch::Later, number);
         let arrival_s = course.start_s + (number as f64 + u) / course.arrivals_hz;
@@ -109,7 +108,7 @@ mod tests {
         (DropsParameters { course: Some(course), ..parameters() }, course)
     }
 
-    /// What is found at a time does not depend on what was asked before, and drops go on from one time to the next.
+    /// The state at a time does not depend on earlier queries, and drops are continuous in time.
     #[test]
     fn the_state_at_a_time_is_its_own_and_continuous() {
         let (p, course) = rain();
@@ -120,7 +119,7 @@ mod tests {
         }
         assert!(alone.len() > 100);
         assert_eq!(at(&p, &course, 0.5, DOWN), at(&p, &course, 1.0, DOWN), "still before the beginning");
-        // Over a step's border as within a step: nothing is 40 µs later where it was not before, but for what falls or is wiped.
+        // Across a step boundary as within a step: no new drop is there 40 µs later, except arrivals and wiped ones.
         for border in [3.0, 3.01] {
             let (before, after) = (at(&p, &course, border - 2e-5, DOWN), at(&p, &course, border + 2e-5, DOWN));
             let moved = before.iter().filter(|b| !after.iter().any(|a| a.centre_mm.distance(b.centre_mm) < 0.01));
@@ -132,14 +131,14 @@ mod tests {
     fn sliding_drops_join_and_lose_no_water() {
         let (p, mut course) = rain();
         (course.drying_s, course.arrivals_hz, course.wiper) = (None, 0.0, None);
-        // So far within the rectangle that none leaves it.
+        // Far enough inside the rectangle that no drop leaves it.
         let wide = DropsParameters { size_mm: DVec2::splat(1000.0), count: 20_000, ..p };
         let volume = |drops: &[Droplet]| drops.iter().map(|d| Cap::new(d.radius_mm, 1.0).volume_mm3()).sum::<f64>();
         let (first, later) = (at(&wide, &course, 1.0, DOWN), at(&wide, &course, 1.5, DOWN));
         assert!(later.len() < first.len(), "some have joined: {} {}", first.len(), later.len());
         let near =
             |drops: &[Droplet]| -> Vec<Droplet> { drops.iter().copied().filter(|d| d.centre_mm.y < 450.0).collect() };
-        // All are there; those that left went over the lower edge.
+        // Volume only decreases; drops that left crossed the lower edge.
         assert!(volume(&later) <= volume(&first) * (1.0 + 1e-12));
         assert!((volume(&near(&later)) / volume(&near(&first)) - 1.0).abs() < 0.02);
         let inner = DropsParameters { count: 2_000, ..wide };
@@ -148,7 +147,7 @@ mod tests {
         assert_eq!(shifted, slid, "what does not slide stays");
     }
 
-    /// The square of the radius falls evenly: a drop of the greatest radius dries in the time stated, smaller ones by their squares.
+    /// The square of the radius falls linearly: a drop of the largest radius dries in the stated time, smaller ones in proportion to their square.
     #[test]
     fn drops_dry_by_the_law_of_squares() {
         let (p, mut course) = rain();
@@ -168,7 +167,7 @@ mod tests {
     fn drops_arrive_at_their_rate() {
         let (p, mut course) = rain();
         (course.sliding, course.drying_s, course.wiper) = (None, None, None);
-        // So small and so far apart that few join.
+        // Small and sparse, so that few coalesce.
         let p = DropsParameters { count: 0, radius_mm: [0.01, 0.02], ..p };
         let drops = at(&p, &course, 6.0, DOWN);
         assert!(drops.len() <= 300 && drops.len() >= 297, "{}", drops.len());
@@ -191,7 +190,7 @@ mod tests {
         assert_eq!(swept(1.3 + 0.4), 0);
         let half = swept(1.3 + 0.2);
         assert!(half > 5 && half < swept(1.29) - 5, "half the arc at half the time: {half}");
-        // Drops beside the arc stay.
+        // Drops outside the arc stay.
         assert!(at(&p, &course, 1.7, DOWN).len() > 30);
     }
 

@@ -1,8 +1,8 @@
-//! Which drops are near a point or a line of the glass: a uniform grid over it.
+//! A uniform grid over the glass that finds the drops near a point or a line.
 
 use glam::{DVec2, IVec2};
 
-/// Cells a side, at most.
+/// Maximum cells per side.
 const MAX_SIDE: f64 = 2048.0;
 
 /// Discs in the cells of a uniform grid.
@@ -11,13 +11,13 @@ pub(super) struct Grid {
     origin_mm: DVec2,
     cell_mm: f64,
     cells: IVec2,
-    /// Where the discs of each cell begin in `discs`, and their end.
+    /// Offset of the discs of each cell in `discs`, and the end.
     starts: Vec<u32>,
     discs: Vec<u32>,
 }
 
 impl Grid {
-    /// A grid of discs: middles and radii, mm. Cells have about one disc each.
+    /// Builds a grid of discs: centres and radii, mm. Cells hold about one disc each.
     pub(super) fn new(discs: &[(DVec2, f64)]) -> Self {
         let corner = |side: f64| discs.iter().map(move |(at, r)| *at + side * *r);
         let low = corner(-1.0).reduce(DVec2::min).unwrap_or(DVec2::ZERO);
@@ -66,13 +66,13 @@ impl Grid {
         self.of_cell(self.cell(point_mm))
     }
 
-    /// Calls `visit` with the discs of every cell that a segment crosses; a disc in several cells comes several times.
+    /// Calls `visit` with the discs of every cell that a segment crosses; a disc in several cells is visited several times.
     pub(super) fn along(&self, from_mm: DVec2, to_mm: DVec2, mut visit: impl FnMut(&[u32])) {
         let Some((from, to)) = self.clip(from_mm, to_mm) else { return };
         let (mut cell, last) = (self.cell(from), self.cell(to));
         let way = to - from;
         let step = IVec2::new(way.x.signum() as i32, way.y.signum() as i32);
-        // Shares of the segment at the next border, and from border to border.
+        // Fractions of the segment at the next border, and from border to border.
         let border = |i: usize| {
             let next = f64::from(cell[i] + step[i].max(0)) * self.cell_mm + self.origin_mm[i];
             if way[i] == 0.0 { f64::INFINITY } else { (next - from[i]) / way[i] }

@@ -1,17 +1,17 @@
-//! Drops of water on the outer face of a wind-screen.
+//! Drops of water on the outer face of a windscreen.
 //!
-//! **Modelled**: each drop is a spherical cap ([`Cap`]) on the plane that touches the glass in its middle. A ray that leaves the glass
-//! under a drop is refracted into water, and where it meets the sphere, into air; one that leaves beside it may enter another drop from
-//! its side. Fresnel's losses at every surface; total reflection within a drop is followed. Drops that touch have become one of their
-//! joint volume, so no two overlap. Inversion, dark rims and the camera's depth of field come of that.
+//! **Modelled**: each drop is a spherical cap ([`Cap`]) on the tangent plane of the glass at the drop's centre. A ray that leaves the glass under a
+//! drop is refracted into water and, where it meets the sphere, into air; one that leaves next to it may enter another drop from its side. Fresnel
+//! losses apply at every surface; total reflection within a drop is followed. Touching drops have coalesced to one of their joint volume, so no two
+//! overlap. Image inversion, dark edges and defocus of the drops follow from this.
 //!
-//! Drops that change over time ([`Course`]) are looked at as they are at one moment.
+//! Drops that change over time ([`Course`]) are evaluated at one moment.
 //!
-//! **Left out**: light that is reflected in part within a drop or at its outside; light that comes out of the glass's inside, to which some
-//! rays are thrown back (they are dark); absorption in the water (below 10⁻³ over a centimetre of it in the visible); gravity, which
-//! flattens drops above 2.7 mm and makes them hang; wet trails.
+//! **Left out**: light partially reflected within a drop or at its outside; light from inside the glass, into which some rays are reflected (they are
+//! dark); absorption in the water (below 10⁻³ over a centimetre of it in the visible); gravity, which flattens drops above 2.7 mm and makes them sag;
+//! wet trails.
 //!
-//! Ground truth does not see drops: depth, ids and flow are those of dry glass.
+//! Ground truth ignores drops: depth, ids and flow are those of dry glass.
 
 mod coalescence;
 mod course;
@@ -30,37 +30,37 @@ pub use coalescence::Cap;
 pub use course::{Course, Droplet, Sliding, Wiper};
 pub use population::DropsParameters;
 
-/// Drops as they lie on the glass.
+/// Drops on the glass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drops {
     parameters: DropsParameters,
     droplets: Vec<Droplet>,
     bodies: Vec<Body>,
     grid: Grid,
-    /// Of the highest drop.
+    /// Height of the highest drop.
     height_mm: f64,
 }
 
 /// A cap in the glass's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Body {
-    /// Middle of the base, on the glass, mm.
+    /// Centre of the base, on the glass, mm.
     foot_mm: DVec3,
-    /// Of the glass there, outwards.
+    /// Outward normal of the glass there.
     normal: DVec3,
-    /// Of the sphere, mm.
+    /// Centre of the sphere, mm.
     centre_mm: DVec3,
     radius_mm: f64,
 }
 
-/// Where drops stand: from a place on the glass (x right, y down, mm) to the point of its outer face and the outward normal.
+/// The glass under the drops: maps a position (x right, y down, mm) to the point of the outer face and the outward normal.
 pub(super) type Face<'a> = &'a dyn Fn(DVec2) -> Option<(DVec3, DVec3)>;
 
 impl Drops {
-    /// Drops on a face.
+    /// Places drops on a face.
     ///
     /// # Errors
-    /// Where a number is outside its range, or the glass does not reach as far as the drops.
+    /// If a number is outside its range, or the glass does not reach as far as the drops.
     pub(super) fn new(parameters: DropsParameters, face: Face<'_>) -> Result<Self, FrontError> {
         population::check(&parameters)?;
         let mut droplets = population::first(&parameters);
@@ -79,34 +79,33 @@ impl Drops {
         Ok(Self { parameters, droplets, bodies, grid, height_mm })
     }
 
-    /// The drops at a time, s, where they change; `down` is gravity's direction in the glass's frame. Those that
-    /// slid off the glass are gone.
+    /// The drops at a time, s, if they change; `down` is the direction of gravity in the glass's frame. Drops that slid off the glass are removed.
     pub(super) fn at(&self, course: &Course, time_s: f64, down: DVec3, face: Face<'_>) -> Result<Self, FrontError> {
         let mut droplets = evolution::at(&self.parameters, course, time_s, down.truncate());
         droplets.retain(|drop| face(drop.centre_mm).is_some());
         Self::lying(self.parameters.clone(), droplets, face)
     }
 
-    /// What they were made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &DropsParameters {
         &self.parameters
     }
 
-    /// The drops that lie there, touching ones joined.
+    /// The drops on the glass, after coalescence.
     #[must_use]
     pub fn droplets(&self) -> &[Droplet] {
         &self.droplets
     }
 
-    /// Share of their rectangle that is under drops (those that reach over its edge included).
+    /// Fraction of their rectangle covered by drops (including those that overlap its edge).
     #[must_use]
     pub fn cover(&self) -> f64 {
         let squares: f64 = self.droplets.iter().map(|d| d.radius_mm * d.radius_mm).sum();
         core::f64::consts::PI * squares / (self.parameters.size_mm.x * self.parameters.size_mm.y)
     }
 
-    /// Whether a point of the glass lies in their rectangle.
+    /// True if a point of the glass lies in their rectangle.
     pub(super) fn is_over(&self, point_mm: DVec3) -> bool {
         let p = &self.parameters;
         ((point_mm.truncate() - p.offset_mm).abs() * 2.0).cmple(p.size_mm).all()
@@ -148,7 +147,7 @@ pub(super) mod tests {
         let of = |seed| Drops::new(DropsParameters { seed, ..parameters() }, &plane).expect("legal drops");
         assert_eq!(of(7), of(7));
         assert_ne!(of(7).droplets(), of(8).droplets());
-        // Cover of the law: n π <a²>/A, less what the joint drops of equal volume cover less.
+        // Coverage by the law: n π <a²>/A, less the loss of coverage by coalescence at equal volume.
         let cover = of(7).cover();
         assert!(cover > 0.005 && cover < 0.05, "{cover}");
     }

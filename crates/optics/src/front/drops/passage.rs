@@ -1,4 +1,4 @@
-//! A ray from the glass through drops into the open air, against the light.
+//! A ray from the glass through drops into open air, against the light.
 
 use glam::DVec3;
 
@@ -6,13 +6,13 @@ use super::{Body, Drops};
 use crate::front::Line;
 use crate::prescription::coating::{Coating, Crossing};
 
-/// Surfaces of water that a ray meets, at most; what goes on longer is dark.
+/// Maximum number of water surfaces met by a ray; longer paths are dark.
 const MAX_SURFACES: usize = 16;
 
-/// How far drops are looked for along a ray that all but grazes the glass, mm.
+/// Search distance for drops along a ray nearly parallel to the glass, mm.
 const FARTHEST_MM: f64 = 1e4;
 
-/// A surface of water ahead of a ray.
+/// The next water surface on a ray.
 struct Hit {
     drop: usize,
     way_mm: f64,
@@ -33,8 +33,8 @@ impl Drops {
         })
     }
 
-    /// A ray that has left the glass into the drop `inside`, or into air, where it is in the open air, and the share of light that
-    /// comes this way; `None` where it ends in the glass or goes on too long. `normal` is the glass's where the ray left it, outwards.
+    /// Traces a ray that has left the glass into the drop `inside`, or into air, to the open air; returns it with the transmitted fraction. `None` if
+    /// it ends in the glass or exceeds the maximum number of surfaces. `normal` is the outward normal of the glass where the ray left it.
     pub(in crate::front) fn leave(
         &self,
         mut line: Line,
@@ -53,7 +53,7 @@ impl Drops {
                     match refract(&mut line, -outward, [self.index(nm), 1.0], nm) {
                         Some(passed) => {
                             share *= passed;
-                            // Towards the glass: it sees what is behind it.
+                            // Towards the glass: it sees the region behind it.
                             if line.direction.dot(body.normal) <= 0.0 {
                                 return None;
                             }
@@ -75,9 +75,9 @@ impl Drops {
         None
     }
 
-    /// The first drop that a ray in air meets, but for the one that it has just left: spheres are convex.
+    /// The first drop met by a ray in air, except the one that it has just left: spheres are convex.
     fn ahead(&self, line: &Line, normal: DVec3, left: Option<usize>) -> Option<Hit> {
-        // Beyond this way it is higher than all drops: glass bends away from the plane that touches it.
+        // Beyond this distance it is higher than all drops: the glass curves away from its tangent plane.
         let rise = line.direction.dot(normal);
         let far_mm = if rise > 0.0 { (self.height_mm / rise).min(FARTHEST_MM) } else { FARTHEST_MM };
         let mut first: Option<Hit> = None;
@@ -95,7 +95,7 @@ impl Drops {
 }
 
 impl Body {
-    /// The point where a ray from within meets the sphere above the glass; `None` where it meets the glass first.
+    /// The point where a ray from within meets the sphere above the glass; `None` if it meets the glass first.
     fn surface_from_within(&self, line: &Line) -> Option<DVec3> {
         let from = line.point_mm - self.centre_mm;
         let along = from.dot(line.direction);
@@ -105,7 +105,7 @@ impl Body {
         (self.height(point_mm) > 0.0).then_some(point_mm)
     }
 
-    /// How far a ray from outside goes to the sphere above the glass.
+    /// Distance of a ray from outside to the sphere above the glass.
     fn surface_from_outside(&self, line: &Line) -> Option<f64> {
         let from = line.point_mm - self.centre_mm;
         let along = from.dot(line.direction);
@@ -121,7 +121,7 @@ impl Body {
     }
 }
 
-/// Refracts a ray at a surface whose normal is against it; the share that passes, `None` for total reflection.
+/// Refracts a ray at a surface whose normal is against it; returns the transmitted fraction, `None` for total reflection.
 fn refract(line: &mut Line, against: DVec3, n: [f64; 2], nm: f64) -> Option<f64> {
     let along = -line.direction.dot(against);
     let ratio = n[0] / n[1];

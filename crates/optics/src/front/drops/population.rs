@@ -1,10 +1,10 @@
-//! What drops on glass are made of, and drops as they fall on it.
+//! Parameters of drops on glass, and drops as they arrive on it.
 //!
-//! Drops as they fall on the glass: independent of each other, evenly over the rectangle, of sizes by a power law.
+//! Arriving drops are independent of each other and uniform over the rectangle; their sizes follow a power law.
 //!
-//! Numbers by base radius a fall as a^(−exponent). The usual exponent, 8/3, is that of drops that condense and coalesce: the share of
-//! the area under drops above a is 1 − (a/a_max)^(1/3) (E. J. Le Fevre and J. W. Rose, "A theory of heat transfer by dropwise
-//! condensation", Third International Heat Transfer Conference, 1966).
+//! The number density by base radius falls as a^(−exponent). The usual exponent, 8/3, is that of drops that condense and coalesce: the fraction of
+//! the area under drops above a is 1 − (a/a_max)^(1/3) (E. J. Le Fevre and J. W. Rose, "A theory of heat transfer by dropwise condensation", Third
+//! International Heat Transfer Conference, 1966).
 
 use core::f64::consts::PI;
 
@@ -15,29 +15,29 @@ use super::course::{Course, Droplet};
 use crate::error::front::{FrontError, positive};
 use crate::front::placement::Curve;
 
-/// Drops at the beginning, at most.
+/// Maximum number of initial drops.
 const MAX_COUNT: u32 = 1_000_000;
 
-/// What drops on glass are made of.
+/// Parameters of drops on glass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DropsParameters {
-    /// Middle of the rectangle that they lie in, in the glass's frame (x right, y down), mm.
+    /// Centre of the drops' rectangle in the glass's frame (x right, y down), mm.
     pub offset_mm: DVec2,
-    /// Its width and height, mm.
+    /// Width and height of the rectangle, mm.
     pub size_mm: DVec2,
-    /// How many fell on it before the beginning, before those that touch become one; 1 to 1 000 000, or 0 where others arrive.
+    /// Number of initial drops before coalescence; 1 to 1 000 000, or 0 if others arrive.
     pub count: u32,
-    /// Radii of their bases: least and greatest, mm, before those that touch become one.
+    /// Smallest and largest base radius, mm, before coalescence.
     pub radius_mm: [f64; 2],
-    /// The size law: numbers by base radius a fall as a^(−exponent) between the two, 0 … 6.
+    /// The size law: the number density by base radius falls as a^(−exponent) between the two, 0 … 6.
     pub size_exponent: f64,
     /// Angle within the water between glass and surface, rad, 5° … 150°.
     pub contact_angle_rad: f64,
     /// Refractive index of the water against air.
     pub index: Curve,
-    /// Seed of places and sizes.
+    /// Seed of positions and sizes.
     pub seed: u64,
-    /// What changes them over time; `None` for drops that stay as they are.
+    /// Change over time; `None` for static drops.
     pub course: Option<Course>,
 }
 
@@ -73,16 +73,16 @@ pub(super) fn check(p: &DropsParameters) -> Result<(), FrontError> {
     Err(FrontError::Share { name: "the water's index", value, range: "above 1 and at most 4" })
 }
 
-/// Which drops an address is of.
+/// Batch of drops that an address belongs to.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Batch {
-    /// Those of the beginning.
+    /// Initial drops.
     First = 0,
-    /// Those that fall later.
+    /// Drops that arrive later.
     Later = 1,
 }
 
-/// Tells these words from others of the same seed.
+/// Separates these random numbers from others of the same seed.
 const DOMAIN: u32 = 0x6472_6f70;
 
 /// The drop of a number, and a further number of its own in (0, 1): a pure function of it and the seed.
@@ -94,12 +94,12 @@ pub(super) fn droplet(p: &DropsParameters, batch: Batch, number: u64) -> (Drople
     (Droplet { centre_mm, radius_mm: radius_mm(p, size) }, further)
 }
 
-/// Drops of the beginning, as they fell.
+/// Initial drops before coalescence.
 pub(super) fn first(p: &DropsParameters) -> Vec<Droplet> {
     (0..u64::from(p.count)).map(|number| droplet(p, Batch::First, number).0).collect()
 }
 
-/// The base radius, mm, below which the share `u` of drops is.
+/// The base radius, mm, below which the fraction `u` of drops lies.
 fn radius_mm(p: &DropsParameters, u: f64) -> f64 {
     let [least, greatest] = p.radius_mm;
     let power = 1.0 - p.size_exponent;
@@ -117,7 +117,7 @@ mod tests {
     use super::super::tests::parameters;
     use super::*;
 
-    /// The share of drops below a radius is that of the truncated power law; 4 σ of the binomial spread.
+    /// The fraction of drops below a radius is that of the truncated power law; 4 σ of the binomial spread.
     #[test]
     fn sizes_follow_the_law() {
         for exponent in [0.0, 1.0, 8.0 / 3.0] {

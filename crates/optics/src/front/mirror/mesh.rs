@@ -1,11 +1,10 @@
-//! Where a line meets a mirror.
+//! Intersection of a line with a mirror.
 //!
-//! A mirror by triangles, with smooth normals.
+//! A triangle-mesh mirror with smooth normals.
 //!
-//! A ray meets the flat triangles, but is reflected by the normal interpolated between their corners (Phong 1975), so that the
-//! picture has no facets: directions err by the square of the triangles' size. The test of a ray and a triangle is that of
-//! Woop, Benthin and Wald ("Watertight ray/triangle intersection", 2013) in double precision: a shared edge has one sign for
-//! both sides and belongs to both, so nothing leaks between.
+//! A ray hits the flat triangles, but is reflected by the normal interpolated between their corners (Phong 1975), so the image has no facets: the
+//! error of the directions is of second order in the triangle size. The ray/triangle test is that of Woop, Benthin and Wald ("Watertight ray/triangle
+//! intersection", 2013) in double precision: a shared edge has one sign for both sides and belongs to both, so there are no leaks.
 
 use core::fmt;
 
@@ -13,36 +12,36 @@ use glam::DVec3;
 
 use crate::{error::FrontError, front::Line};
 
-/// A point of a mirror's surface in its frame, and the normal of the reflecting side.
+/// A hit on a mirror's surface in its frame, with the normal of the reflecting side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::front) struct Touch {
     pub(super) point_mm: DVec3,
-    /// The normal of the surface itself, which tells the sides apart.
+    /// The geometric normal, which distinguishes the sides.
     pub(super) facing: DVec3,
-    /// The normal by which it reflects: of a mesh the smooth one.
+    /// The shading normal used for reflection: smooth for a mesh.
     pub(super) normal: DVec3,
 }
 
-/// Triangles of a leaf at most.
+/// Maximum triangles per leaf.
 const LEAF: usize = 4;
-/// Deeper than any tree that halves: 2³² triangles.
+/// Depth bound of a halving tree: 2³² triangles.
 const DEPTH: usize = 64;
-/// By how much of its numbers a box is larger than what it holds, for rounding.
+/// Relative margin of a box for rounding.
 const MARGIN: f64 = 1e-12;
 
-/// Stands for 1/0.
+/// Replaces 1/0.
 const HUGE: f64 = 1e300;
 
 #[derive(Clone, Debug, PartialEq)]
 struct Node {
     low: DVec3,
     high: DVec3,
-    /// Of a leaf the range of `order`; else the right child, the left one being next.
+    /// For a leaf, the range of `order`; else the right child; the left child follows directly.
     first: u32,
     count: u32,
 }
 
-/// The tree.
+/// The acceleration tree.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tree {
     nodes: Vec<Node>,
@@ -91,9 +90,9 @@ impl Tree {
         (self.nodes[at].first, self.nodes[at].count) = (right, 0);
     }
 
-    /// Hands over the triangles that a ray may meet nearer than `nearest`, which the visitor lowers.
+    /// Visits the triangles that a ray may meet nearer than `nearest`, which the visitor lowers.
     pub(super) fn visit(&self, line: &Line, nearest: &mut f64, mut each: impl FnMut(u32, &mut f64)) {
-        // Not infinite, so that no 0 · ∞ arises on a box's face.
+        // Finite, so that no 0 · ∞ arises on a box's face.
         let inverse = DVec3::from_array(line.direction.to_array().map(|d| if d == 0.0 { HUGE } else { 1.0 / d }));
         let (mut stack, mut depth) = ([0_u32; DEPTH], 1);
         while depth > 0 {
@@ -123,7 +122,7 @@ impl Node {
     }
 }
 
-/// A mesh.
+/// A mesh mirror.
 #[derive(Clone, PartialEq)]
 pub struct MeshMirror {
     positions_mm: Vec<DVec3>,
@@ -133,18 +132,18 @@ pub struct MeshMirror {
 }
 
 impl fmt::Debug for MeshMirror {
-    /// Every vertex, normal and triangle: what decides its pictures.
+    /// Prints every vertex, normal and triangle: they determine the images.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "MeshMirror({:?}, {:?}, {:?})", self.positions_mm, self.normals, self.triangles)
     }
 }
 
 impl MeshMirror {
-    /// A mesh of corners (mm) in its own frame and triangles, counter-clockwise as seen from the reflecting side. Without
-    /// normals, each corner has the mean normal of its triangles, weighted by their areas.
+    /// Creates a mesh of corners (mm) in its own frame and triangles, counter-clockwise as seen from the reflecting side. Without normals, each
+    /// corner has the area-weighted mean normal of its triangles.
     ///
     /// # Errors
-    /// Where it has no triangles, one names a corner that is not there, has no area, or numbers are not finite.
+    /// If it has no triangles, a triangle refers to a missing corner or has no area, or numbers are not finite.
     pub fn new(positions_mm: Vec<DVec3>, normals: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, FrontError> {
         let refuse = |what| Err(FrontError::Mesh { what });
         if triangles.is_empty() {
@@ -169,19 +168,19 @@ impl MeshMirror {
         Ok(Self { positions_mm, normals, triangles, tree })
     }
 
-    /// How many triangles.
+    /// Number of triangles.
     #[must_use]
     pub fn len(&self) -> usize {
         self.triangles.len()
     }
 
-    /// Whether there are none, which cannot be.
+    /// True if there are none; never the case.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// The first point that a ray of its frame meets.
+    /// The first hit of a ray given in its frame.
     pub(super) fn touch(&self, line: &Line) -> Option<Touch> {
         let shear = Shear::of(line);
         let (mut nearest, mut found) = (f64::INFINITY, None);
@@ -217,7 +216,7 @@ fn smooth(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
         let normal = area_normal(positions, triangle);
         triangle.iter().for_each(|i| normals[*i as usize] += normal);
     }
-    // A corner of no triangle is never met.
+    // A corner without a triangle is never hit.
     normals.into_iter().map(|n| if n == DVec3::ZERO { DVec3::Z } else { n }).collect()
 }
 

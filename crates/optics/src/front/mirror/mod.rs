@@ -1,13 +1,12 @@
-//! A mirror that the camera looks at: a catadioptric camera.
+//! A mirror in the view of the camera: a catadioptric camera.
 //!
-//! Rays are reflected truly, d′ = d − 2 (d·n) n, whatever the mirror's shape and wherever the pupil stands; a single viewpoint
-//! is not assumed. It exists (Baker and Nayar, "A theory of single-viewpoint catadioptric image formation", 1999) for a
-//! hyperboloid with the pupil at its outer focus, and for a paraboloid under parallel rays.
+//! Rays are reflected exactly, d′ = d − 2 (d·n) n, for any mirror shape and pupil position; a single viewpoint is not assumed. It exists (Baker and
+//! Nayar, "A theory of single-viewpoint catadioptric image formation", 1999) for a hyperboloid with the pupil at its outer focus, and for a
+//! paraboloid under parallel rays.
 //!
-//! The mirror's frame: z along its axis, away from the camera as long as it is not turned; the reflecting side is the outer
-//! side of a convex quadric about +z, or the front (counter-clockwise) side of a mesh. The other side is black. A ray
-//! that misses the mirror or goes through its hole passes by. Left out: a second reflection at the mirror, the body of
-//! the camera (which a real one sees in the middle), roughness.
+//! The mirror's frame: z along its axis, away from the camera in the unrotated state; the reflecting side is the outer side of a convex quadric about
+//! +z, or the front (counter-clockwise) side of a mesh. The other side is black. A ray that misses the mirror or goes through its hole is unchanged.
+//! Left out: a second reflection at the mirror, the body of the camera (which appears at the centre of real images), roughness.
 
 mod mesh;
 mod quadric;
@@ -30,14 +29,14 @@ pub enum MirrorShape {
     Mesh(Box<MeshMirror>),
 }
 
-/// What a mirror is made of.
+/// Parameters of a mirror.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MirrorParameters {
     /// Its surface.
     pub shape: MirrorShape,
-    /// Where it stands: a quadric with its vertex (a cone with its apex) at the origin.
+    /// Placement: a quadric has its vertex (a cone its apex) at the origin.
     pub placement: Placement,
-    /// The share of light that it reflects.
+    /// Reflected fraction of the light.
     pub reflectance: Reflectance,
 }
 
@@ -47,7 +46,7 @@ pub struct Mirror {
     parameters: MirrorParameters,
 }
 
-/// How the camera sees the mirror along a ray.
+/// The camera's view of the mirror along a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sight {
     Past,
@@ -56,22 +55,22 @@ enum Sight {
 }
 
 impl Mirror {
-    /// A mirror.
+    /// Creates a mirror.
     ///
     /// # Errors
-    /// Where its reflectance is none.
+    /// If its reflectance is invalid.
     pub fn new(parameters: MirrorParameters) -> Result<Self, FrontError> {
         parameters.reflectance.check()?;
         Ok(Self { parameters })
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &MirrorParameters {
         &self.parameters
     }
 
-    /// The share of light that it reflects.
+    /// Reflected fraction of the light.
     #[must_use]
     pub fn reflectance(&self) -> &Reflectance {
         &self.parameters.reflectance
@@ -90,7 +89,7 @@ impl Mirror {
         if local.direction.dot(touch.facing) >= 0.0 {
             return Fate::Lost;
         }
-        // At the rim of a coarse mesh the smooth normal may look away: light would be thrown into the mirror.
+        // At the edge of a coarse mesh the smooth normal may face away: light would be reflected into the mirror.
         let normal = if local.direction.dot(touch.normal) < 0.0 { touch.normal } else { touch.facing };
         let along = local.direction.dot(normal);
         let direction = (local.direction - normal * (2.0 * along)).normalize();
@@ -107,9 +106,9 @@ impl Mirror {
         }
     }
 
-    /// Whether the camera that looks along `lines` sees the mirror, and its right side.
+    /// Checks that the camera, looking along `lines`, sees the mirror from the correct side.
     pub(super) fn check(&self, lines: &[Line]) -> Result<(), FrontError> {
-        // Of a mesh, which may be open, the back alone tells.
+        // For a mesh, which may be open, the back side alone decides.
         let inside = |line: &Line| match &self.parameters.shape {
             MirrorShape::Quadric(quadric) => quadric.holds(self.parameters.placement.inward(*line).point_mm),
             MirrorShape::Mesh(_) => false,

@@ -14,10 +14,10 @@ use super::super::Line;
 use super::Touch;
 use crate::error::front::{FrontError, positive};
 
-/// Which quadric.
+/// Kind of quadric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum QuadricKind {
-    /// A conic of a vertex radius (mm) and a conic constant: 0 a sphere, −1 a paraboloid, less a hyperboloid.
+    /// A conic of a vertex radius (mm) and a conic constant: 0 a sphere, −1 a paraboloid, below −1 a hyperboloid.
     Conic {
         /// Radius of curvature at the vertex, mm.
         radius_mm: f64,
@@ -31,7 +31,7 @@ pub enum QuadricKind {
     },
 }
 
-/// A quadric between its hole and its rim.
+/// A quadric between its hole and its outer edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadric {
     radius_mm: f64,
@@ -41,10 +41,10 @@ pub struct Quadric {
 }
 
 impl Quadric {
-    /// A mirror from `hole_mm` (0 for none) to `rim_mm` from its axis.
+    /// Creates a mirror from `hole_mm` (0 for none) to `rim_mm` from its axis.
     ///
     /// # Errors
-    /// Where a number is outside its range, the surface does not reach its rim, or the hole reaches it.
+    /// If a number is outside its range, the surface does not reach its outer edge, or the hole reaches it.
     pub fn new(kind: QuadricKind, rim_mm: f64, hole_mm: f64) -> Result<Self, FrontError> {
         let (radius_mm, shape) = match kind {
             QuadricKind::Conic { radius_mm, conic } => {
@@ -74,13 +74,13 @@ impl Quadric {
         Ok(Self { radius_mm, shape, rim_mm, hole_mm })
     }
 
-    /// How far outside the vertex the pupil stands for a single viewpoint, mm; `None` for all but hyperboloids.
+    /// Distance of the pupil outside the vertex for a single viewpoint, mm; `None` for all except hyperboloids.
     #[must_use]
     pub fn outer_focus_mm(&self) -> Option<f64> {
         (self.radius_mm > 0.0 && self.shape < 0.0).then(|| self.radius_mm / ((1.0 - self.shape).sqrt() - 1.0))
     }
 
-    /// What it is, in words.
+    /// Name in words.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self.shape {
@@ -92,19 +92,19 @@ impl Quadric {
         }
     }
 
-    /// The rim's radius, mm.
+    /// Radius of the outer edge, mm.
     #[must_use]
     pub fn rim_mm(&self) -> f64 {
         self.rim_mm
     }
 
-    /// Whether a point of the mirror's frame lies within the sheet.
+    /// True if a point of the mirror's frame lies within the sheet.
     pub(super) fn holds(&self, p: DVec3) -> bool {
         let value = p.x * p.x + p.y * p.y + self.shape * p.z * p.z - 2.0 * self.radius_mm * p.z;
         value < 0.0 && self.radius_mm - self.shape * p.z > 0.0
     }
 
-    /// The first point of the mirror that a ray of its frame meets.
+    /// The first hit of a ray given in the mirror's frame.
     pub(super) fn touch(&self, line: &Line) -> Option<Touch> {
         let d = line.direction;
         // From the ray's point nearest to the vertex, so that far pupils lose no digits.
@@ -124,7 +124,7 @@ impl Quadric {
         [s.min(t), s.max(t)].into_iter().filter(ahead).find_map(|t| self.at(o + d * t))
     }
 
-    /// The surface at a point of the quadric, if the mirror is there.
+    /// The surface at a point of the quadric, if it lies on the mirror.
     fn at(&self, p: DVec3) -> Option<Touch> {
         let r2 = p.x * p.x + p.y * p.y;
         let within = r2 <= self.rim_mm * self.rim_mm && r2 >= self.hole_mm * self.hole_mm;

@@ -1,14 +1,14 @@
-//! How much light a mirror reflects.
+//! Reflectance of a mirror.
 
 use etendue_spectra::metal::ComplexIndex;
 
 use super::super::Curve;
 use crate::error::FrontError;
 
-/// The share of light that a mirror reflects.
+/// Reflectance of a mirror.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reflectance {
-    /// A share, whatever the angle.
+    /// A reflectance independent of the angle.
     Share(Curve),
     /// A bare metal: Fresnel's equations with a complex index, mean of both polarisations.
     Metal(Box<ComplexIndex>),
@@ -23,7 +23,7 @@ impl Reflectance {
         if right { Ok(()) } else { Err(FrontError::Share { name: "reflectance", value, range: "0 and 1, not all 0" }) }
     }
 
-    /// Whether it depends on the wavelength.
+    /// True if it depends on the wavelength.
     #[must_use]
     pub fn varies(&self) -> bool {
         match self {
@@ -32,7 +32,7 @@ impl Reflectance {
         }
     }
 
-    /// The share at a wavelength and the cosine of the angle of incidence.
+    /// The reflectance at a wavelength and the cosine of the angle of incidence.
     #[must_use]
     pub fn at(&self, nm: f64, cosine: f64) -> f64 {
         match self {

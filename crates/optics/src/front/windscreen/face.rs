@@ -1,11 +1,10 @@
-//! What a wind-screen is made of.
+//! Parameters of a windscreen.
 //!
-//! Faces of a wind-screen: parallel surfaces of constant distance from the inner one, but for the wedge.
+//! Faces of a windscreen: parallel surfaces at a constant distance from the inner one, except for the wedge.
 //!
-//! A section upwards is a circle of radius R_u that turns about an upright axis at the distance R_a behind the vertex: a
-//! torus, a sphere for R_a = R_u, a cylinder where one radius is infinite, a plane where both are. The height of a point over
-//! it, √((ρ − (R_a − R_u))² + y²) − R_u with ρ its distance from the axis, is its true distance, so that parallel
-//! faces are those of constant height.
+//! The upright section is a circle of radius R_u rotated about an upright axis at the distance R_a behind the vertex: a torus, a sphere for R_a =
+//! R_u, a cylinder if one radius is infinite, a plane if both are. The height of a point over it, √((ρ − (R_a − R_u))² + y²) − R_u with ρ its
+//! distance from the axis, is its true distance, so parallel faces are those of constant height.
 
 use etendue_core::maths::f64::sin_cos;
 use glam::{DMat3, DVec2, DVec3};
@@ -14,7 +13,7 @@ use crate::error::front::{FrontError, positive};
 use crate::front::{Line, Placement};
 use crate::{front::placement::Curve, prescription::coating::Coating};
 
-/// A layer of a wind-screen.
+/// A layer of a windscreen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// Thickness, mm.
@@ -23,33 +22,33 @@ pub struct Layer {
     pub index: Curve,
 }
 
-/// Glass that absorbs.
+/// Absorbing glass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tint {
     /// Internal transmittance (without reflections) of the reference thickness.
     pub transmittance: Curve,
-    /// The reference thickness, mm; `None` for that of the wind-screen.
+    /// The reference thickness, mm; `None`: the thickness of the windscreen.
     pub thickness_mm: Option<f64>,
 }
 
-/// What a wind-screen is made of.
+/// Parameters of a windscreen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindscreenParameters {
-    /// Where it stands: the origin on its inner face, z outwards.
+    /// Placement: the origin is on the inner face, z points outwards.
     pub placement: Placement,
-    /// Radius of curvature of the inner face to left and right, mm, its centre on the camera's side; infinite for none.
+    /// Horizontal radius of curvature of the inner face, mm, its centre on the camera's side; infinite for none.
     pub radius_across_mm: f64,
-    /// The same upwards and downwards.
+    /// Vertical radius of curvature, likewise.
     pub radius_upright_mm: f64,
     /// Layers, from the camera outwards.
     pub layers: Vec<Layer>,
-    /// Angle by which the glass grows thicker upwards, rad; it lies in the middle layer.
+    /// Angle by which the glass becomes thicker upwards, rad; it lies in the middle layer.
     pub wedge_rad: f64,
     /// Absorption.
     pub tint: Option<Tint>,
-    /// What the outer faces let through.
+    /// Coating of the outer faces.
     pub coating: Coating,
-    /// Share of samples that look for the double image; 0 for no double image, `None` for as much as it has light.
+    /// Fraction of samples that trace the double image; 0: no double image; `None`: its fraction of the light.
     pub double_image_fraction: Option<f64>,
 }
 
@@ -91,9 +90,9 @@ pub(super) fn check(p: &WindscreenParameters) -> Result<(), FrontError> {
     if right { Ok(()) } else { Err(FrontError::Share { name: "internal_transmittance", value, range }) }
 }
 
-/// Newton steps at most; four or five serve.
+/// Maximum Newton steps; four or five suffice.
 const STEPS: usize = 24;
-/// The height at which a point is on a face, mm: rounding of lengths of metres.
+/// Maximum height of a point on a face, mm: rounding of lengths of metres.
 const NEAR_MM: f64 = 1e-10;
 
 /// One face.
@@ -102,7 +101,7 @@ pub(super) struct Face {
     across_mm: f64,
     upright_mm: f64,
     height_mm: f64,
-    /// From the wind-screen's frame to the inner face's, about the point of the face on the z axis: the wedge.
+    /// Rotation from the windscreen's frame to the inner face's, about the face's point on the z axis: the wedge.
     turn: DMat3,
 }
 
@@ -123,7 +122,7 @@ pub(super) fn faces(p: &WindscreenParameters) -> Vec<Face> {
 }
 
 impl Face {
-    /// Distance of a point from the face, outwards, and its gradient, the outward normal.
+    /// Distance of a point from the face, outwards positive, and its gradient, the outward normal.
     pub(super) fn height(&self, p: DVec3) -> (f64, DVec3) {
         if self.turn == DMat3::IDENTITY {
             let (height, normal) = self.bare(p);
@@ -136,11 +135,11 @@ impl Face {
 
     fn bare(&self, p: DVec3) -> (f64, DVec3) {
         let (across, upright) = (self.across_mm, self.upright_mm);
-        // Outwards from the axis: the height without curvature upwards, and its direction.
+        // Outwards from the axis: the height without vertical curvature, and its direction.
         let (out, direction) = if across.is_finite() {
             let (x, z) = (p.x, p.z + across);
             let rho = (x * x + z * z).sqrt();
-            // ρ − R_a without loss of digits.
+            // ρ − R_a without cancellation.
             ((x * x + p.z * (p.z + 2.0 * across)) / (rho + across), DVec3::new(x / rho, 0.0, z / rho))
         } else {
             (p.z, DVec3::Z)
@@ -154,7 +153,7 @@ impl Face {
         (height, direction * (z / length) + DVec3::Y * (p.y / length))
     }
 
-    /// The point of the face at a place of the wind-screen's x and y, mm, and the outward normal there; `None` where it has none.
+    /// The point of the face at the windscreen's x and y, mm, and its outward normal; `None` if there is none.
     pub(super) fn at(&self, place_mm: DVec2) -> Option<(DVec3, DVec3)> {
         let mut p = place_mm.extend(self.height_mm);
         for _ in 0..STEPS {
@@ -170,7 +169,7 @@ impl Face {
         None
     }
 
-    /// Where a ray crosses the face outwards (`sense` 1) or inwards (−1): the point and the outward normal.
+    /// The point where a ray crosses the face outwards (`sense` 1) or inwards (−1), and the outward normal.
     pub(super) fn crossed(&self, line: &Line, sense: f64) -> Option<(DVec3, DVec3)> {
         let mut p = line.point_mm;
         for _ in 0..STEPS {
@@ -216,7 +215,7 @@ mod tests {
             let p = DVec3::new(210.0, -130.0, -20.0);
             let (height, normal) = face.height(p);
             assert!((normal.length() - 1.0).abs() < 1e-14);
-            // Down its normal lies the face, straight below.
+            // The face lies straight below, along the normal.
             let (rest, below) = face.height(p - normal * height);
             assert!(rest.abs() < 1e-11 && (below - normal).length() < 1e-12, "{across} {upright}: {rest}");
         }

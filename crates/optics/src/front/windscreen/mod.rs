@@ -1,14 +1,14 @@
-//! A wind-screen: laminated, tilted, curved glass between the camera and the scene.
+//! A windscreen: laminated, tilted, curved glass between the camera and the scene.
 //!
-//! **Modelled**: Snell's law at every face (lateral offset, and the deflection by curvature and by a wedge); Fresnel's losses (or a
-//! coating's) at the two outer faces and Fresnel's at the faces between layers; absorption in the bulk, the internal
-//! transmittance τ of a reference thickness d taken to a path ℓ by τ^(ℓ/d) (Beer and Lambert); the double image: light that
-//! is reflected once at each outer face inside the glass, R² of what comes straight.
+//! **Modelled**: Snell's law at every face (lateral offset, and the deflection by curvature and by a wedge); Fresnel losses (or those of a coating)
+//! at the two outer faces and Fresnel losses at the faces between layers; absorption in the bulk, with the internal transmittance τ of a reference
+//! thickness d scaled to a path ℓ by τ^(ℓ/d) (Beer and Lambert); the double image: light reflected once at each outer face inside the glass, R² of
+//! the direct light.
 //!
-//! Drops of water may lie on the outer face: [`Drops`]. There light goes from glass into water, whatever the coating.
+//! Drops of water may lie on the outer face: [`Drops`]. There light passes from glass into water, whatever the coating.
 //!
-//! **Left out**: light reflected more than twice (R⁴, some 10⁻⁶ at normal incidence) or between the layers (n 1.52 to 1.48: 2·10⁻⁴);
-//! polarisation (the mean is taken at each face); coherence; edges: the glass has none; scatter.
+//! **Left out**: light reflected more than twice (R⁴, some 10⁻⁶ at normal incidence) or between the layers (n 1.52 to 1.48: 2·10⁻⁴); polarisation
+//! (each face uses the mean); coherence; edges (the glass is unbounded); scatter.
 //!
 //! Frame: origin on the inner face, z outwards along its normal, x to the right, y down. Positive tilt leans the upper edge
 //! towards the camera, as in cars.
@@ -30,16 +30,16 @@ pub use face::{Layer, Tint, WindscreenParameters};
 /// About R² of glass in air, twice 4 %.
 const USUAL_SHARE: f64 = 0.002;
 
-/// By which way light comes through.
+/// Light path through the glass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// Refracted only.
     Straight,
-    /// Reflected at the outer, then (seen from the camera) at the inner face.
+    /// Reflected at the outer face, then (seen from the camera) at the inner face.
     Doubled,
 }
 
-/// A wind-screen.
+/// A windscreen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Windscreen {
     parameters: WindscreenParameters,
@@ -50,10 +50,10 @@ pub struct Windscreen {
 }
 
 impl Windscreen {
-    /// A wind-screen.
+    /// Creates a windscreen.
     ///
     /// # Errors
-    /// Where a number is outside its range, or it stands behind or in the camera.
+    /// If a number is outside its range, or the glass is behind or inside the camera.
     pub fn new(parameters: WindscreenParameters) -> Result<Self, FrontError> {
         check(&parameters)?;
         let faces = face::faces(&parameters);
@@ -69,14 +69,14 @@ impl Windscreen {
     /// The same glass with drops of water on its outer face.
     ///
     /// # Errors
-    /// Where a number is outside its range, or the glass ends before the drops.
+    /// If a number is outside its range, or the glass ends before the drops.
     pub fn with_drops(self, parameters: DropsParameters) -> Result<Self, FrontError> {
         let outer = self.faces[self.faces.len() - 1];
         let drops = Drops::new(parameters, &|place_mm| outer.at(place_mm))?;
         Ok(Self { drops: Some(Box::new(drops)), ..self })
     }
 
-    /// The same glass with its drops as they are at a time, s; `down` is gravity's direction in the camera frame.
+    /// The same glass with the drops at a time, s; `down` is the direction of gravity in the camera frame.
     pub(super) fn at(&self, time_s: f64, down: DVec3) -> Self {
         let outer = self.faces[self.faces.len() - 1];
         let changed = self.drops().and_then(|drops| {
@@ -90,13 +90,13 @@ impl Windscreen {
         }
     }
 
-    /// The drops on it.
+    /// Drops on the outer face.
     #[must_use]
     pub fn drops(&self) -> Option<&Drops> {
         self.drops.as_deref()
     }
 
-    /// What it was made of.
+    /// Construction parameters.
     #[must_use]
     pub fn parameters(&self) -> &WindscreenParameters {
         &self.parameters
@@ -108,13 +108,13 @@ impl Windscreen {
         self.thickness_mm
     }
 
-    /// Share of samples that look for the double image.
+    /// Fraction of samples that trace the double image.
     #[must_use]
     pub fn double_image_fraction(&self) -> f64 {
         self.double_image_fraction
     }
 
-    /// Transmittances on the camera's axis at 587.56 nm: straight, and of the double image; `None` where it is not met.
+    /// Transmittances on the camera's axis at 587.56 nm: direct and double image; `None` if the axis misses the glass.
     #[must_use]
     pub fn axial_transmittances(&self) -> Option<[f64; 2]> {
         let axis = Line { point_mm: DVec3::ZERO, direction: DVec3::Z };
@@ -125,19 +125,19 @@ impl Windscreen {
         }
     }
 
-    /// The glass without its tint, which may be opaque at the wavelength of the axis's transmittances and not at others.
+    /// The glass without its tint, which may be opaque at the wavelength of the axial transmittances only.
     fn untinted(&self) -> Self {
         let parameters = WindscreenParameters { tint: None, ..self.parameters.clone() };
         Self { parameters, ..self.clone() }
     }
 
-    /// The double image's share of the light on the axis; of usual glass where the axis does not meet this one.
+    /// Fraction of the double image in the axial light; that of usual glass if the axis misses this one.
     fn share_of_double(&self) -> f64 {
         let share = |[straight, doubled]: [f64; 2]| (straight > 0.0).then(|| doubled / (straight + doubled));
         self.axial_transmittances().and_then(share).unwrap_or(USUAL_SHARE)
     }
 
-    /// Whether a ray or its weight depends on the wavelength.
+    /// True if a ray or its weight depends on the wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         let p = &self.parameters;
@@ -147,19 +147,19 @@ impl Windscreen {
             || self.drops().is_some_and(|drops| drops.parameters().index.varies())
     }
 
-    /// Which way a sample looks, by its first number; what is left of that number, and the inverse of the probability.
+    /// Selects the light path of a sample by its first number; returns the path, the rescaled number, and the inverse probability.
     pub(super) fn choose(&self, u: f64) -> (Way, f64, f64) {
         let q = self.double_image_fraction;
         if u < q { (Way::Doubled, u / q, 1.0 / q) } else { (Way::Straight, (u - q) / (1.0 - q), 1.0 / (1.0 - q)) }
     }
 
-    /// Whether a point of the camera frame is on the camera's side.
+    /// True if a point of the camera frame is on the camera's side.
     fn is_before(&self, point_mm: DVec3) -> bool {
         let local = self.parameters.placement.inward(Line { point_mm, direction: DVec3::Z });
         self.faces[0].height(local.point_mm).0 < 0.0
     }
 
-    /// Whether `points` of the lens are before the glass and any of `lines` goes through.
+    /// Checks that `points` of the lens are before the glass and that one of `lines` passes through it.
     pub(super) fn check(&self, points: &[DVec3], lines: &[Line]) -> Result<(), FrontError> {
         if !points.iter().all(|point| self.is_before(*point)) {
             return Err(FrontError::ThroughLens);
@@ -195,28 +195,28 @@ impl Windscreen {
     }
 }
 
-/// A ray on its way: what is left of it.
+/// A ray during its passage through the glass.
 struct Passage<'a> {
     glass: &'a Windscreen,
-    /// What lies on the outer face.
+    /// Drops on the outer face.
     drops: Option<&'a Drops>,
     /// The drop that wets the outer face where the ray last met it.
     wet: Option<usize>,
     nm: f64,
     line: Line,
-    /// The medium it runs in: 0 is air inside, 1 the first layer, the last air outside.
+    /// The current medium: 0 is air inside, 1 the first layer, the last air outside.
     medium: usize,
     share: f64,
     path_mm: f64,
 }
 
 impl Windscreen {
-    /// A ray from the camera, beyond the glass as if it were dry.
+    /// Traces a ray from the camera through dry glass.
     pub(super) fn through(&self, line: Line, nm: f64, way: Way) -> Fate {
         self.beyond(None, line, nm, way)
     }
 
-    /// A ray from the camera, beyond the glass and the drops on it.
+    /// Traces a ray from the camera through the glass and its drops.
     pub(super) fn through_wet(&self, line: Line, nm: f64, way: Way) -> Fate {
         self.beyond(self.drops(), line, nm, way)
     }
@@ -269,7 +269,7 @@ impl Passage<'_> {
         }
     }
 
-    /// The ray at a face, and the face's outward normal.
+    /// Advances the ray to a face; returns the outward normal.
     fn arrive(&mut self, face: usize, sense: f64) -> Option<DVec3> {
         let (point_mm, normal) = self.glass.faces[face].crossed(&self.line, sense)?;
         if self.medium > 0 {
@@ -298,7 +298,7 @@ impl Passage<'_> {
         if is_dry { &self.glass.parameters.coating } else { &Coating::Uncoated }
     }
 
-    /// Refraction at a face, whose outward normal it returns.
+    /// Refracts at a face; returns the outward normal.
     fn refract(&mut self, face: usize, sense: f64) -> Option<DVec3> {
         let normal = self.arrive(face, sense)?;
         let (crossing, next) = self.crossing(face, sense, normal)?;
@@ -310,7 +310,7 @@ impl Passage<'_> {
         Some(normal)
     }
 
-    /// Reflection at an outer face from within.
+    /// Reflects at an outer face from within.
     fn reflect(&mut self, face: usize, sense: f64) -> Option<()> {
         let normal = self.arrive(face, sense)?;
         let (crossing, _) = self.crossing(face, sense, normal)?;

@@ -91,8 +91,8 @@ fn a_drop_focuses_parallel_light_at_its_focal_length() {
     }
 }
 
-/// Rays from a point on the axis behind the glass (the pupil) leave with slopes −(D′/f − 1) times their own, D′ = D + t/n_g + h/n_w
-/// the reduced distance of the apex: a test image at a distance is upside down, and smaller by that factor.
+/// Rays from a point on the axis behind the glass (the pupil) leave with slopes −(D′/f − 1) times their own, D′ = D + t/n_g + h/n_w the reduced
+/// distance of the apex: a distant test image appears upside down, and smaller by that factor.
 #[test]
 fn a_drop_inverts_and_scales_what_is_behind_it() {
     let (glass, cap) = (one(60.0), Cap::new(1.0, PI / 3.0));
@@ -111,8 +111,8 @@ fn a_drop_inverts_and_scales_what_is_behind_it() {
     }
 }
 
-/// Under even light only Fresnel's losses are seen: a ray r from the axis passes T(glass, water) T(water, air at asin(r/R)) in place
-/// of T(glass, air), up to r = R/n, where total reflection begins. In the middle the drop is 1.9 % brighter than the glass beside it.
+/// Under uniform illumination only Fresnel losses are visible: a ray r from the axis transmits T(glass, water) T(water, air at asin(r/R)) in place of
+/// T(glass, air), up to r = R/n, where total reflection begins. At the centre the drop is 1.9 % brighter than the glass next to it.
 #[test]
 fn in_even_light_a_drop_is_seen_by_its_fresnel_losses_alone() {
     let (glass, cap) = (one(60.0), Cap::new(1.0, PI / 3.0));
@@ -127,10 +127,10 @@ fn in_even_light_a_drop_is_seen_by_its_fresnel_losses_alone() {
     }
     let middle = wet(&glass, ray(0.0, 0.0)).expect("light").1 / dry(&glass, ray(0.0, 0.0)).1;
     assert!((middle - 1.0188).abs() < 1e-4, "{middle}");
-    // Beyond R/n light is thrown back at the sphere: it comes by way of the other side or not at all.
+    // Beyond R/n light is reflected at the sphere: it leaves through the other side or not at all.
     let rim = wet(&glass, ray(0.95, 0.0));
     assert!(rim.is_none_or(|(out, _)| out.direction.x > 0.0), "no plain refraction: {rim:?}");
-    // Beside the drop the glass is dry, to the bit.
+    // Next to the drop the glass is dry, to the bit.
     assert_eq!(wet(&glass, ray(1.01, 0.0)), Some(dry(&glass, ray(1.01, 0.0))));
 }
 
@@ -154,7 +154,7 @@ fn an_oblique_ray_obeys_snell_at_the_sphere() {
     assert!((out.point_mm.x - point.x).abs() < 1e-12);
 }
 
-/// Position (x, y) and direction cosines, mm and 1, of a ray after the glass at the plane 20 mm off; before it, at its start.
+/// Position (x, y) and direction cosines, mm and 1, of a ray after the glass at a plane 20 mm away; before it, at its start.
 fn carried(glass: &Windscreen, state: DVec4) -> Option<DVec4> {
     let z = (1.0 - state.z * state.z - state.w * state.w).sqrt();
     let line = Line { point_mm: DVec3::new(state.x, state.y, -10.0), direction: DVec3::new(state.z, state.w, z) };
@@ -163,8 +163,8 @@ fn carried(glass: &Windscreen, state: DVec4) -> Option<DVec4> {
     Some(DVec4::new(point.x, point.y, out.direction.x, out.direction.y))
 }
 
-/// Étendue is conserved: the map from x, y and direction cosines before to those after has a determinant of 1 or −1, whatever
-/// surfaces a ray meets (from within, from the side, by total reflection).
+/// Étendue is conserved: the map from x, y and direction cosines before to those after has a determinant of 1 or −1, for all surfaces a ray meets
+/// (from within, from the side, by total reflection).
 #[test]
 fn etendue_is_conserved_through_drops() {
     for (contact_deg, count) in [(30.0, 900), (70.0, 900), (120.0, 300)] {
@@ -181,12 +181,12 @@ fn etendue_is_conserved_through_drops() {
                     let mut shift = DVec4::ZERO;
                     shift[k] = step[k];
                     let (a, b) = (carried(&glass, state - shift)?, carried(&glass, state + shift)?);
-                    // Over the edge of a drop there is no derivative.
+                    // There is no derivative across the edge of a drop.
                     ((a + b) * 0.5 - middle).abs().max_element().lt(&1e-6).then(|| (b - a) / (2.0 * step[k]))
                 })
                 .collect();
             let Some(c) = columns else { continue };
-            // Where the map stretches a thousandfold, differences of 10⁻⁷ of it say nothing.
+            // If the map stretches a thousandfold, differences of 10⁻⁷ of it are meaningless.
             if c.iter().any(|c| c.abs().max_element() > 300.0) {
                 continue;
             }
@@ -200,7 +200,7 @@ fn etendue_is_conserved_through_drops() {
     }
 }
 
-/// Steep light on steep glass, as in cars: no share is above what comes in, and what comes out leaves the glass.
+/// Oblique light on tilted glass, as in cars: no fraction exceeds the incident light, and light that leaves comes out of the glass.
 #[test]
 fn drops_on_tilted_curved_glass_lose_light_and_make_none() {
     for contact_deg in [10.0, 60.0, 100.0, 150.0] {

@@ -1,8 +1,8 @@
-//! Rays of one point of the scene, or of one direction, and where they land.
+//! Rays of one point of the scene, or of one direction, and their landing positions.
 //!
-//! Rays are named by where they cross the plane square to the principal ray through its point nearest to the entrance pupil: q.x in the
-//! meridional plane, q.y across it, mm. A far source lights that plane evenly. A near one is taken as an element of the
-//! plane in focus that sends the same radiance everywhere: cos θ dω.
+//! Rays are identified by where they cross the plane perpendicular to the principal ray through its point nearest to the entrance pupil: q.x in the
+//! meridional plane, q.y across it, mm. A source at infinity lights that plane uniformly. A near one is an element of the plane in focus with the
+//! same radiance in all directions: cos θ dω.
 
 use core::f64::consts::PI;
 
@@ -13,16 +13,16 @@ use super::bundles::Cell;
 use crate::prescription::trace::{LensRay, Rims, Way};
 use crate::{prescription::Prescription, prescription::indices::Media};
 
-/// Points of the first surface by which the box of its opening is found: along the radius, and over half a turn.
+/// Points of the first surface that determine the box of its clear aperture: along the radius, and over half a turn.
 const RADII: usize = 16;
 const TURNS: usize = 48;
-/// What is added to that box, of its size.
+/// Margin of that box, relative to its size.
 const MARGIN: f64 = 0.01;
-/// Rays through the stop's centre are found to this part of its radius.
+/// Tolerance of rays through the centre of the stop, relative to its radius.
 const STOP: f64 = 1e-12;
 const STEPS: usize = 60;
 
-/// Where rays come from.
+/// Origin of the rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Source {
     /// A direction towards the sensor.
@@ -32,7 +32,7 @@ pub(super) enum Source {
 }
 
 impl Source {
-    /// The point of the plane in focus on a principal ray (which runs towards the scene), or its direction for infinity.
+    /// The point of the plane in focus on a principal ray (directed towards the scene), or its direction for infinity.
     pub(super) fn of(lens: &Prescription, principal: LensRay) -> Self {
         let plane_mm = lens.paraxial().entrance_pupil_position_mm - lens.focus_distance_m() * 1e3;
         let t = (plane_mm - principal.point.z) / principal.direction.z;
@@ -44,7 +44,7 @@ impl Source {
         }
     }
 
-    /// Its ray through a point in front of the lens.
+    /// The source's ray through a point in front of the lens.
     pub(super) fn through(self, point: DVec3) -> LensRay {
         let direction = match self {
             Self::Direction(direction) => direction,
@@ -60,13 +60,13 @@ pub(super) struct Beam<'a> {
     media: Media,
     source: Source,
     origin: DVec3,
-    /// The principal ray's direction, towards the sensor, and the meridional direction square to it.
+    /// The principal ray's direction, towards the sensor, and the meridional direction perpendicular to it.
     ahead: DVec3,
     outward: DVec3,
 }
 
 impl<'a> Beam<'a> {
-    /// About a principal ray, which runs towards the scene.
+    /// Creates the beam about a principal ray, which is directed towards the scene.
     pub(super) fn new(lens: &'a Prescription, principal: LensRay, nm: f64) -> Self {
         let ahead = -principal.direction;
         let outward = DVec3::new(ahead.z, 0.0, -ahead.x);
@@ -79,12 +79,12 @@ impl<'a> Beam<'a> {
         self.source.through(self.origin + self.outward * q.x + DVec3::Y * q.y)
     }
 
-    /// How far a ray fills the clear apertures; see [`super::bundles`].
+    /// Filling of the clear apertures by a ray; see [`super::bundles`].
     pub(super) fn filling(&self, q: DVec2) -> Option<f64> {
         self.lens.filling(self.ray(q), Way::ToSensor, &self.media)
     }
 
-    /// Light by area of the plane, over that on the principal ray.
+    /// Light per area of the plane, relative to that on the principal ray.
     pub(super) fn light(&self, q: DVec2) -> f64 {
         let Source::Point(source) = self.source else { return 1.0 };
         let to = self.origin - source;
@@ -94,14 +94,14 @@ impl<'a> Beam<'a> {
         cosine * cosine * cosine * ray.z * to.length() / to.z
     }
 
-    /// Where a ray meets the sensor's plane, clipped or not, mm.
+    /// Position where a ray meets the sensor plane, clipped or not, mm.
     pub(super) fn lands(&self, q: DVec2) -> Option<DVec2> {
         let out = self.lens.arrives(self.ray(q), &self.media, Rims::Ignore).ok()?;
         let t = (self.lens.sensor_position_mm() - out.point.z) / out.direction.z;
         Some((out.point + out.direction * t).truncate())
     }
 
-    /// A box that holds all rays through the first surface's opening, from the line of symmetry on.
+    /// A box that contains all rays through the first surface's clear aperture, from the line of symmetry on.
     pub(super) fn bounds(&self) -> Cell {
         let surface = &self.lens.surfaces()[0];
         let rim = |i: usize| surface.semi_aperture_mm * i as f64 / RADII as f64;
@@ -117,7 +117,7 @@ impl<'a> Beam<'a> {
         Cell { low: DVec2::new(held.low.x - margin.x, 0.0), high: held.high + margin }
     }
 
-    /// Where the source's ray through a point crosses the plane.
+    /// The crossing of the plane by the source's ray through a point.
     fn crossing(&self, point: DVec3) -> Option<DVec2> {
         let ray = self.source.through(point);
         let t = (self.origin - point).dot(self.ahead) / ray.direction.dot(self.ahead);
@@ -125,8 +125,8 @@ impl<'a> Beam<'a> {
         q.is_finite().then(|| DVec2::new(q.dot(self.outward), q.y))
     }
 
-    /// The meridional ray through the stop's centre: the chief ray at this wavelength. By secants from the principal
-    /// ray, which is the chief ray at 587.56 nm.
+    /// The meridional ray through the centre of the stop: the chief ray at this wavelength. By secant steps from the principal ray, which is the
+    /// chief ray at 587.56 nm.
     pub(super) fn chief(&self) -> Option<DVec2> {
         let missed = |x: f64| {
             let at = self.lens.stop_point_from_scene(self.ray(DVec2::new(x, 0.0)), &self.media).ok()?;
@@ -145,7 +145,7 @@ impl<'a> Beam<'a> {
         (y[1].abs() <= 1e-6 * stop_mm).then(|| DVec2::new(x[1], 0.0))
     }
 
-    /// Where two rays beside the principal ray, in its meridional plane or across it, meet: mm behind the sensor.
+    /// Focus of two rays next to the principal ray, in its meridional plane or across it: mm behind the sensor.
     pub(super) fn fan_focus_mm(&self, across: bool) -> Option<f64> {
         let (beside, axis) = if across { (DVec2::Y, DVec3::Y) } else { (DVec2::X, DVec3::X) };
         let step = FAN * self.lens.paraxial().entrance_radius_mm;

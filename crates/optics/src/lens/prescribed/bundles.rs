@@ -1,28 +1,28 @@
-//! The parts of a plane through which rays come through the lens: its bundles.
+//! The parts of a plane through which rays pass the lens: its bundles.
 //!
-//! The plane's points q stand for rays (rays of one source in front of the lens, or rays of one sensor point by their slopes),
-//! and a function tells how far a ray fills the clear apertures: at most 1 where it passes, `None` where it misses a surface or
-//! is totally reflected. Both are symmetric about the line q.y = 0, so that q.y ≥ 0 is searched.
+//! The plane's points q represent rays (rays of one source in front of the lens, or rays of one sensor point by their slopes). A function gives the
+//! filling of the clear apertures by a ray: at most 1 if it passes, `None` if it misses a surface or is totally reflected. Both are symmetric about
+//! the line q.y = 0, so only q.y ≥ 0 is searched.
 //!
-//! Cells are halved until those that hold an edge are 1/192 of the searched box. Where nothing near passes, cells whose filling
-//! might still fall below 1 by as much as it varies across them are halved on, to 1/49 152: a pupil of f/90 in a front lens of a
-//! fisheye is found, and so is light that comes by the rim of a lens beside its pupil. Parts that lie closer together than a cell
-//! count as one, and so do the crumbs into which the tips of a thin crescent fall.
+//! Cells are halved until those with an edge are 1/192 of the searched box. Where no ray nearby passes, cells whose filling might fall below 1,
+//! judged by its variation across them, are halved further, to 1/49 152. This finds a pupil of f/90 in a front lens of a fisheye, and light that
+//! passes at the edge of a lens outside its pupil. Parts closer together than a cell count as one, and so do the fragments into which the tips of a
+//! thin crescent fall.
 
 use glam::DVec2;
 
 /// Cells across and up before the first halving.
 const COLUMNS: usize = 24;
 const ROWS: usize = 12;
-/// Levels of halving: of all cells that hold an edge, and of those that may hide a small bundle.
+/// Levels of halving: of all cells with an edge, and of those that may hide a small bundle.
 const FINE: usize = 3;
 const DEEP: usize = 11;
-/// Levels at which cells without any ray, and cells that pass at all points looked at, are halved all the same.
+/// Levels at which cells without any ray, and cells that pass at all tested points, are halved nevertheless.
 const COARSE: usize = 2;
-/// What passes at least, as a multiple of the variation seen in a cell.
+/// Required variation within a cell, as a factor, for a possible passing point.
 const HOPE: f64 = 1.5;
 
-/// A part of less than this area, compared with another one nearer than a first cell, is a crumb of it.
+/// Relative area below which a part counts as a fragment of another one nearer than a first cell.
 const CRUMB: f64 = 0.01;
 
 /// A rectangle of the plane.
@@ -44,7 +44,7 @@ impl Cell {
         [at(false, false), at(true, false), at(false, true), at(true, true)]
     }
 
-    /// Corners and middle.
+    /// Corners and centre.
     fn points(&self) -> [DVec2; 5] {
         let (low, high) = (self.low, self.high);
         [low, DVec2::new(high.x, low.y), DVec2::new(low.x, high.y), high, 0.5 * (low + high)]
@@ -61,15 +61,15 @@ impl Cell {
     }
 }
 
-/// What the points of a cell say.
+/// Classification of a cell by its points.
 enum Look {
-    /// Some pass; whether all do.
+    /// Some points pass; true if all do.
     Passes(bool),
-    /// None does, but the filling varies enough that one might.
+    /// None passes, but the filling varies enough that one might.
     Near,
-    /// None does.
+    /// None passes.
     Dark,
-    /// No ray comes through, clipped or not.
+    /// No ray reaches the other side, clipped or not.
     Blind,
 }
 
@@ -89,7 +89,7 @@ fn look(cell: &Cell, filling: &impl Fn(DVec2) -> Option<f64>) -> Look {
     }
 }
 
-/// A connected part that passes: the cells that hold it.
+/// A connected part that passes: its cells.
 #[derive(Clone, Debug)]
 pub(super) struct Bundle {
     pub(super) cells: Vec<Cell>,
@@ -133,14 +133,14 @@ pub(super) fn bundles(bounds: Cell, filling: &impl Fn(DVec2) -> Option<f64>) -> 
                 Look::Blind | Look::Dark => {}
             }
         }
-        // What lies beside a bundle that is known is its edge.
+        // The surroundings of a known bundle are its edge.
         near.retain(|cell| !found.iter().any(|known: &Cell| known.touches(cell)));
         open = halved.into_iter().chain(near).flat_map(Cell::quarters).collect();
     }
     without_crumbs(connected(found), size.max_element())
 }
 
-/// Crumbs joined to the greatest part that is nearer than `reach`.
+/// Joins fragments to the largest part that is nearer than `reach`.
 fn without_crumbs(mut parts: Vec<Bundle>, reach: f64) -> Vec<Bundle> {
     parts.sort_by(|a, b| b.area().total_cmp(&a.area()));
     let mut list: Vec<Bundle> = Vec::new();
@@ -157,7 +157,7 @@ fn without_crumbs(mut parts: Vec<Bundle>, reach: f64) -> Vec<Bundle> {
     list
 }
 
-/// Cells in groups that touch.
+/// Groups of touching cells.
 fn connected(mut cells: Vec<Cell>) -> Vec<Bundle> {
     let mut list = Vec::new();
     while let Some(first) = cells.pop() {

@@ -1,8 +1,8 @@
 //! Principal rays: through the centre of the real stop, at 587.56 nm.
 //!
-//! In the meridional plane the height at which a ray meets the stop is a smooth function of its slope at the sensor; the
-//! root is found by secant steps inside a bracket. A table over the sensor's heights gives the start,
-//! and the field angle of each height, which is inverted to project a direction.
+//! In the meridional plane the height at which a ray meets the stop is a smooth function of its slope at the sensor; the root is found by secant
+//! steps inside a bracket. A table over the sensor heights gives the starting value and the field angle of each height, which is inverted to project
+//! a direction.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -14,10 +14,10 @@ use crate::prescription::trace::{LensRay, Rims};
 use crate::{lens::FieldAngles, overlap::PRINCIPAL_NM, prescription::Prescription, prescription::indices::Media};
 
 const KNOTS: usize = 128;
-/// Roots are found to this slope: rounding of the tracing itself.
+/// Slope tolerance of roots: rounding of the tracing itself.
 const SLOPE: f64 = 1e-15;
 const STEPS: usize = 100;
-/// How far beyond the picture principal rays are known.
+/// Principal rays are known up to this multiple of the image's radius.
 const OVERSCAN: f64 = 1.02;
 
 /// Slopes and field angles of principal rays by height.
@@ -31,12 +31,12 @@ pub(super) struct Chiefs {
 }
 
 impl Chiefs {
-    /// A little beyond `picture_mm` from the axis, or as far as principal rays exist and their angle grows.
+    /// Traces slightly beyond `picture_mm` from the axis, or as far as principal rays exist and their angle grows.
     pub(super) fn new(lens: &Prescription, picture_mm: f64) -> Self {
         Self::traced(lens, OVERSCAN * picture_mm, PRINCIPAL_NM, KNOTS)
     }
 
-    /// At `knots` heights up to `reach_mm`, at a wavelength.
+    /// Traces `knots` heights up to `reach_mm`, at a wavelength.
     pub(super) fn traced(lens: &Prescription, reach_mm: f64, nm: f64, knots: usize) -> Self {
         let media = lens.media(nm);
         let step_mm = reach_mm / (knots - 1) as f64;
@@ -60,7 +60,7 @@ impl Chiefs {
         FieldAngles { step_mm: self.step_mm, angles: self.angles }
     }
 
-    /// The greatest height that has a principal ray, mm.
+    /// The largest height that has a principal ray, mm.
     pub(super) fn limit_mm(&self) -> f64 {
         self.step_mm * (self.slopes.len() - 1) as f64
     }
@@ -77,7 +77,7 @@ impl Chiefs {
         self.slopes[i] + (place - i as f64) * (self.slopes[i + 1] - self.slopes[i])
     }
 
-    /// The principal ray's slope at a height; `None` where there is none.
+    /// The principal ray's slope at a height; `None` if there is none.
     pub(super) fn slope(&self, lens: &Prescription, s_mm: f64) -> Option<f64> {
         if s_mm == 0.0 {
             return Some(0.0);
@@ -93,7 +93,7 @@ impl Chiefs {
         front(lens, &lens.media(PRINCIPAL_NM), s_mm, self.slope(lens, s_mm)?)
     }
 
-    /// The height at which a field angle is seen, by a bracketed secant search to rounding.
+    /// The height that sees a field angle, by a bracketed secant search to rounding.
     pub(super) fn height_mm(&self, lens: &Prescription, angle: f64) -> Option<f64> {
         let above = self.angles.partition_point(|a| *a < angle);
         if above == 0 {
@@ -126,7 +126,7 @@ fn solve(lens: &Prescription, media: &Media, s_mm: f64, guess: f64) -> Option<f6
         let at = lens.stop_point(meridian.ray(DVec2::new(slope, 0.0)), media).ok()?;
         Some(meridian.height_mm(at))
     };
-    // A bracket about the guess, widened until the signs part.
+    // A bracket about the guess, widened until the signs differ.
     let angle = atan2(guess, 1.0);
     let mut width = 1e-3_f64;
     while width < 0.5 {
@@ -146,8 +146,8 @@ fn tangent(angle: f64) -> f64 {
     s / c
 }
 
-/// The root of a function between two points where its values `ends` have different signs: the Illinois method (Dowell and
-/// Jarratt 1971), which stays inside the bracket and converges faster than linearly, until a step is below `tolerance`.
+/// The root of a function between two points where its values `ends` have different signs: the Illinois method (Dowell and Jarratt 1971). It stays
+/// inside the bracket and converges superlinearly, until a step is below `tolerance`.
 fn bracketed(mut x: [f64; 2], ends: [f64; 2], tolerance: f64, f: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let mut y = ends;
     for _ in 0..STEPS {

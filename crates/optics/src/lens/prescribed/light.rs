@@ -11,7 +11,7 @@ use crate::lens::search::{GAUSS, unit};
 use crate::pupil::{MM, concentric};
 use crate::{overlap::PRINCIPAL_NM, prescription::trace::LensRay};
 
-/// Directions over half a turn of the étendue's quadrature.
+/// Directions over half a turn for the étendue's quadrature.
 pub(crate) const DIRECTIONS: usize = 96;
 
 impl Prescribed {
@@ -24,7 +24,7 @@ impl Prescribed {
         Some(PupilRay { origin_m: self.point_m(ray.point), direction: flip(ray.direction), weight_sr })
     }
 
-    /// A ray with slopes `t` in front of the lens, and what coatings and filter leave of it.
+    /// A ray with slopes `t` in front of the lens, and its transmittance through coatings and filter.
     #[inline]
     fn out(&self, meridian: &Meridian, t: DVec2, nm: f64) -> Option<(LensRay, f64)> {
         let ray = meridian.ray(t);
@@ -62,8 +62,8 @@ impl Prescribed {
         self.projected_solid_angle_at_sr(sensor_mm.length(), PRINCIPAL_NM, DIRECTIONS)
     }
 
-    /// ∫ τ cos⁴ θ dt over what passes at a wavelength and a distance from the axis: over the one opening that most lenses show a sensor point, or
-    /// over all of several.
+    /// ∫ τ cos⁴ θ dt over all that passes at a wavelength and a distance from the axis: over the single opening of most lenses, or over all of
+    /// several.
     pub(crate) fn projected_solid_angle_at_sr(&self, s_mm: f64, nm: f64, directions: usize) -> f64 {
         let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
         let media = self.prescription.media(nm);
@@ -78,8 +78,8 @@ impl Prescribed {
     }
 }
 
-/// An integral over an opening that is one piece as seen from its region's centre: for each of some directions the edge is found by bisection, then
-/// Gauss's rule along the radius and equal steps around. `None` where the opening has a gap along a direction.
+/// An integral over an opening that is star-shaped about its region's centre: for a number of directions the edge is found by bisection, then Gauss's
+/// rule along the radius and equal steps around. `None` if the opening has a gap along a direction.
 fn over_a_star(opening: &Opening<'_>, ellipse: &Ellipse, directions: usize, f: &impl Fn(DVec2) -> f64) -> Option<f64> {
     let centre = DVec2::new(ellipse.centre, 0.0);
     let edge = |direction: DVec2| {

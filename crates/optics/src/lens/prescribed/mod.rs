@@ -1,16 +1,16 @@
-//! A prescription as a camera's lens: rays from the sensor, traced out through every surface.
+//! A prescription as a camera lens: rays from the sensor, traced out through every surface.
 //!
-//! Irradiance at a sensor point is E = ∫ L τ cos θ dω over the directions that come through, with τ from coatings and
-//! filter; in slopes t against the axis, cos θ dω = cos⁴ θ dt. Samples are drawn from a region of slopes that holds all that
-//! passes (Kolb, Mitchell and Hanrahan 1995; Steinert et al. 2011) and weighted by the inverse of their density, so
-//! vignetting comes out of the clear apertures without bias. A sample that does not come through is no light.
+//! Irradiance at a sensor point is E = ∫ L τ cos θ dω over the directions that pass, with τ from coatings and filter; in slopes t against the axis,
+//! cos θ dω = cos⁴ θ dt. Samples are drawn from a region of slopes that contains everything that passes (Kolb, Mitchell and Hanrahan 1995; Steinert
+//! et al. 2011) and weighted by the inverse of their density, so vignetting follows from the clear apertures without bias. A blocked sample carries
+//! no light.
 //!
-//! - Rays begin where they leave the first surface. Principal rays are given from their point nearest to the centre of the
-//!   paraxial entrance pupil, the origin of the camera frame: real pupils of wide lenses move and tilt with the field.
-//! - f-number: focal length over the diameter of the paraxial entrance pupil. On the axis light follows the real bundle; a
-//!   lens corrected for coma gives E = π τ L/4N², not the flat disc's π τ L/(1 + 4N²).
-//! - Neither pupil is constant: each field point has the pupil that its rays find.
-//! - [`Prescribed::projected_solid_angle_sr`] is at 587.56 nm, a quadrature to some 1e-5.
+//! - Rays begin where they leave the first surface. Principal rays start at their point nearest to the centre of the paraxial entrance pupil, the
+//!   origin of the camera frame: real pupils of wide lenses move and tilt with the field.
+//! - f-number: focal length over the diameter of the paraxial entrance pupil. On the axis light follows the real bundle; a lens corrected for coma
+//!   gives E = π τ L/4N², not the flat disc's π τ L/(1 + 4N²).
+//! - Neither pupil is constant: each field point has the pupil that its rays pass.
+//! - [`Prescribed::projected_solid_angle_sr`] holds at 587.56 nm, by a quadrature accurate to about 1e-5.
 
 mod beam;
 mod bundles;
@@ -36,7 +36,7 @@ pub use spot::{OtherBundle, Spot};
 
 pub(crate) use light::DIRECTIONS;
 
-/// A prescription, focused, with its pupils found for a picture of a given size.
+/// A focused prescription with its pupils determined for an image of a given size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prescribed {
     prescription: Prescription,
@@ -46,11 +46,11 @@ pub struct Prescribed {
 }
 
 impl Prescribed {
-    /// A lens for pictures that reach `picture_radius_mm` from the axis; further out it is dark. With a filter in front of
-    /// the sensor, where there is one.
+    /// Creates a lens for images that reach `picture_radius_mm` from the axis (farther out it is dark), with an optional filter in front of the
+    /// sensor.
     ///
     /// # Errors
-    /// Where no light reaches the middle of the sensor or the radius is not positive.
+    /// If no light reaches the centre of the sensor or the radius is not positive.
     pub fn new(
         prescription: Prescription,
         filter: Option<InterferenceFilter>,
@@ -63,20 +63,20 @@ impl Prescribed {
         Ok(Self { prescription, filter, chiefs, regions })
     }
 
-    /// The lens itself.
+    /// The underlying prescription.
     #[must_use]
     pub fn prescription(&self) -> &Prescription {
         &self.prescription
     }
 
-    /// Whether a ray or its weight depends on the wavelength: by a glass, a coating or the filter.
+    /// True if a ray or its weight depends on the wavelength: by a glass, a coating or the filter.
     #[must_use]
     pub fn disperses(&self) -> bool {
         let layered = |s: &Surface| matches!(s.coating, Coating::QuarterWave { .. });
         self.filter.is_some() || self.prescription.disperses() || self.prescription.surfaces().iter().any(layered)
     }
 
-    /// How far from the axis light arrives, mm: the picture's radius, or less where the lens is dark before.
+    /// The radius within which light arrives, mm: the image's radius, or less if the lens becomes dark before.
     #[must_use]
     pub fn lit_radius_mm(&self) -> f64 {
         self.regions.limit_mm
@@ -98,7 +98,7 @@ impl Prescribed {
         }
     }
 
-    /// The angle from the axis at which a height on the sensor looks, rad; `None` where it has no principal ray.
+    /// The angle from the axis seen by a height on the sensor, rad; `None` if it has no principal ray.
     pub(crate) fn field_angle(&self, height_mm: f64) -> Option<f64> {
         self.chiefs.ray(&self.prescription, height_mm).map(|ray| chief::field_angle(ray.direction))
     }
@@ -108,13 +108,12 @@ impl Prescribed {
         self.filter.as_ref().map_or(1.0, |filter| filter.transmittance(nm, cosine))
     }
 
-    /// Field angles of chief rays (through the centre of the stop) of a wavelength at `knots` radii up to `reach_mm`, or as far
-    /// as they go.
+    /// Field angles of chief rays (through the centre of the stop) of a wavelength at `knots` radii up to `reach_mm`, or as far as they exist.
     pub(crate) fn field_angles(&self, reach_mm: f64, nm: f64, knots: usize) -> FieldAngles {
         Chiefs::traced(&self.prescription, reach_mm, nm, knots).into_field_angles()
     }
 
-    /// Where a direction of the camera frame is seen, mm.
+    /// The sensor point of a direction of the camera frame, mm.
     pub(super) fn project(&self, direction: DVec3) -> Option<DVec2> {
         let across = direction.truncate();
         let angle = etendue_core::maths::f64::atan2(across.length(), direction.z);
@@ -124,7 +123,7 @@ impl Prescribed {
     /// The principal ray's direction in the camera frame, clipped or not.
     pub(super) fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
         let ray = self.chiefs.ray(&self.prescription, sensor_mm.length())?;
-        // In the picture's erect sense the scene lies on the point's own side.
+        // In the erect image the scene lies on the point's own side.
         let across = -sensor_mm.normalize_or_zero() * ray.direction.x;
         Some(across.extend(-ray.direction.z))
     }

@@ -1,15 +1,13 @@
-//! The frame of one sensor point: its meridian, and rays from it by their tangents.
+//! The frame of one sensor point: its meridian, and rays from it by their slopes.
 //!
-//! A lens of revolution is the same for all sensor points at one distance from the axis. With s that distance, a ray that
-//! leaves the sensor is named by its slopes against the axis: t.x in the meridional plane (away from the axis positive),
-//! t.y across it.
+//! A lens of revolution is the same for all sensor points at one distance from the axis. With s that distance, a ray that leaves the sensor is
+//! identified by its slopes against the axis: t.x in the meridional plane (away from the axis positive), t.y across it.
 //!
-//! What of the rear pupil is open to a sensor point, found by tracing.
+//! The part of the rear pupil that is open to a sensor point, found by tracing.
 //!
-//! In slopes (see [`Meridian`]) the open part at one wavelength is nearly an intersection of discs: one for each rim that
-//! clips. It is symmetric about the meridional plane and, being nearly convex, star-shaped about the middle of the interval
-//! in which it meets that plane. Strong aberrations fold it: a sensor point then sees the scene through several openings, such as a
-//! ring about the pupil.
+//! In slopes (see [`Meridian`]) the open part at one wavelength is nearly an intersection of discs: one for each clear aperture that clips. It is
+//! symmetric about the meridional plane and, being nearly convex, star-shaped about the centre of its interval on that plane. Strong aberrations fold
+//! it: a sensor point then sees the scene through several openings, such as a ring about the pupil.
 
 use glam::{DVec2, DVec3};
 
@@ -29,13 +27,13 @@ pub(super) struct Meridian {
 }
 
 impl Meridian {
-    /// Of a point of the erect picture: the light itself falls on its negative.
+    /// The frame of a point of the erect image; the light itself falls on its negative.
     pub(super) fn new(point_mm: DVec2, sensor_mm: f64) -> Self {
         let outward = (-point_mm).normalize_or(DVec2::X);
         Self { s_mm: point_mm.length(), outward, sensor_mm }
     }
 
-    /// Of any point at a distance from the axis.
+    /// The frame of any point at a distance from the axis.
     pub(super) fn at(s_mm: f64, sensor_mm: f64) -> Self {
         Self { s_mm, outward: DVec2::X, sensor_mm }
     }
@@ -49,12 +47,12 @@ impl Meridian {
         LensRay { point, direction }
     }
 
-    /// How far outwards a point of the lens frame lies.
+    /// Outward coordinate of a point of the lens frame.
     pub(super) fn height_mm(&self, point: DVec3) -> f64 {
         point.truncate().dot(self.outward)
     }
 
-    /// cos⁴ of the angle of slopes `t`: projected solid angle by slope area, for ∫ cos θ dω = ∫ cos⁴ θ dt.
+    /// cos⁴ of the angle of slopes `t`: projected solid angle per slope area, since ∫ cos θ dω = ∫ cos⁴ θ dt.
     #[inline]
     pub(super) fn cos4(t: DVec2) -> f64 {
         let secant2 = 1.0 + t.length_squared();
@@ -62,25 +60,25 @@ impl Meridian {
     }
 }
 
-/// One sensor height and wavelength.
+/// The opening at one sensor height and wavelength.
 pub(super) struct Opening<'a> {
     pub(super) lens: &'a Prescription,
     pub(super) media: &'a Media,
     pub(super) meridian: Meridian,
 }
 
-/// Steps of the search along the meridian: the smallest pupil found is this part of the rear opening.
+/// Steps of the search along the meridian: 1/SCAN of the rear opening is the smallest detectable pupil.
 const SCAN: usize = 1024;
 /// Bisections of the scan's step.
 const HALVINGS: usize = 24;
-/// Places along a radius at which an opening is looked at for gaps.
+/// Positions along a radius at which an opening is tested for gaps.
 const LOOKS: usize = 20;
-/// Places of the meridional plane at which pieces are told apart, and of a grid across all slopes.
+/// Positions of the meridional plane, and of a grid across all slopes, at which separate pieces are distinguished.
 const PIECES: usize = 256;
 const GRID: usize = 96;
-/// What is added to the box of all slopes, of its width.
+/// Margin of the box of all slopes, relative to its width.
 const BEYOND: f64 = 0.01;
-/// Rows of a part's first quadrature and of its last, and the relative change at which it stands still.
+/// Rows of a part's first and last quadrature, and the relative change that counts as converged.
 const ROWS: usize = 24;
 const MAX_ROWS: usize = 192;
 const SETTLED: f64 = 1e-6;
@@ -90,8 +88,8 @@ impl Opening<'_> {
         self.lens.passes(self.meridian.ray(t), self.media, Rims::Clip).is_ok()
     }
 
-    /// The interval of meridional slopes that passes, from its first to its last point; `None` where none does. `seed`
-    /// is a slope likely to be inside (the chief ray's).
+    /// The interval of meridional slopes that passes, from its first to its last point; `None` if none passes. `seed` is a slope likely to be inside
+    /// (the chief ray's).
     pub(super) fn meridional(&self, seed: Option<f64>) -> Option<[f64; 2]> {
         let along = |x: f64| self.passes(DVec2::new(x, 0.0));
         let [low, high] = rear_slopes(self.lens, self.meridian.s_mm);
@@ -104,8 +102,8 @@ impl Opening<'_> {
         Some([edge(first, -1.0), edge(last, 1.0)])
     }
 
-    /// The outermost slope that passes from `centre` along `direction`, as a multiple of it: searched inwards from `far`
-    /// in `steps`, then by `halvings` to the last place that passes. 0 where none does.
+    /// The outermost slope that passes from `centre` along `direction`, as a multiple of `direction`: searched inwards from `far` in `steps`, then
+    /// refined by `halvings`. 0 if none passes.
     pub(super) fn reach(&self, centre: DVec2, direction: DVec2, far: f64, steps: usize, halvings: usize) -> f64 {
         let along = |r: f64| self.passes(centre + direction * r);
         let step = far / steps as f64;
@@ -113,7 +111,7 @@ impl Opening<'_> {
         last_open([inside, inside + step], halvings, along)
     }
 
-    /// Whether what passes in the meridional plane is one piece.
+    /// True if the open part of the meridional plane is one piece.
     pub(super) fn is_one_piece(&self) -> bool {
         let [low, high] = rear_slopes(self.lens, self.meridian.s_mm);
         let at = |i: usize| self.passes(DVec2::new(low + (high - low) * i as f64 / PIECES as f64, 0.0));
@@ -130,7 +128,7 @@ impl Opening<'_> {
         })
     }
 
-    /// A box of slopes about all pieces, from the meridional plane on, by a grid: larger by its steps. `None` where nothing passes.
+    /// A box of slopes about all pieces, from the meridional plane on, by a grid; enlarged by the grid step. `None` if nothing passes.
     pub(super) fn extent(&self) -> Option<Cell> {
         let Cell { low, high } = self.bounds();
         let step = (high - low) / GRID as f64;
@@ -145,19 +143,19 @@ impl Opening<'_> {
         held.high.is_finite().then(|| Cell { low: DVec2::new(held.low.x - step.x, 0.0), high: held.high + step })
     }
 
-    /// Whether all passes from `centre` to an edge.
+    /// True if everything passes from `centre` to an edge.
     pub(super) fn is_open_to(&self, centre: DVec2, edge: DVec2) -> bool {
         (0..LOOKS).all(|i| self.passes(centre + edge * (i as f64 / LOOKS as f64)))
     }
 
-    /// The integral of a function over all that passes, in as many parts as there are.
+    /// The integral of a function over all that passes, summed over the separate parts.
     pub(super) fn integral(&self, f: &impl Fn(DVec2) -> f64) -> f64 {
         let filling = |t: DVec2| self.lens.filling(self.meridian.ray(t), Way::ToScene, self.media);
         let parts = bundles(self.bounds(), &filling);
         (0..parts.len()).map(|own| converged(&mut Area::new(&parts, own, filling), f)).sum()
     }
 
-    /// A box that holds all slopes at which the rear opening can be reached, from the meridional plane on.
+    /// A box of all slopes at which the rear opening can be reached, from the meridional plane on.
     fn bounds(&self) -> Cell {
         let [low, high] = rear_slopes(self.lens, self.meridian.s_mm);
         let [near, _] = self.lens.rear_distances_mm();
@@ -167,7 +165,7 @@ impl Opening<'_> {
     }
 }
 
-/// An integral over a part, its rows doubled until it stands still.
+/// An integral over a part; its rows are doubled until it converges.
 fn converged<F: Fn(DVec2) -> Option<f64>>(area: &mut Area<'_, F>, f: &impl Fn(DVec2) -> f64) -> f64 {
     let mut sum = |rows: usize| area.nodes(rows).iter().map(|node| node.area * f(node.q)).sum::<f64>();
     let (mut rows, mut last) = (ROWS, sum(ROWS));
@@ -181,7 +179,7 @@ fn converged<F: Fn(DVec2) -> Option<f64>>(area: &mut Area<'_, F>, f: &impl Fn(DV
     }
 }
 
-/// Slopes in the meridional plane at which the rear opening can be reached at all.
+/// Slopes in the meridional plane at which the rear opening can be reached.
 fn rear_slopes(lens: &Prescription, s_mm: f64) -> [f64; 2] {
     let [near, far] = lens.rear_distances_mm();
     let radius = lens.surfaces().last().map_or(0.0, |surface| surface.semi_aperture_mm);

@@ -1,8 +1,8 @@
-//! Integrals over a bundle, clipped where its edge is.
+//! Integrals over a bundle, clipped at its edge.
 //!
-//! Rows along the line of symmetry, each from edge to edge as found by bisection, with Gauss's rule along it; rows stand at
-//! equal steps of an angle whose sine is their height, which takes away the root at the bundle's ends. A smooth edge
-//! converges faster than any power of the rows' number, an edge with corners with its square.
+//! Rows run along the line of symmetry, each from edge to edge as found by bisection, with Gauss's rule along it. Rows are at equal steps of an angle
+//! whose sine is their height, which removes the root at the bundle's ends. For a smooth edge convergence is faster than any power of the number of
+//! rows; for an edge with corners it is quadratic.
 
 use core::f64::consts::PI;
 
@@ -12,21 +12,21 @@ use glam::DVec2;
 use super::bundles::{Bundle, Cell};
 use crate::overlap::GAUSS;
 
-/// Steps of the search for edges along a row, at least; twice as many as rows.
+/// Minimum number of steps of the edge search along a row; otherwise twice the number of rows.
 const SCAN: usize = 48;
 const HALVINGS: usize = 26;
-/// The golden section, and how often it is taken.
+/// The golden section, and the number of iterations.
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
 const GOLDEN_STEPS: usize = 24;
 
-/// A ray with its part of the bundle's area; points of the edge have none.
+/// A ray with its part of the bundle's area; zero for points of the edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Node {
     pub(super) q: DVec2,
     pub(super) area: f64,
 }
 
-/// Where a function of one maximum between two places has it.
+/// The maximum of a unimodal function between two positions.
 fn golden(mut ends: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..GOLDEN_STEPS {
         let width = GOLDEN * (ends[1] - ends[0]);
@@ -40,9 +40,9 @@ fn golden(mut ends: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
 pub(super) struct Area<'a, F> {
     scan: usize,
     bundles: &'a [Bundle],
-    /// Which of them.
+    /// Index of the bundle.
     own: usize,
-    /// How far a ray fills the clear apertures; see [`super::bundles`].
+    /// Filling of the clear apertures by a ray; see [`super::bundles`].
     filling: F,
 }
 
@@ -51,11 +51,11 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         Self { scan: SCAN, bundles, own, filling }
     }
 
-    /// Nodes of some rows; their areas are of both sides of the line of symmetry.
+    /// Nodes of some rows; their areas cover both sides of the line of symmetry.
     pub(super) fn nodes(&mut self, rows: usize) -> Vec<Node> {
         self.scan = SCAN.max(2 * rows);
         let Some([low, high]) = self.ends() else { return Vec::new() };
-        // From the line of symmetry the angle runs from 0, otherwise from −π/2.
+        // The angle runs from 0 on the line of symmetry, otherwise from −π/2.
         let (middle, half, start) =
             if low == 0.0 { (0.0, high, 0.0) } else { (0.5 * (low + high), 0.5 * (high - low), -0.5 * PI) };
         let step = (0.5 * PI - start) / rows as f64;
@@ -67,8 +67,8 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         nodes
     }
 
-    /// The point of the edge at which `f` is greatest, near a point of it and between the rows beside: where two rims meet,
-    /// the edge has a corner there.
+    /// The point of the edge at which `f` is largest, near a point of it and between the adjacent rows: the edge has a corner where two clear
+    /// apertures meet.
     pub(super) fn highest(&self, near: DVec2, rows: usize, f: impl Fn(DVec2) -> f64) -> f64 {
         let Cell { low, high } = self.bundles[self.own].bounds();
         let step = 2.0 * (high.y - low.y) / rows as f64;
@@ -77,7 +77,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         along(y).max(f(near))
     }
 
-    /// How far the ray fills the apertures; infinite where it is lost.
+    /// Filling of the apertures by the ray; infinite if it is lost.
     fn fullness(&self, x: f64, y: f64) -> f64 {
         (self.filling)(DVec2::new(x, y)).unwrap_or(f64::INFINITY)
     }
@@ -93,7 +93,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         }
     }
 
-    /// Where a row lies in this bundle.
+    /// Intervals of a row inside this bundle.
     fn intervals(&self, y: f64) -> Vec<[f64; 2]> {
         let Cell { low, high } = self.searched();
         let at = |i: usize| low.x + (high.x - low.x) * i as f64 / self.scan as f64;
@@ -115,7 +115,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         list
     }
 
-    /// The last place that passes on the way to one that does not.
+    /// The last passing position on the way to a clipped one.
     fn edge(&self, passes: f64, clipped: f64, y: f64) -> f64 {
         let mut bracket = [passes, clipped];
         for _ in 0..HALVINGS {
@@ -125,13 +125,13 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         bracket[0]
     }
 
-    /// An interval between two places that do not pass, at a bundle's tip.
+    /// An interval between two clipped positions, at a bundle's tip.
     fn narrow(&self, a: f64, b: f64, y: f64) -> Option<[f64; 2]> {
         let at = golden([a, b], |x| -self.fullness(x, y));
         (self.fullness(at, y) <= 1.0).then(|| [self.edge(at, a, y), self.edge(at, b, y)])
     }
 
-    /// Whether a point that passes belongs to this bundle.
+    /// True if a point that passes belongs to this bundle.
     fn is_own(&self, q: DVec2) -> bool {
         if self.bundles.len() == 1 {
             return true;
@@ -140,7 +140,7 @@ impl<'a, F: Fn(DVec2) -> Option<f64>> Area<'a, F> {
         self.bundles.iter().enumerate().all(|(i, other)| i == self.own || other.distance(q) >= own)
     }
 
-    /// The bundle's box, a little larger.
+    /// The bundle's box, slightly enlarged.
     fn searched(&self) -> Cell {
         let Cell { low, high } = self.bundles[self.own].bounds();
         let margin = 0.03 * (high - low);

@@ -1,14 +1,14 @@
-//! The region of slopes from which pupil samples are drawn: it holds all that passes, and little else.
+//! The region of slopes from which pupil samples are drawn: it contains all that passes, and little else.
 //!
-//! For 40 intervals of sensor height the region is an ellipse, its centre and semi-axes linear in the height, times a radius
-//! R(φ) tabulated over half a turn (the other half mirrors it). The ellipse is that of the middle wavelength; R is raised
-//! until it holds what passes at the interval's ends and between them at all of [`WAVELENGTHS_NM`], so that no light is
-//! lost, plus a margin for what lies between the tabulated points.
+//! For 40 intervals of sensor height the region is an ellipse, its centre and semi-axes linear in the height, times a radius R(φ) tabulated over half
+//! a turn (the other half is its mirror image). The ellipse is that of the middle wavelength. R is raised until the region contains all passing rays
+//! at the interval's ends and between them, at all of [`WAVELENGTHS_NM`], so that no light is lost; a margin covers what lies between the tabulated
+//! points.
 //!
-//! Where a sensor point sees several openings, the region is the ellipse about a box that holds them all.
+//! Where a sensor point sees several openings, the region is the ellipse about a box that contains them all.
 //!
-//! A point (ρ, φ) of the unit disc becomes centre + ρ R(φ) (a cos φ, b sin φ): with samples uniform in the disc, slope area
-//! per sample is π a b R², the inverse of the sampling density, which the weight keeps.
+//! A point (ρ, φ) of the unit disc maps to centre + ρ R(φ) (a cos φ, b sin φ). With samples uniform in the disc, the slope area per sample is π a b
+//! R², the inverse of the sampling density; it is part of the weight.
 
 use core::f64::consts::PI;
 
@@ -19,17 +19,17 @@ use super::opening::{Meridian, Opening};
 use crate::lens::search::{lit_as_far_as, unit};
 use crate::{overlap::PRINCIPAL_NM, prescription::Prescription};
 
-/// Wavelengths whose bundles the region holds, nm; dispersion is monotone, so what passes in between lies in between.
+/// Wavelengths whose bundles the region contains, nm; dispersion is monotone, so bundles in between lie in between.
 const WAVELENGTHS_NM: [f64; 3] = [PRINCIPAL_NM, 300.0, 1100.0];
 
 const INTERVALS: usize = 40;
-/// Heights looked at in an interval, both ends among them.
+/// Heights sampled per interval, including both ends.
 const LOOKS: usize = 4;
 /// Tabulated directions over half a turn.
 const DIRECTIONS: usize = 24;
-/// Directions looked at for each tabulated one.
+/// Directions sampled for each tabulated one.
 const FINE: usize = 3;
-/// What is added to R for edges that lie between the points looked at.
+/// Margin factor of R for edges between the sampled points.
 const MARGIN: f64 = 1.004;
 
 /// Centre and semi-axes, in slopes.
@@ -62,7 +62,7 @@ struct Interval {
 /// The regions of all sensor heights.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Regions {
-    /// Beyond this height no light arrives, mm.
+    /// Height beyond which no light arrives, mm.
     pub(super) limit_mm: f64,
     intervals: Vec<Interval>,
 }
@@ -75,13 +75,13 @@ pub(super) struct Proposal {
 }
 
 impl Regions {
-    /// By tracing, as far as `picture_mm` from the axis or the light reaches. `chief` is the chief ray's slope at a
-    /// height, where it has one. `None` where the middle of the sensor is dark.
+    /// Determines the regions by tracing, up to `picture_mm` from the axis or the end of the light. `chief` is the chief ray's slope at a height, if
+    /// it exists. `None` if the centre of the sensor is dark.
     pub(super) fn new(lens: &Prescription, picture_mm: f64, chief: impl Fn(f64) -> Option<f64>) -> Option<Self> {
         let look = |s_mm: f64| ellipse(lens, s_mm, chief(s_mm));
         let limit_mm = lit_as_far_as(picture_mm, 2 * INTERVALS, |s_mm| look(s_mm).is_some())?;
         let width = limit_mm / INTERVALS as f64;
-        // A height that is dark between lit ones has any ellipse: nothing passes there.
+        // A dark height between lit ones may have any ellipse: nothing passes there.
         let next = |last: &mut Option<Ellipse>, i: usize| {
             *last = look(width * i as f64).or(*last);
             *last
@@ -100,7 +100,7 @@ impl Regions {
         inside.then(|| (&self.intervals[index], place - index as f64))
     }
 
-    /// The proposal of a point of the unit disc whose angle from the meridian, without sign, is `turn`.
+    /// The proposal for a point of the unit disc whose unsigned angle from the meridian is `turn`.
     #[inline]
     pub(super) fn propose(&self, s_mm: f64, disc: DVec2, turn: f64) -> Option<Proposal> {
         let (interval, share) = self.interval(s_mm)?;
@@ -138,8 +138,7 @@ impl Regions {
     }
 }
 
-/// What passes at one height: its interval of the meridian, and its width across; at the first wavelength that comes
-/// through.
+/// The passing region at one height, by its interval of the meridian and its width across, at the first wavelength that passes.
 pub(super) fn ellipse(lens: &Prescription, s_mm: f64, chief: Option<f64>) -> Option<Ellipse> {
     WAVELENGTHS_NM.into_iter().find_map(|nm| {
         let media = lens.media(nm);
@@ -165,8 +164,7 @@ impl Interval {
         interval
     }
 
-    /// Raises R until the region holds what passes at one height and wavelength: first at the tabulated directions, then
-    /// between them.
+    /// Raises R until the region contains all that passes at one height and wavelength: first at the tabulated directions, then between them.
     fn hold(&mut self, lens: &Prescription, s_mm: f64, share: f64, nm: f64) {
         let media = lens.media(nm);
         let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
@@ -193,11 +191,11 @@ impl Interval {
         }
     }
 
-    /// Raises R until the region holds a box.
+    /// Raises R until the region contains a box.
     fn hold_box(&mut self, ellipse: &Ellipse, low: DVec2, high: DVec2) {
         let beside = (high.x - ellipse.centre).max(ellipse.centre - low.x);
         let corner = (DVec2::new(beside, high.y) / ellipse.axes).length();
-        // Straight lines between the tabulated points lie within the circle by this much.
+        // Sagitta of the straight lines between the tabulated points.
         let [chord, _] = unit(0.5 * PI / DIRECTIONS as f64).to_array();
         self.radius.iter_mut().for_each(|r| *r = r.max(corner / chord));
     }
@@ -211,7 +209,7 @@ impl Interval {
     fn raise(&mut self, place: f64, by: f64) {
         let i = (place as usize).min(DIRECTIONS - 1);
         let share = place - i as f64;
-        // The least change of both neighbours that raises the line between them by `by`.
+        // The smallest change of both neighbours that raises the line between them by `by`.
         let scale = by / (share * share + (1.0 - share) * (1.0 - share));
         self.radius[i] += scale * (1.0 - share);
         self.radius[i + 1] += scale * share;

@@ -1,19 +1,19 @@
-//! What a lens does to its image, measured by its rays, without a picture.
+//! Properties of a lens's image, measured with its rays, without rendering.
 //!
-//! Per field height, for the point of the plane in focus (or of infinity) that the principal ray at 587.56 nm comes from:
+//! Per field height, for the point of the plane in focus (or of infinity) seen by the principal ray at 587.56 nm:
 //!
-//! - **distortion**: height over that of a rectilinear lens, c tan θ, and of an equidistant one, c θ, less 1, with c the
-//!   principal distance and θ the principal ray's angle;
+//! - **distortion**: height over that of a rectilinear lens, c tan θ, and of an equidistant one, c θ, less 1, with c the principal distance and θ the
+//!   principal ray's angle;
 //! - **relative illumination**: irradiance per radiance, over that of the axis;
-//! - **spot**: where rays that fill the open pupil evenly in light land: root-mean-square and greatest distance from
-//!   their centroid (see `spot.rs`; for the converged quadrature and its error too);
-//! - **other bundles**: light of the same point that passes the lens elsewhere, as by a rim beside the pupil;
-//! - **field curvature**: where narrow fans about the principal ray come to focus, behind the sensor positive: in the
-//!   meridional plane (tangential) and across it (sagittal);
-//! - **lateral colour**: the centroid of the spot at the F and C lines less that at d, and the chief ray's place less that at d,
-//!   outwards positive. They differ where the bundle is vignetted or comatic.
+//! - **spot**: the landing positions of rays that fill the open pupil uniformly in light: root-mean-square and largest distance from their centroid
+//!   (see `spot.rs`; also for the converged quadrature and its error);
+//! - **other bundles**: light of the same point that passes the lens elsewhere, such as through an edge zone outside the pupil;
+//! - **field curvature**: the foci of narrow fans about the principal ray, positive behind the sensor: in the meridional plane (tangential) and
+//!   across it (sagittal);
+//! - **lateral colour**: the centroid of the spot at the F and C lines less that at d, and the chief ray's position less that at d, positive
+//!   outwards. They differ where the bundle is vignetted or comatic.
 //!
-//! **Axial colour** is the paraxial image's place at F and C less that at d.
+//! **Axial colour** is the paraxial image position at F and C less that at d.
 
 use etendue_core::maths::f64::sin_cos;
 use etendue_spectra::glass::{LINE_C_NM, LINE_F_NM};
@@ -23,7 +23,7 @@ use super::spot::{OtherBundle, Pupil, Spot};
 use super::{Prescribed, beam::Beam};
 use crate::{overlap::PRINCIPAL_NM, prescription::paraxial::Paraxial};
 
-/// A lens, measured.
+/// The measured properties of a lens.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LensReport {
     /// The wavelength of the first-order quantities, nm.
@@ -36,13 +36,13 @@ pub struct LensReport {
     pub focus_distance_m: f64,
     /// Image over object size in the plane in focus.
     pub magnification: f64,
-    /// Sensor behind the last vertex, mm.
+    /// Distance from the last vertex to the sensor, mm.
     pub sensor_mm: f64,
     /// Transmittance on the axis at 587.56 nm.
     pub transmittance: f64,
-    /// Angle across the whole lit picture, rad; `None` where its edge has no principal ray.
+    /// Angle across the whole lit image, rad; `None` if its edge has no principal ray.
     pub field_of_view_rad: Option<f64>,
-    /// Paraxial image at the F line less that at d, mm, towards the sensor's back positive.
+    /// Paraxial image at the F line less that at d, mm, positive towards the back of the sensor.
     pub axial_colour_f_mm: f64,
     /// The same for the C line.
     pub axial_colour_c_mm: f64,
@@ -57,11 +57,11 @@ pub struct FieldReport {
     pub height_mm: f64,
     /// Irradiance over that on the axis.
     pub relative_illumination: f64,
-    /// What its principal ray tells; `None` where it has none.
+    /// Imaging at the field point; `None` if it has no principal ray.
     pub image: Option<ImageReport>,
 }
 
-/// How a point is imaged.
+/// Imaging of a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImageReport {
     /// Angle of the principal ray from the axis, rad.
@@ -74,29 +74,29 @@ pub struct ImageReport {
     pub tangential_mm: f64,
     /// Sagittal focus behind the sensor, mm.
     pub sagittal_mm: f64,
-    /// The spot at 587.56 nm; `None` where no ray arrives.
+    /// The spot at 587.56 nm; `None` if no ray arrives.
     pub spot: Option<Spot>,
-    /// Lateral colour of the F line; `None` where no light of it arrives.
+    /// Lateral colour of the F line; `None` if no light of it arrives.
     pub lateral_f: Option<LateralShift>,
     /// Lateral colour of the C line.
     pub lateral_c: Option<LateralShift>,
-    /// Light of the same point that comes by other parts of the lens, the brightest first; none as a rule.
+    /// Light of the same point through other parts of the lens, the brightest first; usually empty.
     pub other_bundles: Vec<OtherBundle>,
 }
 
-/// How far outwards a wavelength's image lies from that at 587.56 nm.
+/// Outward displacement of a wavelength's image from that at 587.56 nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LateralShift {
     /// By the centroids of the spots, mm.
     pub centroid_mm: f64,
     /// Estimated error of [`Self::centroid_mm`], mm.
     pub centroid_error_mm: f64,
-    /// By the chief rays, through the centre of the stop at either wavelength, mm; `None` where there is none.
+    /// By the chief rays, through the centre of the stop at either wavelength, mm; `None` if there is none.
     pub chief_mm: Option<f64>,
 }
 
 impl Prescribed {
-    /// Measures the lens at `fields` heights (at least 2) from the axis to the edge of the lit picture, first-order quantities at the lens's reference
+    /// Measures the lens at `fields` heights (at least 2) from the axis to the edge of the lit image; first-order quantities at the lens's reference
     /// wavelength.
     #[must_use]
     pub fn report(&self, fields: usize) -> LensReport {
@@ -166,7 +166,7 @@ impl Prescribed {
     }
 }
 
-/// Where the chief ray of a wavelength lands, mm.
+/// The landing position of the chief ray of a wavelength, mm.
 fn chief_mm(beam: &Beam<'_>) -> Option<f64> {
     Some(beam.lands(beam.chief()?)?.x)
 }

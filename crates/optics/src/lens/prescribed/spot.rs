@@ -1,7 +1,7 @@
-//! Where the rays of a point land: the spot of its bundle, and those of other bundles that the lens lets through.
+//! Landing positions of the rays of a point: the spot of its bundle, and those of other bundles that pass the lens.
 //!
-//! Rays fill each bundle evenly in light, clipped where its edge is. The number of rows doubles until root-mean-square radius and
-//! centroid stand still; what they moved last is stated as their error. Coatings do not weigh.
+//! Rays fill each bundle uniformly in light, clipped at its edge. The number of rows doubles until root-mean-square radius and centroid converge; the
+//! last change is reported as their error. Coating losses are ignored.
 
 use glam::DVec2;
 
@@ -9,21 +9,21 @@ use super::beam::Beam;
 use super::bundles::{Bundle, bundles};
 use super::quadrature::{Area, Node};
 
-/// Rows of the first quadrature, and how often they are doubled at most.
+/// Rows of the first quadrature, and the maximum number of doublings.
 const ROWS: usize = 12;
 const DOUBLINGS: usize = 5;
-/// A spot stands still when it moves less than this part of its radius, or mm.
+/// Convergence limit of a spot: relative to its radius, or mm.
 const RELATIVE: f64 = 1e-5;
 const ABSOLUTE_MM: f64 = 1e-10;
 
-/// Where the rays of a point land.
+/// Spot of the rays of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// Root-mean-square distance from the centroid, mm.
     pub rms_mm: f64,
-    /// Estimated error of [`Self::rms_mm`], mm: what the last doubling of its rays changed.
+    /// Estimated error of [`Self::rms_mm`], mm: the change by the last doubling of rays.
     pub rms_error_mm: f64,
-    /// Greatest distance from the centroid, mm.
+    /// Largest distance from the centroid, mm.
     pub radius_mm: f64,
     /// The centroid's distance from the axis, mm; negative on the side of the axis opposite to the field point.
     pub centroid_mm: f64,
@@ -31,12 +31,12 @@ pub struct Spot {
     pub centroid_error_mm: f64,
 }
 
-/// Light of a point that comes by another part of the lens than that of the principal ray.
+/// Light of a point through a part of the lens other than that of the principal ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OtherBundle {
-    /// Its light over that of the spot.
+    /// Its light relative to that of the spot.
     pub light: f64,
-    /// Where it lands.
+    /// Its spot.
     pub spot: Spot,
 }
 
@@ -47,14 +47,14 @@ pub(super) struct Lit {
     pub(super) spot: Spot,
 }
 
-/// The bundles of a point and which of them is the principal ray's.
+/// The bundles of a point, with the index of the principal ray's.
 pub(super) struct Pupil {
     list: Vec<Bundle>,
     main: usize,
 }
 
 impl Pupil {
-    /// `None` where no ray comes through.
+    /// `None` if no ray passes.
     pub(super) fn new(beam: &Beam<'_>) -> Option<Self> {
         let list = bundles(beam.bounds(), &|q| beam.filling(q));
         let distance = |bundle: &Bundle| bundle.distance(DVec2::ZERO);
@@ -67,7 +67,7 @@ impl Pupil {
         self.converged(beam, self.main)
     }
 
-    /// The other bundles, the brightest first, beside the principal ray's.
+    /// The other bundles, the brightest first.
     pub(super) fn others(&self, beam: &Beam<'_>, main: &Lit) -> Vec<OtherBundle> {
         let lit = (0..self.list.len()).filter(|i| *i != self.main).filter_map(|i| self.converged(beam, i));
         let mut others: Vec<_> =
@@ -97,7 +97,7 @@ impl Pupil {
     }
 }
 
-/// Greatest distance from the centroid, mm: of the rays, and of the edge about the farthest of them.
+/// Largest distance from the centroid, mm: of the rays, and of the edge about the farthest of them.
 fn farthest<F>(beam: &Beam<'_>, area: &Area<'_, F>, rows: usize, nodes: &[Node], centroid_mm: f64) -> f64
 where
     F: Fn(DVec2) -> Option<f64>,
@@ -107,7 +107,7 @@ where
     most.map_or(0.0, |node| area.highest(node.q, rows, distance))
 }
 
-/// The spot of some rays; errors are not known of one set.
+/// The spot of a set of rays; a single set gives no error estimate.
 fn landed(beam: &Beam<'_>, nodes: &[Node]) -> Option<Lit> {
     let rays: Vec<(DVec2, f64)> =
         nodes.iter().filter_map(|node| Some((beam.lands(node.q)?, node.area * beam.light(node.q)))).collect();

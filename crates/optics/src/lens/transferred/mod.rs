@@ -1,16 +1,16 @@
-//! A lens by its ray-transfer functions, as a camera's lens: rays from the sensor, carried through at once.
+//! A camera lens given by its ray-transfer functions: each ray from the sensor is transferred in one step.
 //!
-//! Irradiance at a sensor point is E = τ ∫ L cos θ dω over the directions that pass; with D the distance of the pupil's plane, cos θ dω = cos⁴ θ dA/D² on it.
-//! Samples are drawn from an oval that holds all that passes (`pupils.rs`); one that does not pass is no light, so vignetting is that of
-//! the functions, without bias.
+//! Irradiance at a sensor point is E = τ ∫ L cos θ dω over the directions that pass; with D the distance of the pupil plane, cos θ dω = cos⁴ θ dA/D²
+//! on it. Samples are drawn from an oval that contains everything that passes (`pupils.rs`). A blocked sample carries no light, so vignetting is that
+//! of the functions, without bias.
 //!
-//! - Principal rays go through the middle of what passes, in the meridian, at 587.56 nm; they are given from their point nearest to the centre of the
-//!   entrance pupil, which is the origin of the camera frame: where principal rays near the axis cross it.
-//! - f-number: focal length over the diameter of the entrance pupil of the bundle on the axis, at the sensor's place.
+//! - Principal rays go through the centre of the passing region, in the meridian, at 587.56 nm. They start at their point nearest to the centre of
+//!   the entrance pupil, which is the origin of the camera frame: the point where principal rays near the axis cross it.
+//! - f-number: focal length over the diameter of the entrance pupil of the bundle on the axis, at the sensor position.
 //! - Neither pupil is constant: each field point has the pupil of the functions.
-//! - [`Transferred::projected_solid_angle_sr`] is of the wavelength nearest to 587.56 nm, a quadrature to some 1e-5.
+//! - [`Transferred::projected_solid_angle_sr`] holds for the wavelength nearest to 587.56 nm, by a quadrature accurate to about 1e-5.
 //!
-//! Left out: what the functions do not know: glass that absorbs, surfaces that reflect (a transmittance stands for both), scatter, the errors of the fit.
+//! Left out: effects outside the functions: absorbing glass, reflecting surfaces (a transmittance stands for both), scatter, the errors of the fit.
 
 mod near_axis;
 mod pupils;
@@ -31,12 +31,12 @@ use near_axis::NearAxis;
 use pupils::{Oval, Pupils};
 use sight::Sight;
 
-/// Where the sensor stands.
+/// Position of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SensorPlace {
-    /// Behind the last surface, mm.
+    /// Distance behind the last surface, mm.
     Distance(f64),
-    /// Where this distance from the entrance pupil is sharp on the axis, m; infinity is legal.
+    /// Distance from the entrance pupil in focus on the axis, m; infinity is legal.
     Focus(f64),
 }
 
@@ -47,22 +47,22 @@ pub struct Transferred {
     transmittance: f64,
     near: NearAxis,
     pupils: Pupils,
-    /// Field angles of principal rays at equal steps of the distance from the axis, as far as they rise.
+    /// Field angles of principal rays at equal steps of the distance from the axis, up to where they stop rising.
     angles: Vec<f64>,
 }
 
 const KNOTS: usize = 128;
-/// How far beyond the picture principal rays are known.
+/// Principal rays are known up to this multiple of the image's radius.
 const OVERSCAN: f64 = 1.02;
 const HALVINGS: usize = 60;
 /// Directions of the quadrature over the pupil.
 const DIRECTIONS: usize = 96;
 
 impl Transferred {
-    /// A lens for pictures that reach `picture_radius_mm` from the axis; further out it is dark.
+    /// Creates a lens for images that reach `picture_radius_mm` from the axis; farther out it is dark.
     ///
     /// # Errors
-    /// Where no light reaches the middle of the sensor, no place of it is in focus, or a number is outside its range.
+    /// If no light reaches the centre of the sensor, no sensor position is in focus, or a number is outside its range.
     pub fn new(
         transfer: RayTransfer,
         place: SensorPlace,
@@ -95,25 +95,25 @@ impl Transferred {
         &self.transfer
     }
 
-    /// The sensor behind the last surface, mm.
+    /// Distance from the last surface to the sensor, mm.
     #[must_use]
     pub fn sensor_distance_mm(&self) -> f64 {
         self.near.sensor_mm
     }
 
-    /// How far from the axis light arrives, mm: a little more than the picture's radius, or less where the functions end before.
+    /// The radius about the axis within which light arrives, mm: slightly more than the image's radius, or less if the functions end before.
     #[must_use]
     pub fn lit_radius_mm(&self) -> f64 {
         self.pupils.limit_mm
     }
 
-    /// Whether a ray depends on the wavelength.
+    /// True if a ray depends on the wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
         self.transfer.transfers().len() > 1
     }
 
-    /// The wavelength of first-order numbers, nm: 587.56 or the nearest that the functions know.
+    /// The wavelength of first-order quantities, nm: 587.56 or the nearest one of the functions.
     pub(super) fn first_order_nm(&self) -> f64 {
         let known = self.transfer.transfers();
         PRINCIPAL_NM.clamp(known[0].wavelength_nm, known[known.len() - 1].wavelength_nm)
@@ -135,7 +135,7 @@ impl Transferred {
         self.transmittance
     }
 
-    /// Of a sensor nearer than the focus of infinity, infinity.
+    /// The focus distance; infinity if the sensor is nearer than the focus of infinity.
     pub(super) fn focus_distance_m(&self) -> f64 {
         if self.near.vergence_per_mm > 0.0 { MM / self.near.vergence_per_mm } else { f64::INFINITY }
     }
@@ -160,7 +160,7 @@ impl Transferred {
         self.pupils.limit_mm / (KNOTS - 1) as f64
     }
 
-    /// Whose rays pass at a wavelength, or at any.
+    /// The rays that pass at a wavelength, or at any.
     fn sight(&self, of: Option<usize>) -> Sight<'_> {
         Sight { transfer: &self.transfer, sensor_mm: self.near.sensor_mm, of }
     }
@@ -193,7 +193,7 @@ impl Transferred {
         Some((self.sight(None).meridian_ray(radius_mm, oval.centre_mm, PRINCIPAL_NM)?, oval))
     }
 
-    /// The angle from the axis at which a distance from it looks, rad, against the point's own side.
+    /// The angle from the axis seen at a distance from it, rad, towards the opposite side of the point.
     fn field_angle(&self, radius_mm: f64) -> Option<f64> {
         if radius_mm == 0.0 {
             return Some(0.0);
@@ -209,11 +209,11 @@ impl Transferred {
         let cosine = distance_mm / DVec2::new(distance_mm, oval.centre_mm - radius_mm).length();
         let area_mm2 = core::f64::consts::PI * oval.axes_mm.x * oval.axes_mm.y;
         let direction = self.direction(sensor_mm)?;
-        // On the axis the fit's own errors are no field: the ray is the axis.
+        // On the axis the fit's own errors are not a field angle: the ray is the axis.
         let origin_m = if radius_mm > 0.0 {
             let outwards = sensor_mm / radius_mm;
             let point = self.point_m(ray.point_mm);
-            // The plane x = 0 of the lens holds the sensor point (0, radius) of its frame, which the picture has at its negative.
+            // The plane x = 0 of the lens holds the sensor point (0, radius) of its frame, which is at its negative in the image.
             (outwards * -(ray.point_mm.y * MM)).extend(point.z)
         } else {
             DVec3::ZERO
@@ -232,7 +232,7 @@ impl Transferred {
         Some((sensor_mm / radius_mm * -ray.direction.y).extend(ray.direction.z))
     }
 
-    /// Where a direction of the camera frame is seen, mm.
+    /// The sensor point of a direction of the camera frame, mm.
     pub(super) fn project(&self, direction: DVec3) -> Option<DVec2> {
         let across = direction.truncate();
         let angle = atan2(across.length(), direction.z);
@@ -275,7 +275,7 @@ impl Transferred {
     }
 }
 
-/// The point of the lens's frame on which the light of a point of the erect picture falls.
+/// The point of the lens frame that receives the light of a point of the erect image.
 fn film_point(sensor_mm: DVec2) -> DVec2 {
     DVec2::new(-sensor_mm.x, sensor_mm.y)
 }

@@ -1,4 +1,4 @@
-//! First-order numbers of a lens that is known by its ray-transfer functions: least squares over rays near the axis, as fits have errors of their own.
+//! First-order properties of a lens given by ray-transfer functions: least squares over rays near the axis, because fits have errors of their own.
 
 use glam::{DVec2, DVec3};
 
@@ -6,35 +6,36 @@ use super::{pupils::Oval, sight::Sight};
 use crate::ray_transfer::{RayTransfer, RayTransferError};
 use crate::{lens::paraxial_properties::Conjugates, lens::search::towards, overlap::PRINCIPAL_NM, pupil::MM};
 
-/// First-order numbers for a place of the sensor.
+/// First-order properties for a sensor position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct NearAxis {
-    /// The sensor behind the rear vertex, mm.
+    /// Distance from the rear vertex to the sensor, mm.
     pub(super) sensor_mm: f64,
     pub(super) focal_length_mm: f64,
-    /// The entrance pupil from the sensor, mm.
+    /// Distance from the sensor to the entrance pupil, mm.
     pub(super) entrance_mm: f64,
     pub(super) entrance_radius_mm: f64,
-    /// The exit pupil from the sensor, mm.
+    /// Distance from the sensor to the exit pupil, mm.
     pub(super) exit_mm: f64,
     pub(super) principal_distance_mm: f64,
-    /// Inverse distance from the entrance pupil of the plane in focus, 1/mm.
+    /// Inverse distance from the entrance pupil to the plane in focus, 1/mm.
     pub(super) vergence_per_mm: f64,
 }
 
-/// Fields of the chief rays, of the reach of the functions: nearer to the axis the fit's errors of where ellipses lie are as large as what is looked for.
+/// Fields of the chief rays, relative to the reach of the functions: nearer to the axis the fit errors of the ellipse centres are as large as the
+/// effect measured.
 const FIELDS: [f64; 5] = [0.1, 0.2, 0.3, 0.4, 0.5];
-/// Heights of the rays that tell the focal length, of the bundle's radius on the axis.
+/// Heights of the rays that give the focal length, relative to the radius of the axial bundle.
 const HEIGHTS: [f64; 5] = [0.04, 0.08, 0.12, 0.16, 0.2];
-/// Zones of the bundle on the axis, of its radius: the middles of equal areas.
+/// Number of zones of the axial bundle: the centres of equal areas.
 const ZONES: usize = 16;
 const RIM: usize = 32;
-/// The farthest place of the sensor that is looked at for a focus, in focal lengths from the input plane.
+/// The largest sensor distance tried for focus, in focal lengths from the input plane.
 const MAX_SENSOR_DISTANCE: f64 = 6.0;
 const HALVINGS: usize = 80;
 
 impl NearAxis {
-    /// Of a sensor at a distance from the rear vertex; `reach_mm` is a distance from the axis to which the lens is of interest.
+    /// Properties for a sensor at a distance from the rear vertex; `reach_mm` is the distance from the axis up to which the lens is used.
     pub(super) fn at(transfer: &RayTransfer, sensor_mm: f64, reach_mm: f64) -> Result<Self, RayTransferError> {
         let plane_mm = transfer.input_offset_mm();
         if sensor_mm < plane_mm || sensor_mm <= 0.0 {
@@ -75,7 +76,7 @@ impl NearAxis {
         })
     }
 
-    /// Of the sensor at which a distance (m, infinity is legal) is sharp.
+    /// Properties for the sensor position at which a distance (m, infinity is legal) is sharp.
     pub(super) fn focused(transfer: &RayTransfer, focus_m: f64, reach_mm: f64) -> Result<Self, RayTransferError> {
         let wanted = MM / focus_m;
         let radius_mm = transfer.transfers()[transfer.nearest(PRINCIPAL_NM)].pass.radius_on_axis_mm();
@@ -83,7 +84,7 @@ impl NearAxis {
         let low_mm = transfer.input_offset_mm().max(0.0) + 1e-6 * focal_mm;
         let mut places = [low_mm, low_mm + MAX_SENSOR_DISTANCE * focal_mm];
         let off = |sensor_mm: f64| Self::at(transfer, sensor_mm, reach_mm).map(|near| near.vergence_per_mm - wanted);
-        // A sensor too far away may see no light, and one too near none either: the bracket is where both ends are known.
+        // A sensor too far away or too near may be dark: the bracket lies where both ends are defined.
         let known: Vec<(f64, f64)> = (0..=48)
             .map(|i| places[0] + (places[1] - places[0]) * f64::from(i * i) / f64::from(48 * 48))
             .filter_map(|sensor_mm| Some((sensor_mm, off(sensor_mm).ok()?)))
@@ -108,7 +109,7 @@ impl NearAxis {
     }
 }
 
-/// How far from the axis a ray through the rim of the bundle on the axis meets the entrance pupil's plane, mm.
+/// Distance from the axis at which a marginal ray of the axial bundle meets the plane of the entrance pupil, mm.
 fn rim_height(sight: &Sight<'_>, oval: &Oval, direction: DVec2, entrance_mm: f64) -> Option<f64> {
     let centre = DVec2::new(oval.centre_mm, 0.0);
     let step = direction * oval.axes_mm;
@@ -119,9 +120,9 @@ fn rim_height(sight: &Sight<'_>, oval: &Oval, direction: DVec2, entrance_mm: f64
     Some(at.truncate().length())
 }
 
-/// f of rays that come along the axis: they leave at −ρ/f. `None` where they are not bent towards it.
+/// f from rays parallel to the axis: they leave at −ρ/f. `None` if they are not refracted towards it.
 fn focal_length_mm(transfer: &RayTransfer, radius_mm: f64) -> Option<f64> {
-    // From a sensor far enough behind for the rays to be parallel, at the height of each.
+    // The sensor is far enough behind for the rays to be parallel, at the height of each.
     let sensor_mm = transfer.input_offset_mm().max(0.0) + radius_mm;
     let sight = Sight { transfer, sensor_mm, of: None };
     let slope = |height_mm: f64| {
@@ -134,7 +135,7 @@ fn focal_length_mm(transfer: &RayTransfer, radius_mm: f64) -> Option<f64> {
     Some(-squares / turned).filter(|f| f.is_finite() && *f > 0.0)
 }
 
-/// Where chief rays near the axis cross it, and how large tangents become.
+/// Axis crossing of chief rays near the axis, and the scale of tangents.
 struct Chiefs {
     entrance_mm: f64,
     exit_mm: f64,
@@ -144,7 +145,7 @@ struct Chiefs {
 impl Chiefs {
     fn near(sight: &Sight<'_>, reach_mm: f64) -> Option<Self> {
         let distance_mm = sight.distance_mm();
-        // Sums of squares of slopes in front and of their products with where the rays meet the axis; of slopes behind; of heights and slopes.
+        // Sums of squares of slopes in front and of their products with the axis crossings; of slopes behind; of heights and slopes.
         let (mut front, mut crossings, mut behind, mut exits, mut heights, mut products) =
             (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for height in FIELDS.map(|part| part * reach_mm) {
@@ -161,7 +162,7 @@ impl Chiefs {
         }
         Some(Self {
             entrance_mm: crossings / front,
-            // The sign of what is as good as infinite is the fit's error.
+            // The sign of a nearly infinite value is a fit error.
             exit_mm: if behind > 0.0 { (exits / behind).abs() } else { f64::INFINITY },
             principal_distance_mm: heights / products,
         })

@@ -1,7 +1,8 @@
-//! The ovals from which pupil samples are drawn: they hold all that passes, and little else.
+//! The ovals from which pupil samples are drawn: they contain everything that passes, and little else.
 //!
-//! At equal steps of the distance from the axis an oval is the ellipse about the box of what passes at any of the wavelengths; between them its centre and
-//! semi-axes are linear, and are stretched until the oval holds what passes at the ends of the interval and between them, plus a margin.
+//! At equal steps of the distance from the axis an oval is the ellipse about the box of the region that passes at any of the wavelengths. Between
+//! them its centre and semi-axes are linear, and are stretched until the oval contains the passing region at the ends of the interval and between
+//! them, plus a margin.
 
 use core::f64::consts::PI;
 
@@ -11,10 +12,10 @@ use super::sight::Sight;
 use crate::lens::search::{lit_as_far_as, towards};
 
 const INTERVALS: usize = 48;
-/// Distances looked at in an interval, both ends among them.
+/// Distances sampled per interval, including both ends.
 const LOOKS: usize = 4;
 const DIRECTIONS: usize = 64;
-/// What is added for edges that lie between the points looked at.
+/// Margin factor for edges between the sampled points.
 const MARGIN: f64 = 1.004;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,25 +29,25 @@ pub(super) struct Oval {
 /// Ovals by the distance from the axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pupils {
-    /// From here on no light arrives, mm.
+    /// Distance beyond which no light arrives, mm.
     pub(super) limit_mm: f64,
     ovals: Vec<Oval>,
     stretches: Vec<f64>,
 }
 
-/// A point of the pupil's plane in the frame of a sensor point, and the area that it stands for, mm².
+/// A point of the pupil plane in the frame of a sensor point, and the area it represents, mm².
 pub(super) struct Proposal {
     pub(super) q: DVec2,
     pub(super) area_mm2: f64,
 }
 
 impl Pupils {
-    /// As far as `reach_mm` from the axis or the light reaches; `None` where the middle of the sensor is dark.
+    /// Determines ovals up to `reach_mm` from the axis or the end of the light; `None` if the centre of the sensor is dark.
     pub(super) fn new(sight: &Sight<'_>, reach_mm: f64) -> Option<Self> {
         let limit_mm = lit_as_far_as(reach_mm, 2 * INTERVALS, |radius_mm| sight.meridional(radius_mm).is_some())
             .filter(|limit_mm| *limit_mm > 0.0)?;
         let step = limit_mm / INTERVALS as f64;
-        // A distance that is dark between lit ones has any oval: nothing passes there.
+        // A dark distance between lit ones may have any oval: nothing passes there.
         let next = |last: &mut Option<Oval>, i: usize| {
             *last = Oval::about(sight, step * i as f64).or(*last);
             *last
@@ -61,7 +62,7 @@ impl Pupils {
         Some(pupils)
     }
 
-    /// By how much the oval at a distance must grow to hold what passes there.
+    /// Factor by which the oval at a distance must grow to contain everything that passes there.
     fn missing(&self, sight: &Sight<'_>, radius_mm: f64) -> f64 {
         let (Some(oval), Some([low, high])) = (self.oval(radius_mm), sight.meridional(radius_mm)) else { return 1.0 };
         let within = DVec2::new(0.5 * (low + high), 0.0);
@@ -79,7 +80,7 @@ impl Pupils {
         (place <= INTERVALS as f64).then_some((index, place - index as f64))
     }
 
-    /// The oval at a distance from the axis, not stretched; `None` where no light arrives.
+    /// The oval at a distance from the axis, not stretched; `None` if no light arrives.
     pub(super) fn oval(&self, radius_mm: f64) -> Option<Oval> {
         let (i, share) = self.place(radius_mm)?;
         let (a, b) = (self.ovals[i], self.ovals[i + 1]);
@@ -87,7 +88,7 @@ impl Pupils {
         Some(Oval { centre_mm, axes_mm: a.axes_mm.lerp(b.axes_mm, share) })
     }
 
-    /// Of a point of the unit disc.
+    /// The proposal for a point of the unit disc.
     #[inline]
     pub(super) fn propose(&self, radius_mm: f64, disc: DVec2) -> Option<Proposal> {
         let oval = self.oval(radius_mm)?;
@@ -98,7 +99,7 @@ impl Pupils {
 }
 
 impl Oval {
-    /// About the box of what passes at a distance from the axis.
+    /// The oval about the box of everything that passes at a distance from the axis.
     pub(super) fn about(sight: &Sight<'_>, radius_mm: f64) -> Option<Self> {
         let [low, high] = sight.meridional(radius_mm)?;
         let (centre, half) = (DVec2::new(0.5 * (low + high), 0.0), (0.5 * (high - low)).max(1e-9));

@@ -1,28 +1,28 @@
-//! What a point of the sensor sees of the lens: which points of the pupil's plane let light through, and the rays that leave by them.
+//! The pupil of a sensor point: the points of the pupil plane that pass light, and the rays that leave through them.
 //!
-//! A lens of revolution is the same for all points at one distance from the axis. In the frame of such a point a point q of the pupil's plane has q.x along
-//! the meridian, away from the axis on the point's side, and q.y across it.
+//! A lens of revolution is the same for all points at one distance from the axis. In the frame of such a point a point q of the pupil plane has q.x
+//! along the meridian, away from the axis on the point's side, and q.y across it.
 
 use glam::DVec2;
 
 use crate::lens::search::last_open;
 use crate::ray_transfer::{RayTransfer, TransferRay};
 
-/// A lens with the sensor at its place.
+/// A lens with its sensor position.
 #[derive(Clone, Copy)]
 pub(super) struct Sight<'a> {
     pub(super) transfer: &'a RayTransfer,
-    /// The sensor behind the rear vertex, mm.
+    /// Distance from the rear vertex to the sensor, mm.
     pub(super) sensor_mm: f64,
-    /// Whose rays pass: of one of the wavelengths, or of any.
+    /// The rays considered: of one of the wavelengths, or of any.
     pub(super) of: Option<usize>,
 }
 
-/// Slopes, to either side, at which the pupil is looked for: 63° from the axis.
+/// Slopes on either side within which the pupil is searched: 63° from the axis.
 const MAX_SLOPE: f64 = 2.0;
 const SCAN: i32 = 2048;
 const HALVINGS: usize = 48;
-/// Places along a way at which its last open one is looked for.
+/// Positions along a line at which its last open point is searched.
 const LOOKS: usize = 40;
 
 impl Sight<'_> {
@@ -39,7 +39,7 @@ impl Sight<'_> {
         }
     }
 
-    /// The interval of the meridian that passes, from its first to its last point, mm; `None` where none does.
+    /// The interval of the meridian that passes, from its first to its last point, mm; `None` if none does.
     pub(super) fn meridional(&self, radius_mm: f64) -> Option<[f64; 2]> {
         let step = MAX_SLOPE * self.distance_mm() / f64::from(SCAN);
         let at = |i: i32| radius_mm + step * f64::from(i);
@@ -50,7 +50,7 @@ impl Sight<'_> {
         Some([edge(first, first - step), edge(last, last + step)])
     }
 
-    /// How far from a point the pupil reaches along a step, in steps, looked for up to `most` of them; 0 where nothing is open.
+    /// Extent of the pupil from a point along a step, in steps, searched up to `most` of them; 0 if nothing is open.
     pub(super) fn reach(&self, radius_mm: f64, from: DVec2, step: DVec2, most: f64) -> f64 {
         let at = |i: usize| most * i as f64 / LOOKS as f64;
         let is_open = |t: f64| self.passes(radius_mm, from + step * t);
@@ -58,13 +58,13 @@ impl Sight<'_> {
         last.map_or(0.0, |i| last_open([at(i), at(i + 1)], HALVINGS, is_open))
     }
 
-    /// The ray of the meridian that leaves by a place of it, as its height above the axis at a distance from the sensor, and its slope; `None` where there is
-    /// none.
+    /// The meridional ray that leaves through a position of the meridian, as its height above the axis at a distance from the sensor, and its slope;
+    /// `None` if there is none.
     pub(super) fn meridian_ray(&self, radius_mm: f64, along_mm: f64, nm: f64) -> Option<TransferRay> {
         let (point, pupil) = (DVec2::new(0.0, radius_mm), DVec2::new(0.0, along_mm));
         let entry = self.transfer.entry(point, pupil, self.sensor_mm);
         let mut ray = self.transfer.leaving(&entry, self.sensor_mm, nm)?;
-        // What a fit leaves across the meridian is its error.
+        // The fit's component across the meridian is an error.
         (ray.point_mm.x, ray.direction.x) = (0.0, 0.0);
         ray.direction = ray.direction.normalize();
         Some(ray)
