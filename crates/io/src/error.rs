@@ -1,9 +1,7 @@
 //! Errors of files.
 //!
-//! Decoders of other authors: where one of them panics, the file is refused.
-//!
-//! Sizes are checked before anything is decoded; what is left are slips of a decoder over damaged data, which a user cannot tell from a damaged file. The panic
-//! ends here. A program may keep its message back ([`is_decoding`]).
+//! Third-party decoders: if one panics, the file is refused. Sizes are checked before decoding; what remains are decoder bugs on damaged data, which a user
+//! cannot distinguish from a damaged file. The panic is caught here. A program may suppress its message ([`is_decoding`]).
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

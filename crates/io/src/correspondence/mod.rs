@@ -45,7 +45,7 @@ pub fn read_flow(file: &Path) -> Result<Option<Plane<OpticalFlow>>, Error> {
 
 const FLOW_TITLE: &str = "optical flow, KITTI 2015";
 const DISPARITY_TITLE: &str = "disparity, KITTI 2015";
-/// Units per pixel of flow; also the offset, the number of zero flow.
+/// Units per pixel of flow; the next constant is the number of zero flow.
 const FLOW_UNITS: f64 = 64.0;
 const FLOW_ZERO: f64 = 32_768.0;
 /// Units per pixel of disparity.

@@ -1,6 +1,6 @@
 //! Planes in a file: arbitrarily named planes for internal use, and one plane of a scalar quantity with its variance.
 //!
-//! One plane of a scalar quantity as an EXR, with its variance where known.
+//! Encoding of one plane of a scalar quantity, with its variance if known.
 //!
 //! The channel is named by the quantity (`electrons`), its variance `variance.electrons`, in squared units.
 

@@ -5,7 +5,7 @@
 //! Types A and B: across the peak, horizontally and vertically. Type C: in the planes C0–C180 and C90–C270, from the largest intensity of the plane to both
 //! sides. Intensity is linear between points; a beam that reaches the end of its grid ends there.
 //!
-//! A lamp as an image.
+//! Layout of the image.
 //!
 //! Type C: a polar diagram, straight down at the bottom; C0 is right and C180 left (red), C90 right and C270 left (blue); rings at quarters of the largest
 //! intensity, spokes every 30°. Types A and B: the view ahead as in H-V diagrams, right is right, up is up; brightness by the logarithm over three decades,
