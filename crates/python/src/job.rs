@@ -14,13 +14,13 @@ use pyo3::types::PyString;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// A job that was read, checked and compiled.
+/// Job that was read, checked and compiled.
 #[pyclass(frozen, module = "etendue")]
 pub(crate) struct Job {
     job: etendue::Job,
 }
 
-/// The file that a job made in Python is read as.
+/// File name of a job made in Python.
 const MADE: &str = "job.toml";
 
 #[pymethods]
@@ -103,7 +103,7 @@ impl Job {
         Ok(Self { job })
     }
 
-    /// What will be modelled, what is left out and why, and what it will cost: as `etendue plan --json`.
+    /// Modelled effects, omitted effects with reasons, and cost: as `etendue plan --json`.
     fn plan<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let text = py.detach(|| serde_json::to_string(&self.job.report()));
         let text = text.map_err(|error| PyValueError::new_err(error.to_string()))?;
@@ -115,20 +115,20 @@ impl Job {
         py.detach(|| self.job.summary())
     }
 
-    /// Paths of the files that were read: the job and all that it names, as they were named.
+    /// Paths of the files that were read: the job and all files that it names, as they were named.
     #[getter]
     fn files(&self) -> Vec<PathBuf> {
         self.job.files().to_vec()
     }
 
-    /// Names of the films of a shard, relative to its folder: one for each camera (of cameras of equal light one together); where light depends on time,
-    /// of each of the frames and captures.
+    /// Names of the films of a shard, relative to its folder: one per camera (one for all cameras of equal light); if light depends on time, one per frame and
+    /// capture.
     #[pyo3(signature = (frames = None))]
     fn film_names(&self, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         Ok(self.job.film_names(&range(frames)?))
     }
 
-    /// Names of all files of a whole run, relative to its folder.
+    /// Names of all files of a complete run, relative to its folder.
     #[pyo3(signature = (frames = None))]
     fn file_names(&self, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         Ok(self.job.file_names(&range(frames)?))
@@ -209,7 +209,7 @@ impl Job {
     }
 }
 
-/// The path of a job, and its text where it is made in Python.
+/// Path of a job, and its text if it is made in Python.
 fn source(description: &Bound<'_, PyAny>, folder: Option<PathBuf>) -> PyResult<(PathBuf, Option<String>)> {
     if let Some(keys) = toml::mapping(description)? {
         return Ok((folder.unwrap_or_default().join(MADE), Some(toml::file(&keys)?)));
@@ -232,7 +232,7 @@ fn options(py: Python<'_>, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Render
     Ok(RenderOptions { frames: range(frames)?, simd })
 }
 
-/// A number of threads that is one.
+/// Checks that a number of threads is valid.
 fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
     match threads {
         Some(threads) if !(1..=1024).contains(&threads) => {
@@ -242,7 +242,7 @@ fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
     }
 }
 
-/// A frame, or a range of consecutive ones; frame 0 where none is named.
+/// A frame, or a range of consecutive ones; frame 0 if none is named.
 fn range(frames: Option<&Bound<'_, PyAny>>) -> PyResult<Range<u32>> {
     let told = || {
         PyTypeError::new_err("frames: expected a frame's number, or a range of consecutive frames that is not empty")
