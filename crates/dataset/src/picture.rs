@@ -1,6 +1,6 @@
-//! An image with its truth, of a camera's results.
+//! Image with its ground truth, from a camera's results.
 //!
-//! Masks in COCO's run lengths.
+//! Masks are stored as COCO's run lengths.
 //!
 //! Pixels are taken column by column; runs of pixels outside and inside alternate, beginning outside. The text of the runs is that of COCO's API
 //! (`rleToString`, Lin et al. 2014): from the fourth run on the difference to the run two before, in groups of five bits from the lowest, each with a bit that

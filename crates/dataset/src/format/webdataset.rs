@@ -1,6 +1,6 @@
-//! WebDataset (Aizman et al. 2019): shards in tar, `webdataset/SPLIT-NNNNNN.tar`, of `shard_samples` samples each by their numbers.
+//! WebDataset (Aizman et al. 2019): shards in tar, `webdataset/SPLIT-NNNNNN.tar`, of `shard_samples` samples each, in order.
 //!
-//! Of each image four members with one stem: the image, `.json` (its record: camera, pose, boxes, masks), `.instance.png` (identities of the ground truth, 16
+//! Each image has four members with one stem: the image, `.json` (its record: camera, pose, boxes, masks), `.instance.png` (identities of the ground truth, 16
 //! bits), `.depth.npy` (32-bit floats, m; +∞ for sky, NaN where there is none). A sample is first a part in `webdataset/parts`; a complete shard replaces its
 //! parts, others keep them for a resumed run.
 //!
