@@ -5,10 +5,10 @@
 //!
 //! ```text
 //! v 4.0                    version of the standard
-//! n bits width height      of all pictures
-//! b exposure photons       a level of light, its pictures follow
-//! d exposure               a level without light, its pictures follow
-//! i FILE                   a picture
+//! n bits width height      of all images
+//! b exposure photons       a level of light, its images follow
+//! d exposure               a level without light, its images follow
+//! i FILE                   an image
 //! ```
 //!
 //! Two images form a level of the photon transfer curve; more form a stack for the fixed patterns. Unknown statements are refused. Not supported: masks and the

@@ -3,9 +3,9 @@
 //! | direction | what | where |
 //! | --- | --- | --- |
 //! | in | Wavefront OBJ with its MTL, glTF 2.0, PLY | [`mesh`] |
-//! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
-//! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
-//! | in | EXIF data of pictures | [`exif`] |
+//! | in | PNG, JPEG, Radiance HDR, OpenEXR images | [`picture`] |
+//! | in | PNG, JPEG, TIFF, OpenEXR and raw images to be measured | [`photograph`] |
+//! | in | EXIF data of images | [`exif`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
 //! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
 //! | in | tables over a lens's field: Zemax | [`lens_table`] |

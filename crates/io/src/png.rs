@@ -260,7 +260,7 @@ mod tests {
     #[test]
     fn depth_conventions_have_their_scale_and_0_is_invalid() {
         assert_eq!(stored_depth(10.0, 256.0), 2560);
-        assert_eq!(stored_depth(1.2345, 1000.0), 1235); // 1234.5000… in f32 lies above the half
+        assert_eq!(stored_depth(1.2345, 1000.0), 1235); // 1234.5000… in f32 is above the half
         assert_eq!(stored_depth(2.0, 5000.0), 10_000);
         for invalid in [f32::INFINITY, f32::NAN, -1.0, 0.0, 300.0, 1e-5] {
             assert_eq!(stored_depth(invalid, 256.0), 0, "{invalid}");

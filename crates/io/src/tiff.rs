@@ -37,7 +37,7 @@ fn picture(
     else {
         return Err(EncodeError::Encoder(format!("{width} × {height} pixels are too many for TIFF")));
     };
-    directory.set(254, Value::Long(vec![0])); // the full picture
+    directory.set(254, Value::Long(vec![0])); // the full image
     directory.set(256, Value::Long(vec![columns]));
     directory.set(257, Value::Long(vec![rows]));
     directory.set(258, Value::Short(vec![stored_bits(bits)]));
@@ -45,11 +45,11 @@ fn picture(
     directory.set(262, Value::Short(vec![photometric]));
     directory.set(273, Value::StripOffset);
     directory.set(274, Value::Short(vec![1])); // the first row is the top one
-    directory.set(277, Value::Short(vec![1])); // one sample a pixel
+    directory.set(277, Value::Short(vec![1])); // one sample per pixel
     directory.set(278, Value::Long(vec![rows]));
     directory.set(279, Value::Long(vec![length]));
-    directory.set(284, Value::Short(vec![1])); // samples side by side
-    directory.set(339, Value::Short(vec![1])); // unsigned whole numbers
+    directory.set(284, Value::Short(vec![1])); // interleaved samples
+    directory.set(339, Value::Short(vec![1])); // unsigned integers
     Ok(())
 }
 
@@ -191,7 +191,7 @@ pub fn encode_dng(raw: &Plane<DigitalNumber>, facts: &DngFacts) -> Result<Vec<u8
     directory.set(272, Value::Text(ascii(&facts.camera)));
     directory.set(305, Value::Text(ascii(&facts.software)));
     directory.set(50_706, Value::Byte(vec![1, 4, 0, 0])); // version
-    directory.set(50_707, Value::Byte(vec![1, 1, 0, 0])); // oldest version that reads it
+    directory.set(50_707, Value::Byte(vec![1, 1, 0, 0])); // oldest version that can read it
     directory.set(50_708, Value::Text(format!("Etendue {}", ascii(&facts.camera))));
     let [x, y, width, height] = facts.active;
     directory.set(50_829, Value::Long(vec![y, x, y + height, x + width]));

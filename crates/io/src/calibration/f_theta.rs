@@ -3,9 +3,9 @@
 //! | DriveWorks (properties of a sensor) | NCore | is |
 //! | --- | --- | --- |
 //! | Model = "ftheta" | – | the model; any other is refused |
-//! | width, height | resolution | the picture, px |
+//! | width, height | resolution | image size, px |
 //! | cx, cy | principal_point | the principal point; the centre of the top-left pixel is (0, 0) |
-//! | polynomial-type | reference_poly | which way the polynomial runs |
+//! | polynomial-type | reference_poly | direction of the polynomial |
 //! | polynomial, or bw-poly (pixel distance to angle) | pixeldist_to_angle_poly, angle_to_pixeldist_poly | c₀ … (px, rad), c₀ = 0 |
 //! | linear-c, linear-d, linear-e | linear_cde | x′ = c x + d y, y′ = e x + y; 1, 0, 0 where absent or all 0 |
 //! | – | max_angle | the field angle up to which it holds, rad; up to 180° where absent |

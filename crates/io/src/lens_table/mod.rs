@@ -2,9 +2,9 @@
 //!
 //! | export | columns that are read | fields |
 //! | --- | --- | --- |
-//! | Relative Illumination | field, `Rel. Ill.` | degrees, or mm of the picture |
+//! | Relative Illumination | field, `Rel. Ill.` | degrees, or mm in the image |
 //! | Field Curvature/Distortion | field, `Ref. Height`, distortion | degrees |
-//! | Huygens and FFT PSF | all: samples of one field ([`read_point_spread`]) | degrees, or mm of the picture |
+//! | Huygens and FFT PSF | all: samples of one field ([`read_point_spread`]) | degrees, or mm in the image |
 //! | FFT, Huygens and Geometric MTF | spatial frequency, tangential, sagittal | the first |
 //!
 //! The unit of the fields is stated by the header line that begins with "Field" or by the title of the first column. A table of one direction from the axis is

@@ -30,7 +30,7 @@ pub(super) fn slots(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<Slots, 
         let bytes = read_description_bytes(&path, "material library")?;
         let library = parse(&path, decode_text(&path, &bytes)?)?;
         for (name, material) in library.materials {
-            known.entry(name).or_insert(material); // the first library counts
+            known.entry(name).or_insert(material); // the first library takes precedence
         }
         slots.report.extend(library.report);
         slots.library_bytes.push(bytes);

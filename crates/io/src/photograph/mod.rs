@@ -8,7 +8,7 @@
 //! | TIFF of floats, Radiance HDR, PFM | Y, or R, G, B; A | as stored | linear |
 //! | OpenEXR | all, by their full names | as stored | linear |
 //!
-//! A side-car of this program or a chunk of a PNG takes precedence ([`Encoding`]). A grey image that a side-car `camera.json` beside it lists as digital
+//! A side-car of this program or a chunk of a PNG takes precedence ([`Encoding`]). A grey image that a side-car `camera.json` next to it lists as digital
 //! numbers is raw: linear, with the levels and the colour filters that the side-car states. Numbers are not scaled; whole numbers above 2²⁴ are rounded to the
 //! nearest float. The kind is identified by the first bytes, not by the name. Not supported: compressed DNG and other raw files of cameras, TIFF of several
 //! images, of separate planes, or in CMYK, Lab or a palette (refused).

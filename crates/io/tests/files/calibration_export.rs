@@ -29,7 +29,7 @@ fn thin_prism(k: [f64; 6], terms: DistortionTerms) -> Model {
     Model::ThinPrismFisheye(ThinPrismFisheye::new(KannalaBrandt::long(k).expect("legal"), terms).expect("legal"))
 }
 
-/// Checks that both project alike at points all over the image.
+/// Checks that both give the same projection over the whole image.
 #[track_caller]
 fn assert_same(found: &Calibration, expected: &Calibration, told: &str) {
     assert_eq!(found.size_px(), expected.size_px(), "{told}");

@@ -30,7 +30,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// Checks that the camera and the other program project the table's points alike; its pixel centres are `offset` lower.
+/// Checks that the camera projects the table's points like the other program; its pixel centres are `offset` lower.
 fn compare(camera: &Calibration, table: &Value, offset: f64) {
     let list = |key: &str| table[key].as_array().expect("a list").clone();
     let (points, pixels) = (list("points_m"), list("pixels"));

@@ -173,7 +173,7 @@ fn mend_normals(mesh: &mut MeshAsset) {
             }
         }
     }
-    normals.iter_mut().filter(|n| **n == [0.0; 3]).for_each(|n| *n = [0.0, 0.0, 1.0]); // of no triangle
+    normals.iter_mut().filter(|n| **n == [0.0; 3]).for_each(|n| *n = [0.0, 0.0, 1.0]); // vertex of no triangle
     if mended > 0 {
         report.push(format!("{mended} vertices without a usable normal take that of a face"));
     }

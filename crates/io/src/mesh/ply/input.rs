@@ -27,7 +27,7 @@ impl<'a> Input<'a> {
     /// Refuses an element of more rows than the rest of the file can hold.
     pub(super) fn check_rows(&self, element: &Element) -> Result<(), Problem> {
         let least = |p: &Property| match self.encoding {
-            Encoding::Text => 2, // a digit and what parts it from the next
+            Encoding::Text => 2, // a digit and a separator
             _ => p.count.unwrap_or(p.number).bytes(),
         };
         let row: usize = element.properties.iter().map(least).sum();
