@@ -129,7 +129,7 @@ macro_rules! serde_words {
 }
 
 words! {
-    /// Which light paths are simulated: a trade of time for accuracy. All see the same surfaces: depth and identities do not depend on it.
+    /// Light paths that are simulated: a trade-off between time and accuracy. Surfaces are the same for all: depth and identities do not depend on it.
     pub enum Integrator = Path {
         /// Local shading by lamps, suns and sky, without shadows.
         "flat" => Flat,

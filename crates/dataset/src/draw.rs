@@ -88,7 +88,7 @@ fn value(distribution: &Distribution, random: &mut NoiseStream) -> String {
     }
 }
 
-/// Samples until a value is within the limits; the check of the file guarantees at least one of some fifty.
+/// Samples until a value is within the limits; the check of the file guarantees that at least one in some fifty is.
 fn truncated(normal: &Normal, random: &mut NoiseStream) -> f64 {
     let distribution = rand_distr::Normal::new(normal.mean.value, normal.standard_deviation.value)
         .expect("a checked file has a positive deviation");

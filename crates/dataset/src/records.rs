@@ -80,7 +80,7 @@ pub(crate) trait Writer {
         Ok(())
     }
 
-    /// Returns true if a file of a sample that no longer exists is, unchanged, part of another file of the format.
+    /// Returns true if a file of a sample, no longer at its path, is part of another file of the format, unchanged.
     fn holds(&self, _name: &str, _record: &SampleRecord, _records: &Records, _root: &Path) -> bool {
         false
     }

@@ -94,7 +94,7 @@ fn glows(mesh: &MeshAsset) -> bool {
 /// `None` for a light of zero intensity.
 fn light_of(light: &GltfLight, held: &Held<'_>, names: &mut Names, report: &mut Vec<String>) -> Option<Light> {
     let name = names.take(&light.name, "light");
-    // The specification multiplies linear sRGB by the intensity: the luminance of that colour multiplies a white light's.
+    // The specification multiplies linear sRGB by the intensity: a coloured light has the luminance of its colour times that of a white one.
     let share: f64 = light.colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
     let level = light.intensity * share;
     if level <= 0.0 {

@@ -138,7 +138,7 @@ fn checksum(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| step(crc)))
 }
 
-/// Unit of gamma and chromaticity chunks: 1/100 000.
+/// Scale of the gAMA chunk, which stores the exponent p of light^p in units of 1/100 000.
 const UNIT: f64 = 100_000.0;
 
 /// Signature of a PNG.

@@ -204,7 +204,7 @@ fn sample_data(set: &Set, record: &SampleRecord) -> Vec<Value> {
 fn ego_poses(set: &Set, record: &SampleRecord) -> Vec<Value> {
     let row = |picture: &PictureRecord| {
         let (place_m, rotation) = parts(&picture.pose);
-        // Camera-to-world transform relative to the frame that carries the camera.
+        // Pose of the carrying frame: the inverse of camera-to-frame, then camera-to-world.
         let (place_m, rotation) = picture.mount.as_ref().map(parts).map_or((place_m, rotation), |(mount_m, mount)| {
             let rotation = rotation * mount.inverse();
             (place_m - rotation * mount_m, rotation)

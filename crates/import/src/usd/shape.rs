@@ -324,7 +324,7 @@ fn capsule([lower, upper]: [f64; 2], height: f64) -> Triangles {
 mod tests {
     use super::*;
 
-    /// Six times the enclosed volume; checks that triangles face the direction of their normals.
+    /// Enclosed volume; checks that triangles face the direction of their normals.
     fn volume(mesh: &Triangles) -> f64 {
         let mut sum = 0.0;
         for corners in &mesh.triangles {

@@ -31,7 +31,7 @@ pub(super) fn numbers<const N: usize>(
     let element = element_size(N, component);
     let mut values = match accessor.buffer_view {
         None => {
-            // The length of a sparse accessor is limited by its file.
+            // The length of an accessor with only a sparse part is limited by the count of that part.
             let most = accessor.sparse.as_ref().map_or(0, |sparse| sparse.count.0.saturating_mul(64).max(1 << 16));
             if accessor.count.0 > most {
                 return Err(told("has no data"));
