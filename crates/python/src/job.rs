@@ -35,8 +35,8 @@ impl Job {
     /// in the unit and axes that the job states for the mesh.
     /// folder: the folder of a job that is a dict; its paths are relative to it. Default: the working folder.
     /// sandbox: folders, in addition to the job's own, that its files may lie in. None: they may lie anywhere.
-    /// texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and the folders of larger ones. memory_mb: memory limit of the run, 0 for no limit;
-    /// None: the free memory when the job is opened. No bit of the results depends on them.
+    /// texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and the folders of larger ones.
+    /// memory_mb: memory limit of the run, 0 for no limit; None: the free memory when the job is opened. No bit of the results depends on them.
     ///
     /// Raises InputError with every error of all files.
     #[staticmethod]

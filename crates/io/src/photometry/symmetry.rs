@@ -3,8 +3,8 @@
 //! The flux of a lamp is compared with the flux stated in its file.
 //!
 //! ∫ I dΩ over the grid is exact for the rendered intensities. An IES file rates the lamps, not the luminaire, so that less light is the luminaire's light
-//! output ratio; EULUMDAT states that ratio. A difference beyond 2 % is noted in the report. A lamp with more than 3 times the stated flux, or for EULUMDAT less than
-//! a third, has a wrong unit and is refused.
+//! output ratio; EULUMDAT states that ratio. A difference beyond 2 % is noted in the report. A flux of more than 3 times the stated one, or for EULUMDAT less
+//! than a third, means a wrong unit and is refused.
 
 use std::path::Path;
 
