@@ -3,16 +3,16 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use etendue_core::Word as FormatWord;
 
-/// A choice of the format, with its own words and their help.
+/// Parser of a choice of the format, with its words and their help.
 pub fn word<T: FormatWord>() -> impl TypedValueParser<Value = T> {
     let words = T::WORDS.iter().zip(T::ABOUT);
     choice(words.map(|((word, value), about)| (*value, *word, about.trim().trim_end_matches('.'))))
 }
 
-/// What a word stands for, the word, and its line of help.
+/// Value of a word, the word, and its line of help.
 pub type Word<T> = (T, &'static str, &'static str);
 
-/// One of a closed list of words.
+/// Parser of one of a closed list of words.
 pub fn choice<T>(words: impl IntoIterator<Item = Word<T>>) -> impl TypedValueParser<Value = T>
 where
     T: Copy + Send + Sync + 'static,

@@ -1,8 +1,8 @@
-//! Names of files that the user gives one by one.
+//! File names that the user gives one at a time.
 
 use std::path::PathBuf;
 
-/// The name of a plot: nothing but an earlier drawing can be replaced by it.
+/// Parses the name of a plot: it can replace only an earlier drawing.
 ///
 /// # Errors
 /// The text has another form; the error states the expected one.
@@ -10,7 +10,7 @@ pub fn svg(text: &str) -> Result<PathBuf, String> {
     ending(text, "svg")
 }
 
-/// The name of a page.
+/// Parses the name of a page.
 ///
 /// # Errors
 /// The text has another form; the error states the expected one.
@@ -18,7 +18,7 @@ pub fn html(text: &str) -> Result<PathBuf, String> {
     ending(text, "html")
 }
 
-/// The name of a picture.
+/// Parses the name of an image.
 ///
 /// # Errors
 /// The text has another form; the error states the expected one.
@@ -26,7 +26,7 @@ pub fn png(text: &str) -> Result<PathBuf, String> {
     ending(text, "png")
 }
 
-/// The name of a camera file.
+/// Parses the name of a camera file.
 ///
 /// # Errors
 /// The text has another form; the error states the expected one.

@@ -4,7 +4,7 @@ use etendue_scene::record::render::MAX_SEED;
 use etendue_scene::record::variations::MAX_SAMPLES;
 use std::ops::Range;
 
-/// Frames that one run takes at most.
+/// Maximum number of frames of one run.
 pub const MAX_FRAMES: usize = 100_000;
 
 /// Parses a seed, as the key `seed` admits it.

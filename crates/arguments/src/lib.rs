@@ -1,5 +1,5 @@
-//! Parsers of the typed text of arguments that several requests share. A parser returns the value, or the expected form, in a sentence that
-//! the front end puts after the argument's name.
+//! Parsers of argument texts that several requests share. A parser returns the value, or the expected form in a sentence that the front end puts after the
+//! argument's name.
 
 mod choice;
 mod file_name;

@@ -3,7 +3,7 @@
 use clap::builder::RangedI64ValueParser;
 use std::ops::RangeInclusive;
 
-/// Parses a whole number of a range, refused in our own words.
+/// Parses a whole number of a range; the error message is our own.
 pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone {
     move |text| {
         let number = text.parse().ok().filter(|n| range.contains(n));
@@ -12,7 +12,7 @@ pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String>
     }
 }
 
-/// Parses a whole number of a range, refused in the words of clap.
+/// Parses a whole number of a range; the error message is clap's.
 #[must_use]
 pub fn in_range<N>(range: RangeInclusive<N>) -> RangedI64ValueParser<N>
 where

@@ -1,4 +1,4 @@
-//! Places and sizes in pictures.
+//! Places and sizes in images.
 
 /// Parses a tile of colour filters: four letters, row by row, as capitals.
 ///
@@ -34,7 +34,7 @@ pub fn grid(text: &str) -> Result<[usize; 2], String> {
     Ok([number(columns)?, number(rows)?])
 }
 
-/// Parses the width and height of a picture, pixels.
+/// Parses the width and height of an image, pixels.
 ///
 /// # Errors
 /// The text has another form; the error states the expected one.

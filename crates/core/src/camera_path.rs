@@ -1,10 +1,10 @@
-//! Where a camera stands over time.
+//! Pose of a camera over time.
 
 use glam::{DAffine3, DVec3};
 
 use crate::{TimeInterval, frame::CameraPose, motion::Motion};
 
-/// The pose of a camera at every time.
+/// Pose of a camera at every time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraPath(Kind);
 
@@ -15,14 +15,14 @@ enum Kind {
 }
 
 impl CameraPath {
-    /// A camera that stands still.
+    /// Returns a stationary camera.
     #[must_use]
     pub fn still(pose: CameraPose) -> Self {
         Self(Kind::Still(pose))
     }
 
-    /// A camera that moves: `to_world` goes from the camera frame (x right, y down, z forward; origin at the centre of the entrance
-    /// pupil) to the world, and scales nothing. One that never moves stands still.
+    /// Returns a moving camera. `to_world` is the transform from the camera frame (x right, y down, z forward; origin at the centre of the entrance pupil) to
+    /// the world, without scale. A motion that never changes gives a stationary camera.
     #[must_use]
     pub fn moving(to_world: impl Into<Motion>) -> Self {
         let to_world: Motion = to_world.into();
@@ -32,7 +32,7 @@ impl CameraPath {
         }
     }
 
-    /// The pose at a simulated time, s.
+    /// Returns the pose at a simulated time, s.
     #[must_use]
     pub fn at(&self, time_s: f64) -> CameraPose {
         match &self.0 {
@@ -41,7 +41,7 @@ impl CameraPath {
         }
     }
 
-    /// The pose during all of an interval; `None` where the camera moves in it.
+    /// Returns the pose during all of an interval; `None` if the camera moves in it.
     #[must_use]
     pub fn still_over(&self, interval: TimeInterval) -> Option<CameraPose> {
         match &self.0 {
@@ -50,7 +50,7 @@ impl CameraPath {
         }
     }
 
-    /// Least and greatest coordinates, m, of a box of the world that holds the centre of the entrance pupil during an interval.
+    /// Returns the minimum and maximum coordinates, m, of a box of the world that holds the centre of the entrance pupil during an interval.
     #[must_use]
     pub fn bounds_over(&self, interval: TimeInterval) -> (DVec3, DVec3) {
         match &self.0 {
@@ -59,7 +59,7 @@ impl CameraPath {
         }
     }
 
-    /// From the first time at which it moves to the last; `None` where it never does.
+    /// Returns the interval from the first time at which the camera moves to the last; `None` if it never moves.
     #[must_use]
     pub fn moves_during(&self) -> Option<TimeInterval> {
         match &self.0 {
@@ -68,7 +68,7 @@ impl CameraPath {
         }
     }
 
-    /// The times, s, of all keys that it moves by, rising; none where it stands still.
+    /// Returns the times, s, of all keys of the motion in increasing order; none for a stationary camera.
     #[must_use]
     pub fn key_times_s(&self) -> Vec<f64> {
         match &self.0 {
@@ -77,14 +77,14 @@ impl CameraPath {
         }
     }
 
-    /// The greatest coordinate, m and without its sign, of the centre of the entrance pupil where it stands still or at any key.
+    /// Returns the largest absolute coordinate, m, of the centre of the entrance pupil: of a stationary camera, or at any key.
     #[must_use]
     pub fn farthest_coordinate_m(&self) -> f64 {
         let times_s = if self.is_still() { vec![0.0] } else { self.key_times_s() };
         times_s.into_iter().map(|time_s| self.at(time_s).position_m.abs().max_element()).fold(0.0, f64::max)
     }
 
-    /// Whether it has one pose at all times.
+    /// Returns true if the pose is the same at all times.
     #[must_use]
     pub fn is_still(&self) -> bool {
         matches!(self.0, Kind::Still(_))

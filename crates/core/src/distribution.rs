@@ -6,11 +6,11 @@ use glam::Vec2;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distribution1 {
     weights: Vec<f32>,
-    /// `cumulative[i]` = share of the weights before `i`; one more entry than weights; the last is exactly 1.
+    /// `cumulative[i]` = fraction of the weights before `i`; one more entry than weights; the last is exactly 1.
     cumulative: Vec<f64>,
-    /// For each of as many equal steps of `u` as there are pieces, the piece in which the step begins.
+    /// Guide table: for each of as many equal steps of `u` as there are pieces, the piece in which the step begins.
     guide: Vec<u32>,
-    /// The last piece of positive weight.
+    /// Last piece of positive weight.
     last: usize,
     mean: f64,
     per_mean: f64,
@@ -18,7 +18,7 @@ pub struct Distribution1 {
 }
 
 impl Distribution1 {
-    /// A distribution over `weights`. `None` where there are none, one is negative or not finite, or all are zero.
+    /// Returns the distribution over `weights`. `None` if there are none, one is negative or not finite, or all are zero.
     #[must_use]
     pub fn new(weights: Vec<f32>) -> Option<Self> {
         if !weights.iter().all(|w| w.is_finite() && *w >= 0.0) {
@@ -65,7 +65,7 @@ impl Distribution1 {
         (f64::from(self.weights[i]) / (self.mean * self.weights.len() as f64)) as f32
     }
 
-    /// The piece that `u` in [0, 1) falls in, and where in it (in [0, 1)). Never a piece of zero weight.
+    /// Returns the piece that contains `u` in [0, 1) and the position of `u` within it, in [0, 1). Never a piece of zero weight.
     #[must_use]
     pub fn sample_discrete(&self, u: f32) -> (usize, f32) {
         let u = f64::from(u);
@@ -80,7 +80,7 @@ impl Distribution1 {
         (i, within.clamp(0.0, ONE_BELOW))
     }
 
-    /// A point of [0, 1) and its density.
+    /// Samples per point of [0, 1); returns it with its density.
     #[must_use]
     pub fn sample(&self, u: f32) -> (f32, f32) {
         let (i, within) = self.sample_discrete(u);
@@ -93,7 +93,7 @@ impl Distribution1 {
         self.pdf_of_piece(piece(x, self.len()))
     }
 
-    /// The point that lies `within` piece `i`: in no other piece, whichever way it rounds.
+    /// Returns the point at `within` of piece `i`. Rounding never moves it into another piece.
     fn point(&self, i: usize, within: f32) -> f32 {
         let pieces = self.len() as f64;
         let x = ((i as f64 + f64::from(within)) * self.per_piece) as f32;
@@ -113,7 +113,7 @@ impl Distribution1 {
     }
 }
 
-/// Where in the table to begin looking (the guide table of Chen and Asau 1974).
+/// Returns the guide table (Chen and Asau 1974): for each step the entry of the cumulative table at which the search begins.
 fn guide(cumulative: &[f64]) -> Vec<u32> {
     let pieces = cumulative.len() - 1;
     let mut i = 0;
@@ -127,7 +127,7 @@ fn guide(cumulative: &[f64]) -> Vec<u32> {
     (0..pieces).map(begin).collect()
 }
 
-/// Which of equal pieces of [0, 1) holds `x`, without rounding.
+/// Returns the index of the piece, of equal pieces of [0, 1), that contains `x`; without rounding.
 fn piece(x: f32, pieces: usize) -> usize {
     ((f64::from(x) * pieces as f64) as usize).min(pieces - 1)
 }
@@ -144,8 +144,7 @@ pub struct Distribution2 {
 }
 
 impl Distribution2 {
-    /// A distribution over `weights` in rows of `columns`. `None` where they do not fill rows, one is negative or not
-    /// finite, or all are zero.
+    /// Returns the distribution over `weights` in rows of `columns`. `None` if they do not fill rows, one is negative or not finite, or all are zero.
     #[must_use]
     pub fn new(columns: usize, weights: &[f32]) -> Option<Self> {
         if columns == 0 || !weights.len().is_multiple_of(columns) || weights.iter().any(|w| !w.is_finite() || *w < 0.0)
@@ -169,12 +168,12 @@ impl Distribution2 {
         self.columns
     }
 
-    /// A point (x along a row, y across rows) of the unit square and its density by area.
+    /// Samples per point of the unit square (x along a row, y across rows); returns it with its density by area.
     #[must_use]
     pub fn sample(&self, u: Vec2) -> (Vec2, f32) {
         let (i, within) = self.marginal.sample_discrete(u.y);
         let (y, y_pdf) = (self.marginal.point(i, within), self.marginal.pdf_of_piece(i));
-        // A row without weights is never drawn.
+        // A row without weights is never sampled.
         let (x, x_pdf) = self.rows[i].as_ref().map_or((u.x, 0.0), |row| row.sample(u.x));
         (Vec2::new(x, y), x_pdf * y_pdf)
     }

@@ -1,28 +1,28 @@
-//! What a plan says of an effect: whether it is modelled, which keys leave it out, and what is wrong without it.
+//! Status of an effect in a plan: whether it is modelled, the keys that disable it, and the error that results without it.
 
 use std::fmt::{self, Display, Formatter};
 
-/// Whether an effect is modelled, and why. Displayed as a plan words it: without the reason.
+/// Status of an effect, with the reason. Displayed as a plan words it: without the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EffectStatus {
     /// Always run; with the reason.
     Modelled(String),
-    /// Run where a cheap test of the data asks for it; with the reason.
+    /// Run if a cheap test of the data requires it; with the reason.
     WhereNeeded(String),
     /// Absent, at no cost; with the reason.
     LeftOut(String),
-    /// Absent, as the description says nothing of it.
+    /// Absent, as the description does not mention it.
     NotDescribed,
 }
 
 impl EffectStatus {
-    /// Whether the effect is run, always or where the data ask for it.
+    /// Returns true if the effect is run, always or if the data require it.
     #[must_use]
     pub fn is_modelled(&self) -> bool {
         matches!(self, Self::Modelled(_) | Self::WhereNeeded(_))
     }
 
-    /// Why, in words.
+    /// Reason, in words.
     #[must_use]
     pub fn reason(&self) -> &str {
         match self {
@@ -47,7 +47,7 @@ impl Display for EffectStatus {
 pub struct KeyChange {
     /// The dotted key, as `sensor.lag`.
     pub key: &'static str,
-    /// The value that it gets, as TOML spells it; `None`: the key is removed.
+    /// New value, as TOML spells it; `None`: the key is removed.
     pub value: Option<&'static str>,
 }
 
@@ -58,7 +58,7 @@ impl KeyChange {
         Self { key, value: None }
     }
 
-    /// Sets those keys to 0 whose values are not.
+    /// Sets to 0 the keys whose values are not 0.
     #[must_use]
     pub fn zeros<const N: usize>(keys: [(&'static str, f64); N]) -> Vec<Self> {
         keys.into_iter().filter(|(_, value)| *value != 0.0).map(|(key, _)| Self::zero(key)).collect()
@@ -74,9 +74,9 @@ impl KeyChange {
 /// An error, or a bound of it, that follows from the plan's numbers.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct KnownError {
-    /// Of what, in words.
+    /// Quantity that is wrong, in words.
     pub quantity: &'static str,
-    /// How much.
+    /// Size of the error.
     pub value: f64,
     /// Its unit; empty for a ratio.
     pub unit: &'static str,
@@ -90,7 +90,7 @@ impl Display for KnownError {
     }
 }
 
-/// A number to three digits where it has a fraction.
+/// Formats a number: to three digits if it has a fraction.
 fn three_digits(x: f64) -> String {
     match x.abs() {
         a if a >= 100.0 => format!("{x:.0}"),

@@ -1,7 +1,7 @@
-//! Simulated time far from zero: whole seconds beside a fraction, and the epoch that times within a job are counted from.
+//! Simulated time far from zero: whole seconds with a fraction, and the epoch that times within a job are counted from.
 //!
-//! An f64 of 1.7·10⁹ s (a Unix time) has steps of 0.24 µs, and one of 10¹⁰ s of 1.9 µs. Times of a job are therefore stored as whole
-//! seconds and a fraction, and a job that begins far from zero counts its times from a whole second near its beginning.
+//! An f64 of 1.7·10⁹ s (a Unix time) has steps of 0.24 µs, and one of 10¹⁰ s of 1.9 µs. Times of a job are therefore stored as whole seconds and a fraction,
+//! and a job that begins far from zero counts its times from a whole second near its beginning.
 
 use std::{fmt, str::FromStr};
 
@@ -16,7 +16,7 @@ pub struct ExactTime {
 }
 
 impl ExactTime {
-    /// The greatest distance from zero, s: whole seconds up to it are exact in an f64.
+    /// The largest distance from zero, s: whole seconds up to it are exact in an f64.
     pub const MAX_S: f64 = 1e15;
 
     /// Returns the exact time of a number of seconds; `None` if it is not finite or beyond [`ExactTime::MAX_S`].
@@ -119,7 +119,7 @@ pub struct ParseTimeError;
 impl FromStr for ExactTime {
     type Err = ParseTimeError;
 
-    /// Decimal seconds such as `-12.5`, or with an exponent, which are read as an f64.
+    /// Decimal seconds such as `-12.5`, or with an exponent, which is read as an f64.
     fn from_str(text: &str) -> Result<Self, ParseTimeError> {
         let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
         let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
@@ -176,12 +176,12 @@ impl Epoch {
     }
 }
 
-/// The rate or period of a periodic process, whichever is stated exactly: 1/f would be rounded.
+/// Rate or period of a periodic process, whichever is stated exactly: 1/f would be rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cycle {
     /// A period of `count` events, which follow each other at `rate_hz`.
     Events {
-        /// Events a second, Hz.
+        /// Events per second, Hz.
         rate_hz: f64,
         /// Events in a period.
         count: u32,

@@ -9,12 +9,12 @@ pub struct Basis {
     pub x: Vec3,
     /// Second tangent.
     pub y: Vec3,
-    /// The axis given.
+    /// Given axis.
     pub z: Vec3,
 }
 
 impl Basis {
-    /// A basis about the unit vector `z`, continuous but at z = −Z (Duff et al. 2017, listing 2).
+    /// A basis about the unit vector `z`, continuous except at z = −Z (Duff et al. 2017, listing 2).
     #[must_use]
     pub fn about(z: Vec3) -> Self {
         let sign = 1.0_f32.copysign(z.z);
@@ -27,21 +27,20 @@ impl Basis {
         }
     }
 
-    /// From the basis to the frame it is written in.
+    /// Transforms a vector from the basis to the frame that the basis is written in.
     #[must_use]
     pub fn outward(&self, local: Vec3) -> Vec3 {
         self.x * local.x + self.y * local.y + self.z * local.z
     }
 
-    /// From the frame it is written in to the basis.
+    /// Transforms a vector to the basis from the frame that the basis is written in.
     #[must_use]
     pub fn inward(&self, v: Vec3) -> Vec3 {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
     }
 }
 
-/// Where a camera stands: from the camera frame (x right, y down, z forward; origin at the centre of the entrance
-/// pupil) to the world.
+/// Pose of a camera: transform from the camera frame (x right, y down, z forward; origin at the centre of the entrance pupil) to the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraPose {
     /// Centre of the entrance pupil in the world, m.
@@ -51,8 +50,8 @@ pub struct CameraPose {
 }
 
 impl CameraPose {
-    /// A camera at `position_m` that looks at `target_m`; `up` is the direction that shall appear upwards.
-    /// `None` where position and target coincide or the view is along `up`.
+    /// Returns a camera at `position_m` that looks at `target_m`; `up` is the world direction that appears upwards. `None` if position and target coincide or
+    /// the view is along `up`.
     #[must_use]
     pub fn looking_at(position_m: DVec3, target_m: DVec3, up: DVec3) -> Option<Self> {
         let z = (target_m - position_m).try_normalize()?;
@@ -60,26 +59,26 @@ impl CameraPose {
         Some(Self { position_m, rotation: DMat3::from_cols(x, z.cross(x), z) })
     }
 
-    /// The pose of the rows of a 3 × 4 matrix, translation in m, that takes the camera frame to the world.
+    /// Returns the pose for the rows of a 3 × 4 matrix, translation in m, from the camera frame to the world.
     #[must_use]
     pub fn from_rows(rows: &[[f64; 4]; 3]) -> Self {
         let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
         Self { position_m: column(3), rotation: DMat3::from_cols(column(0), column(1), column(2)) }
     }
 
-    /// A direction of the camera frame, in the world.
+    /// Transforms a direction from the camera frame to the world.
     #[must_use]
     pub fn direction_to_world(&self, direction: DVec3) -> DVec3 {
         self.rotation * direction
     }
 
-    /// A point of the camera frame (m) in the render frame (world axes, origin at the entrance pupil), m.
+    /// Transforms a point from the camera frame (m) to the render frame (world axes, origin at the entrance pupil), m.
     #[must_use]
     pub fn point_to_render(&self, point_m: DVec3) -> DVec3 {
         self.rotation * point_m
     }
 
-    /// A point of the world (m) in the camera frame, m.
+    /// Transforms a point from the world (m) to the camera frame, m.
     #[must_use]
     pub fn point_to_camera(&self, world_m: DVec3) -> DVec3 {
         self.rotation.transpose() * (world_m - self.position_m)

@@ -1,9 +1,9 @@
 //! Vocabulary of Étendue.
 //!
-//! Quantities with units, coordinate frames, transforms and light over time, rays, wavelength sets, planes of pixels, random addresses and
-//! deterministic mathematics: the words in which the stages of the simulation speak to each other.
+//! Quantities with units, coordinate frames, transforms and light over time, rays, wavelength sets, planes of pixels, random addresses and deterministic
+//! mathematics: the types that the stages of the simulation exchange.
 //!
-//! This crate knows no stage, does no input or output and holds no policy.
+//! This crate depends on no stage, does no input or output and holds no policy.
 //!
 //! # Frames
 //!

@@ -1,8 +1,7 @@
-//! Motion of what is carried by what moves: a wheel on a vehicle, a lamp on an arm, a camera on either.
+//! Motion through nested moving frames: a wheel on a vehicle, a lamp on an arm, a camera on either.
 //!
-//! A motion is a chain of tracks, the outermost first: each moves in the frame that those before it move. What stands still in
-//! a moving frame is part of that frame's track, so that a chain is as long as there are motions within each other; one track
-//! by itself is asked as it is.
+//! A motion is a chain of tracks, the outermost first: each moves in the frame that the tracks before it move. A transform that is constant in a moving frame
+//! becomes part of that frame's track, so the length of a chain is the number of nested motions. A single track is evaluated directly.
 
 mod bounds;
 #[cfg(test)]
@@ -15,7 +14,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use crate::TimeInterval;
 use crate::track::{MovingTransform, RollingError, Track};
 
-/// A transform over time: from a moved frame to the world. Before the first of its keys and after the last it holds still.
+/// Transform over time from a moved frame to the world. It is constant before the first key and after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion(Links);
 
@@ -26,7 +25,7 @@ enum Links {
     Chain(Arc<[Track]>),
 }
 
-/// How far a matrix may be from a rotation, by element: descriptions are written with some ten digits.
+/// Tolerance for a matrix to count as a rotation, by element: descriptions have some ten digits.
 const RIGID: f64 = 1e-6;
 
 impl From<Track> for Motion {
@@ -36,20 +35,20 @@ impl From<Track> for Motion {
 }
 
 impl Motion {
-    /// What does not move: any affine transform, kept bit for bit.
+    /// Returns a constant transform: any affine one, kept bit for bit.
     #[must_use]
     pub fn still(transform: DAffine3) -> Self {
         Track::still(transform).into()
     }
 
-    /// The motion of what moves by `inner` in the frame that moves by this.
+    /// Returns the motion of an object that moves by `inner` in the frame moved by `self`.
     #[must_use]
     pub fn carrying(&self, inner: &Self) -> Self {
         Self::nested([self, inner])
     }
 
-    /// The motion of what moves by the last of `motions` in the frame that moves by the one before it, and so on to the first, which moves in the world: in time
-    /// linear in their number. Still where there are none.
+    /// Returns the motion of an object that moves by the last of `motions`, in the frame moved by the one before it, and so on to the first, which moves in the
+    /// world. The time is linear in their number. Constant if there are none.
     #[must_use]
     pub fn nested<'m>(motions: impl IntoIterator<Item = &'m Self>) -> Self {
         let mut links: Vec<Track> = Vec::new();
@@ -67,7 +66,7 @@ impl Motion {
         }
     }
 
-    /// The same motion of something that `first` is applied to before it moves.
+    /// Returns the same motion with `first` applied before it.
     #[must_use]
     pub fn after(&self, first: &DAffine3) -> Self {
         match &self.0 {
@@ -76,12 +75,12 @@ impl Motion {
         }
     }
 
-    /// How a wheel turns about the y axis of what this moves, its hub, as it rolls without slipping on ground that stands still: by the way of the hub's origin in
-    /// the world along the hub's x axis, divided by `radius_m` (above 0). Not turned until the first key. Good to 1e-6 rad between any two keys. The wheel moves
-    /// by that in the frame of its hub ([`Motion::carrying`]).
+    /// Returns the rotation of a wheel about the y axis of its hub (moved by `self`) as it rolls without slipping on stationary ground. The angle is the
+    /// distance travelled by the hub's origin in the world along the hub's x axis, divided by `radius_m` (above 0). It is 0 until the first key. The error is
+    /// at most 1e-6 rad between any two keys. The result is a motion in the frame of the hub ([`Motion::carrying`]).
     ///
     /// # Errors
-    /// Where nothing moves, and where the wheel would turn by more than can be followed.
+    /// If nothing moves, or if the wheel would turn by more than can be followed.
     pub fn rolling(&self, radius_m: f64) -> Result<Self, RollingError> {
         let times_s = self.times_s();
         if times_s.is_empty() {
@@ -94,7 +93,7 @@ impl Motion {
         Track::rolling(&times_s, forward).map(Self::from)
     }
 
-    /// The transform at a simulated time, s.
+    /// Returns the transform at a simulated time, s.
     #[must_use]
     #[inline]
     pub fn at(&self, time_s: f64) -> DAffine3 {
@@ -106,15 +105,15 @@ impl Motion {
         }
     }
 
-    /// The velocity in the world, m/s, of a point of the moved frame (m) at a simulated time, s: exact; at a key that of the motion after it.
-    /// 0 before the first key and from the last on.
+    /// Returns the velocity in the world, m/s, of a point of the moved frame (m) at a simulated time, s. Exact; at a key it is that of the motion after the
+    /// key. 0 before the first key and from the last on.
     #[must_use]
     pub fn velocity_at(&self, time_s: f64, point_m: DVec3) -> DVec3 {
         let moving = self.moving_at(time_s, time_s);
         moving.turning * point_m + moving.velocity
     }
 
-    /// Where nothing ever moves, its transform.
+    /// Returns the transform if nothing ever moves; else `None`.
     #[must_use]
     pub fn as_still(&self) -> Option<DAffine3> {
         match &self.0 {
@@ -123,7 +122,7 @@ impl Motion {
         }
     }
 
-    /// Where nothing moves within an interval, the transform there. A single moment is such an interval.
+    /// Returns the transform if nothing moves within an interval; else `None`. A single moment is such an interval.
     #[must_use]
     pub fn still_over(&self, interval: TimeInterval) -> Option<DAffine3> {
         match &self.0 {
@@ -135,20 +134,20 @@ impl Motion {
         }
     }
 
-    /// From the first key to the last; `None` where nothing ever moves. It holds still outside.
+    /// Returns the interval from the first key to the last; `None` if nothing ever moves. The motion is constant outside it.
     #[must_use]
     pub fn moves_during(&self) -> Option<TimeInterval> {
         let times_s = self.times_s();
         TimeInterval::new(*times_s.first()?, *times_s.last()?)
     }
 
-    /// Whether it keeps all lengths and mirrors nothing, to 1e-6, at every time.
+    /// Returns true if the motion keeps all lengths and mirrors nothing, to 1e-6, at every time.
     #[must_use]
     pub fn is_rigid(&self) -> bool {
         self.links().iter().all(|link| link.keeps_scale() && is_rotation(&link.at(0.0).matrix3))
     }
 
-    /// Whether all areas stay what they are over time.
+    /// Returns true if all areas are constant over time.
     #[must_use]
     pub fn keeps_areas(&self) -> bool {
         let links = self.links();
@@ -162,13 +161,13 @@ impl Motion {
         }
     }
 
-    /// All but the innermost.
+    /// All tracks except the innermost.
     fn outer(&self) -> &[Track] {
         let links = self.links();
         &links[..links.len() - 1]
     }
 
-    /// The times of all keys, s, rising, each once.
+    /// Returns the times of all keys, s, in increasing order, each once.
     pub(crate) fn times_s(&self) -> Vec<f64> {
         let mut times_s: Vec<f64> = self.links().iter().flat_map(|link| link.times_s()).copied().collect();
         times_s.sort_by(f64::total_cmp);
@@ -187,7 +186,7 @@ fn is_rotation(m: &DMat3) -> bool {
     off.iter().all(|x| x.abs() <= RIGID) && m.determinant() > 0.0
 }
 
-/// Whether it changes all lengths alike.
+/// Returns true if the matrix scales all lengths by the same factor.
 fn is_similarity(m: &DMat3) -> bool {
     let square = m.x_axis.length_squared();
     let off = (m.transpose() * *m - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();

@@ -1,55 +1,55 @@
-//! How a caller watches and stops what takes long.
+//! Observer: lets a caller watch and stop long tasks.
 
-/// What is counted while the caller waits.
+/// Unit in which progress is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// Tiles of a camera's light.
+    /// Tiles of a camera's render.
     Tiles,
-    /// Pictures that are read and searched.
+    /// Images that are read and searched.
     Pictures,
-    /// Ways to render that a study looks at.
+    /// Render configurations that a study tests.
     Pilots,
 }
 
-/// A frame among those of a run.
+/// Place of a frame in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FramePlace {
-    /// The frame's number.
+    /// Frame number.
     pub number: u32,
-    /// Its place in the run, from 1.
+    /// Position in the run, from 1.
     pub place: u32,
-    /// Frames of the run, those included that an earlier run has left.
+    /// Frames of the run, including those left by an earlier run.
     pub count: u32,
 }
 
-/// How far a task is.
+/// Progress of a task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress<'a> {
-    /// What is worked on: a camera's name, or what is sought.
+    /// Subject of the work: a camera's name, or what is searched for.
     pub heading: &'a str,
-    /// The frame that is worked on, where each has a light of its own.
+    /// Frame in progress, if each frame is rendered separately.
     pub frame: Option<FramePlace>,
-    /// What is counted.
+    /// Unit of the count.
     pub unit: Unit,
-    /// How many are done, of all cameras and frames of the task.
+    /// Number done, over all cameras and frames of the task.
     pub done: usize,
-    /// Of how many.
+    /// Total number.
     pub total: usize,
 }
 
-/// What the caller should know and is no error.
+/// Information for the caller that is no error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Message<'a> {
-    /// Something was decided for the user.
+    /// A choice was made for the user.
     Note(&'a str),
-    /// The result is not, or may not be, what the user expects.
+    /// The result differs, or may differ, from what the user expects.
     Warning(&'a str),
 }
 
-/// A finished part of an image that is being made, to look at.
+/// Finished part of an image that is being rendered, for display.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageTile<'a> {
-    /// The image's name: the camera's, with the frame where each has a light of its own.
+    /// Image name: the camera's, with the frame if each frame is rendered separately.
     pub image: &'a str,
     /// Columns and rows of the image.
     pub size_px: [u32; 2],
@@ -63,28 +63,28 @@ pub struct ImageTile<'a> {
     pub values: &'a [f32],
 }
 
-/// What a task tells its caller, and asks of it. Called from worker threads.
+/// Reports of a task to its caller, and requests of the caller. Called from worker threads.
 pub trait Observer: Sync {
-    /// The caller should know this.
+    /// Receives a note or a warning.
     fn message(&self, _message: Message<'_>) {}
 
-    /// The task got so far; at the end `done` is `total`.
+    /// Receives the progress; at the end `done` is `total`.
     fn progress(&self, _progress: Progress<'_>) {}
 
-    /// Whether the caller wants to look at light while it is gathered.
+    /// Returns true if the caller displays the image while it is rendered.
     fn wants_tiles(&self) -> bool {
         false
     }
 
-    /// A tile of an image has been finished or refined, where the caller wants them. The task waits: whoever takes long does so elsewhere.
+    /// Receives a finished or refined tile of an image, if the caller wants tiles. The task waits, so slow work belongs on another thread.
     fn tile(&self, _tile: &ImageTile<'_>) {}
 
-    /// The caller's clock, s, from a moment of its choice on; `None`: it has none, and nothing is done by time.
+    /// Caller's clock, s, from an arbitrary origin; `None`: there is no clock, and nothing depends on time.
     fn now_s(&self) -> Option<f64> {
         None
     }
 
-    /// Whether the caller wants the task to stop.
+    /// Returns true if the task shall stop.
     fn cancelled(&self) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! Rectangles of pixels, and stacks of them over wavelength.
+//! Rectangles of pixels, and stacks of them by wavelength.
 
 use crate::{quantity::Quantity, wavelength::Bands};
 
@@ -23,13 +23,13 @@ impl<Q: Quantity> Plane<Q> {
         Self { width, height, samples: vec![value; width * height] }
     }
 
-    /// A plane over samples given row by row. `None` where their number is not `width × height`.
+    /// A plane over samples given row by row. `None` if their number is not `width × height`.
     #[must_use]
     pub fn from_samples(width: usize, height: usize, samples: Vec<Q::Sample>) -> Option<Self> {
         (samples.len() == width * height).then_some(Self { width, height, samples })
     }
 
-    /// Pixels a row.
+    /// Pixels per row.
     #[must_use]
     pub fn width(&self) -> usize {
         self.width
@@ -41,7 +41,7 @@ impl<Q: Quantity> Plane<Q> {
         self.height
     }
 
-    /// The sample at column `x`, row `y`. Panics outside the plane.
+    /// Returns the sample at column `x`, row `y`. Panics outside the plane.
     #[must_use]
     pub fn at(&self, x: usize, y: usize) -> Q::Sample {
         assert!(x < self.width, "column {x} of a plane {} wide", self.width);
@@ -71,7 +71,7 @@ impl<Q: Quantity> Plane<Q> {
         self.samples
     }
 
-    /// `width` × `height` pixels of the plane from column `x`, row `y` on. Panics outside the plane.
+    /// Returns `width` × `height` pixels of the plane from column `x`, row `y` on. Panics outside the plane.
     #[must_use]
     pub fn part(&self, x: usize, y: usize, width: usize, height: usize) -> Self {
         let row = |row: usize| self.samples[row * self.width + x..][..width].iter().copied();
@@ -79,14 +79,14 @@ impl<Q: Quantity> Plane<Q> {
         Self { width, height, samples: (y..y + height).flat_map(row).collect() }
     }
 
-    /// A plane of another quantity, sample by sample.
+    /// Converts the plane to another quantity, sample by sample.
     #[must_use]
     pub fn map<R: Quantity>(&self, f: impl FnMut(Q::Sample) -> R::Sample) -> Plane<R> {
         Plane { width: self.width, height: self.height, samples: self.samples.iter().copied().map(f).collect() }
     }
 }
 
-/// One plane a wavelength band; each sample is the **mean over its band**, never a point sample.
+/// One plane per wavelength band; each sample is the **mean over its band**, never a point sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectralCube<Q: Quantity> {
     bands: Bands,
@@ -100,7 +100,7 @@ impl<Q: Quantity> SpectralCube<Q> {
         Self { bands, planes: (0..bands.count()).map(|_| Plane::new(width, height)).collect() }
     }
 
-    /// A cube over planes of equal size, one a band, shortest wavelength first. `None` where they do not fit.
+    /// Returns a cube of planes of equal size, one per band, shortest wavelength first. `None` if they do not match.
     #[must_use]
     pub fn from_planes(bands: Bands, planes: Vec<Plane<Q>>) -> Option<Self> {
         let first = planes.first()?;
@@ -108,13 +108,13 @@ impl<Q: Quantity> SpectralCube<Q> {
         (same && planes.len() == bands.count()).then_some(Self { bands, planes })
     }
 
-    /// The wavelength bands, one a plane.
+    /// The wavelength bands, one per plane.
     #[must_use]
     pub fn bands(&self) -> Bands {
         self.bands
     }
 
-    /// Pixels a row.
+    /// Pixels per row.
     #[must_use]
     pub fn width(&self) -> usize {
         self.planes.first().map_or(0, Plane::width)

@@ -1,11 +1,11 @@
-//! Rays, and the field of radiance that optics asks of the world: the one open trait of the spine.
+//! Rays, and the radiance field through which optics query the world.
 
 use glam::{DVec3, Vec3};
 
 use crate::wavelength::{Spectral, Wavelengths};
 use crate::{TimeInterval, random::PathStream};
 
-/// A primitive of a world, as hits name it.
+/// Primitive of a world, as stored in hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrimitiveId {
     /// Index of the instance in the world.
@@ -21,77 +21,74 @@ pub struct Ray {
     pub origin: Vec3,
     /// Direction. Unit length where the ray leaves a camera or a surface; `t` is measured in its length.
     pub direction: Vec3,
-    /// The ray ends here (exclusive); infinity where it does not.
+    /// End of the ray (exclusive); infinity if it has none.
     pub t_max: f32,
-    /// Simulated time at which the ray is traced, s, counted from the start of the interval of the view that it is traced in
-    /// ([`crate::TimeInterval`]): of 33 ms, f32 tells 2 ns; of times since the world's beginning it would tell 61 µs after
-    /// 1 000 s. A static world does not look at it.
+    /// Simulated time at which the ray is traced, s, counted from the start of the interval of its view ([`crate::TimeInterval`]). The resolution of f32 is 2
+    /// ns for an interval of 33 ms; counted from the world's beginning it would be 61 µs after 1 000 s. Ignored by a static world.
     pub time_s: f32,
-    /// The primitive whose surface the ray leaves: a triangle of it is not hit again, for it is flat and the ray starts on
-    /// the side to which it goes. `None` where the ray leaves no surface, or nothing is known: the answers are the same, found
-    /// with more work.
+    /// Primitive whose surface the ray leaves. A triangle is not hit again: it is flat, and the ray starts on the side that it travels to. `None` if the ray
+    /// leaves no surface, or if the surface is unknown: the hits are the same, with more work.
     pub left: Option<PrimitiveId>,
 }
 
 impl Ray {
-    /// A ray without end.
+    /// Returns a ray without end.
     #[must_use]
     pub fn new(origin: Vec3, direction: Vec3, time_s: f32) -> Self {
         Self { origin, direction, t_max: f32::INFINITY, time_s, left: None }
     }
 
-    /// The same ray, which leaves the surface of a primitive.
+    /// Returns the same ray, marked as leaving the surface of a primitive.
     #[must_use]
     pub fn leaving(self, primitive: PrimitiveId) -> Self {
         Self { left: Some(primitive), ..self }
     }
 
-    /// The point at parameter `t`, m.
+    /// Returns the point at parameter `t`, m.
     #[must_use]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
     }
 }
 
-/// A ray that leaves the lens towards the scene, in the camera frame, with what it contributes.
+/// Ray that leaves the lens towards the scene, in the camera frame, with its contribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PupilRay {
-    /// A point of the entrance pupil (the front of the lens), m.
+    /// Point of the entrance pupil (the front of the lens), m.
     pub origin_m: DVec3,
     /// Unit direction into the scene (z > 0 for lenses that look forward).
     pub direction: DVec3,
-    /// Weight, sr: spectral irradiance on the sensor = expectation of `weight_sr × radiance` over the pupil sample.
-    /// Holds the projected solid angle of the pupil, its sampling density, and the lens's transmittance.
+    /// Weight, sr: spectral irradiance on the sensor = expectation of `weight_sr × radiance` over the pupil sample. Includes the projected solid angle of the
+    /// pupil, its sampling density, and the lens's transmittance.
     pub weight_sr: f64,
 }
 
-/// Anything that answers a ray with spectral radiance.
+/// Field of spectral radiance, evaluated along rays.
 pub trait RadianceField<const N: usize>: Sync {
-    /// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) that arrives at the ray's origin against its direction, at the path's
-    /// wavelengths; an unbiased estimate where the field is a path tracer. Not divided by the density of the
-    /// wavelengths.
+    /// Returns the spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) that arrives at the ray's origin against its direction, at the path's wavelengths; an unbiased estimate
+    /// if the field is a path tracer. Not divided by the density of the wavelengths.
     fn radiance(&self, asked: &FieldRay, wavelengths: &Wavelengths<N>) -> Spectral<N>;
 
-    /// As [`RadianceField::radiance`] for each of several rays of neighbouring pixels that carry the same wavelengths,
-    /// appended to `radiance`. Each is an unbiased estimate, but a field may let them share what it finds.
+    /// Appends to `radiance` the result of [`RadianceField::radiance`] for each of several rays of neighbouring pixels with the same wavelengths. Each is an
+    /// unbiased estimate, but a field may share samples between them.
     fn radiance_of_group(&self, rays: &[FieldRay], wavelengths: &Wavelengths<N>, radiance: &mut Vec<Spectral<N>>) {
         radiance.extend(rays.iter().map(|asked| self.radiance(asked, wavelengths)));
     }
 }
 
-/// A ray to be answered.
+/// Ray at which a radiance field is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldRay {
-    /// In the render frame, with unit direction.
+    /// Ray in the render frame, with unit direction.
     pub ray: Ray,
     /// The sample's random address.
     pub stream: PathStream,
-    /// The simulated time over which the strength of a light that goes up and down is averaged: the exposure of the ray's row or,
-    /// where the ray has a moment of its own, that moment. Within the interval of the view.
+    /// Simulated time over which the strength of a modulated light is averaged: the exposure of the ray's row or, if the ray has a single time, that moment.
+    /// Within the interval of the view.
     pub lit: TimeInterval,
 }
 
-/// The same radiance in every direction and at every wavelength: for tests of optics and sensors without a tracer.
+/// Field with the same radiance in every direction and at every wavelength: for tests of optics and sensors without a tracer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstantField {
     /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹.

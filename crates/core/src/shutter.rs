@@ -1,36 +1,35 @@
-//! Shutters: which row of a sensor is exposed when.
+//! Shutters: exposure interval of each row of a sensor.
 //!
 //! Times count from the start of the frame: the moment at which the first row begins its exposure.
 
 use crate::TimeInterval;
 
-/// How the rows of a sensor begin and end their exposure.
+/// Exposure timing of the rows of a sensor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Shutter {
-    /// All rows together.
+    /// All rows simultaneously.
     #[default]
     Global,
-    /// Row after row: each for the whole exposure time, the next one later by the row time.
+    /// Row by row: each for the whole exposure time, the next one later by the row time.
     Rolling(RowTiming),
-    /// All rows begin together and are read one after the other, so that each is exposed longer than the row before it by the row
-    /// time; nothing shades the rows that wait (global reset release).
+    /// All rows begin simultaneously and are read one after the other. Each is exposed longer than the row before it by the row time; waiting rows stay exposed
+    /// (global reset release).
     GlobalReset(RowTiming),
 }
 
-/// The order and pace at which rows are read.
+/// Order and rate of row readout.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowTiming {
-    /// From one row to the next that is read, s; 0 or more.
+    /// Time from one row to the next that is read, s; 0 or more.
     pub row_time_s: f64,
-    /// Whether the last row is read first.
+    /// True if the last row is read first.
     pub upwards: bool,
-    /// Fields of which a picture is put together: 1 reads all rows in turn, 2 first all even ones, then all odd ones (interlaced).
-    /// At least 1.
+    /// Number of interlaced fields of an image: 1 reads all rows in turn, 2 first all even rows, then all odd ones. At least 1.
     pub fields: u32,
 }
 
 impl RowTiming {
-    /// How many rows are read before `row` of `rows`.
+    /// Returns the number of rows that are read before `row` of `rows`.
     fn rank(&self, row: usize, rows: usize) -> usize {
         let row = if self.upwards { rows - 1 - row } else { row };
         let fields = self.fields as usize;
@@ -44,7 +43,7 @@ impl RowTiming {
 }
 
 impl Shutter {
-    /// The exposure of a row of `rows`, for `exposure_s` of the described time, counted from the frame's start.
+    /// Returns the exposure interval of a row of `rows`, for the nominal exposure time `exposure_s`, counted from the frame's start.
     #[must_use]
     pub fn exposure(&self, row: usize, rows: usize, exposure_s: f64) -> TimeInterval {
         let (start_s, length_s) = match self {
@@ -55,7 +54,7 @@ impl Shutter {
         TimeInterval::new(start_s, start_s + length_s).expect("times of a shutter are finite")
     }
 
-    /// From the beginning of the first row's exposure to the end of the last one's, s.
+    /// Returns the time from the beginning of the first row's exposure to the end of the last one's, s.
     #[must_use]
     pub fn length_s(&self, rows: usize, exposure_s: f64) -> f64 {
         match self {
@@ -66,7 +65,7 @@ impl Shutter {
         }
     }
 
-    /// How long a row is exposed over the described time: 1 but for global reset.
+    /// Returns a row's exposure time over the nominal one: 1 except for global reset.
     #[must_use]
     pub fn exposure_ratio(&self, row: usize, rows: usize, exposure_s: f64) -> f64 {
         match self {
@@ -75,7 +74,7 @@ impl Shutter {
         }
     }
 
-    /// The order in which rows are read; `None` where all end together.
+    /// Order in which rows are read; `None` if all end together.
     #[must_use]
     pub fn row_timing(&self) -> Option<&RowTiming> {
         match self {

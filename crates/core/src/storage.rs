@@ -1,13 +1,9 @@
-//! Room outside of memory: numbered blocks of bytes, scratch space, and spectral cubes that are kept in it.
+//! Storage outside memory: numbered blocks of bytes, scratch space, and spectral cubes kept there.
 //!
-//! Numbered blocks of bytes that are kept outside of memory, each read by itself when it is needed.
+//! Blocks are read one at a time, when needed. The maker of blocks knows their content; the store knows their location. Error texts are sentences for the user
+//! that name the file.
 //!
-//! Who makes blocks knows what they hold; who keeps them knows where. Errors are sentences for the user that name the file.
-//!
-//! Room outside of memory for what a run needs until it ends.
-//!
-//! Who asks for room knows what it holds; who gives it knows where it is. Nothing is left of it when the last who holds it lets go, however the run
-//! ends. Errors are sentences for the user.
+//! Scratch space lasts until the run ends: it is freed when its last owner drops it, however the run ends.
 
 use core::fmt::Debug;
 use std::{borrow::Cow, ops::Range, sync::Arc};
@@ -15,68 +11,68 @@ use std::{borrow::Cow, ops::Range, sync::Arc};
 use crate::plane::{Plane, SpectralCube};
 use crate::{quantity::Quantity, wavelength::Bands};
 
-/// What blocks are kept under: a hash of everything that decides their bytes.
+/// Key of blocks: a hash of everything that decides their bytes.
 pub type BlockKey = [u8; 32];
 
-/// Blocks that are complete.
+/// Complete set of blocks.
 pub trait Blocks: Debug + Send + Sync {
-    /// Fills `bytes`, which is as long as the block, from any thread.
+    /// Fills `bytes`, which is as long as the block. Callable from any thread.
     ///
     /// # Errors
-    /// Where the block cannot be read or is not what was written.
+    /// If the block cannot be read or is corrupt.
     fn read(&self, block: usize, bytes: &mut [u8]) -> Result<(), String>;
 }
 
-/// Takes blocks, in any order, each once.
+/// Receives blocks in any order, each once.
 pub trait BlockWriter {
     /// Writes a block.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If it cannot be written.
     fn write(&mut self, block: usize, bytes: &[u8]) -> Result<(), String>;
 }
 
-/// Writes all blocks to where it is told.
+/// Writes all blocks to the given writer.
 pub type Fill<'a> = &'a mut dyn FnMut(&mut dyn BlockWriter) -> Result<(), String>;
 
-/// Where blocks are kept.
+/// Store of blocks.
 pub trait BlockStore: Debug + Send + Sync {
-    /// The blocks of a key; `None` where there are none that are whole. `lengths` are the bytes of each.
+    /// Returns the blocks of a key; `None` if there is no complete set. `lengths` are the bytes of each.
     fn find(&self, key: &BlockKey, lengths: &[u32]) -> Option<Arc<dyn Blocks>>;
 
-    /// Refuses blocks for which there is no room whatever is removed, before they are made.
+    /// Refuses, before they are made, blocks for which there is no room even after removal of all others.
     ///
     /// # Errors
-    /// What is too much, and what to do.
+    /// The excess and the remedy.
     fn check_room(&self, _key: &BlockKey, _lengths: &[u32]) -> Result<(), String> {
         Ok(())
     }
 
-    /// Keeps the blocks that `fill` writes; nobody sees them before all are there.
+    /// Stores the blocks that `fill` writes. They become visible when all are complete.
     ///
     /// # Errors
-    /// Where they cannot be kept, or the error of `fill`; nothing is left of them then.
+    /// If they cannot be stored, or the error of `fill`; nothing of them remains then.
     fn make(&self, key: &BlockKey, lengths: &[u32], fill: Fill<'_>) -> Result<Arc<dyn Blocks>, String>;
 }
 
-/// Bytes that can be written and read at any place, from any thread. What was never written reads as 0.
+/// Random-access bytes that any thread can write and read. Bytes never written read as 0.
 pub trait Scratch: Debug + Send + Sync {
     /// Writes `bytes` from the byte `offset` on.
     ///
     /// # Errors
-    /// Where they cannot be written: a full disk is named.
+    /// If they cannot be written: a full disk is named.
     fn write(&self, offset: u64, bytes: &[u8]) -> Result<(), String>;
 
     /// Fills `bytes` from the byte `offset` on.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// If they cannot be read.
     fn read(&self, offset: u64, bytes: &mut [u8]) -> Result<(), String>;
 }
 
 /// Bytes of a number.
 pub const NUMBER_BYTES: usize = size_of::<f32>();
-/// Numbers that are turned into bytes at a time.
+/// Numbers converted to bytes at a time.
 const PART: usize = 1 << 18;
 
 /// Writes numbers of 32 bits, little-endian, from the byte `offset` on.
@@ -91,7 +87,7 @@ pub fn write_numbers(scratch: &dyn Scratch, offset: u64, numbers: &[f32]) -> Res
     Ok(())
 }
 
-/// Reads numbers that [`write_numbers`] wrote, with the same bits.
+/// Reads numbers written by [`write_numbers`], with the same bits.
 ///
 /// # Errors
 /// As [`Scratch::read`].
@@ -105,21 +101,21 @@ pub fn read_numbers(scratch: &dyn Scratch, offset: u64, numbers: &mut [f32]) -> 
     Ok(())
 }
 
-/// Where there is room.
+/// Provider of scratch space.
 pub trait ScratchStore: Debug + Send + Sync {
-    /// Room for `bytes`.
+    /// Returns room for `bytes`.
     ///
     /// # Errors
-    /// Where there cannot be any.
+    /// If there is not enough.
     fn room(&self, bytes: u64) -> Result<Arc<dyn Scratch>, String>;
 }
 
-/// Bands of pixels that are read where they are kept, from any thread.
+/// Reader of bands of pixels from where they are stored. Callable from any thread.
 pub trait BandReader: Debug + Send + Sync {
     /// Fills `samples`, row by row, with whole rows of a band.
     ///
     /// # Errors
-    /// Where they cannot be read, in a sentence for the user.
+    /// If they cannot be read, in a sentence for the user.
     fn read(&self, band: usize, rows: Range<usize>, samples: &mut [f32]) -> Result<(), String>;
 }
 
@@ -131,7 +127,7 @@ impl<Q: Quantity<Sample = f32>> BandReader for SpectralCube<Q> {
     }
 }
 
-/// A cube outside of memory.
+/// Spectral cube outside memory.
 #[derive(Clone, Debug)]
 pub struct CubeOnDisk {
     bands: Bands,
@@ -140,7 +136,7 @@ pub struct CubeOnDisk {
     reader: Arc<dyn BandReader>,
 }
 
-/// A spectral cube in memory, or outside of it: whoever asks for a band or for rows need not know which. The numbers are the same.
+/// Spectral cube in memory or outside it, with the same access and the same numbers.
 #[derive(Clone, Debug)]
 pub enum KeptCube<Q: Quantity> {
     /// In memory.
@@ -156,13 +152,13 @@ impl<Q: Quantity> From<SpectralCube<Q>> for KeptCube<Q> {
 }
 
 impl CubeOnDisk {
-    /// A cube of `width` × `height` pixels that `reader` reads.
+    /// Returns a cube of `width` × `height` pixels read by `reader`.
     #[must_use]
     pub fn new(bands: Bands, width: usize, height: usize, reader: Arc<dyn BandReader>) -> Self {
         Self { bands, width, height, reader }
     }
 
-    /// Who reads it.
+    /// Reader of the cube.
     #[must_use]
     pub fn reader(&self) -> &Arc<dyn BandReader> {
         &self.reader
@@ -179,7 +175,7 @@ impl<Q: Quantity<Sample = f32>> KeptCube<Q> {
         }
     }
 
-    /// Pixels a row.
+    /// Pixels per row.
     #[must_use]
     pub fn width(&self) -> usize {
         match self {
@@ -197,7 +193,7 @@ impl<Q: Quantity<Sample = f32>> KeptCube<Q> {
         }
     }
 
-    /// The cube, where it is in memory.
+    /// The cube, if it is in memory.
     #[must_use]
     pub fn in_memory(&self) -> Option<&SpectralCube<Q>> {
         match self {
@@ -206,7 +202,7 @@ impl<Q: Quantity<Sample = f32>> KeptCube<Q> {
         }
     }
 
-    /// Who reads it.
+    /// Reader of the cube.
     #[must_use]
     pub fn reader(&self) -> &dyn BandReader {
         match self {
@@ -215,10 +211,10 @@ impl<Q: Quantity<Sample = f32>> KeptCube<Q> {
         }
     }
 
-    /// A band.
+    /// Returns a band.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// If it cannot be read.
     pub fn plane(&self, band: usize) -> Result<Cow<'_, Plane<Q>>, String> {
         match self {
             Self::Memory(cube) => Ok(Cow::Borrowed(&cube.planes()[band])),
@@ -230,18 +226,18 @@ impl<Q: Quantity<Sample = f32>> KeptCube<Q> {
         }
     }
 
-    /// Rows of a band, into as many samples.
+    /// Reads rows of a band into as many samples.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// If they cannot be read.
     pub fn read_rows(&self, band: usize, rows: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
         self.reader().read(band, rows, samples)
     }
 
-    /// Rows of all bands, as a cube of as many rows.
+    /// Returns rows of all bands, as a cube of that many rows.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// If they cannot be read.
     pub fn rows(&self, rows: Range<usize>) -> Result<SpectralCube<Q>, String> {
         let mut strip = SpectralCube::new(self.width(), rows.len(), self.bands());
         for (band, plane) in strip.planes_mut().iter_mut().enumerate() {
@@ -250,10 +246,10 @@ impl<Q: Quantity<Sample = f32>> KeptCube<Q> {
         Ok(strip)
     }
 
-    /// The whole cube in memory.
+    /// Loads the whole cube into memory.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// If it cannot be read.
     pub fn load(self) -> Result<SpectralCube<Q>, String> {
         match self {
             Self::Memory(cube) => Ok(cube),
@@ -267,7 +263,7 @@ mod tests {
     use super::*;
     use crate::quantity::Radiance;
 
-    /// Band, row and column as one number.
+    /// Test reader: band, row and column as one number.
     #[derive(Debug)]
     struct Numbers;
 

@@ -1,6 +1,6 @@
 //! Intervals of simulated time.
 
-/// A closed interval of simulated time: that of a shutter, of an exposure, of a frame. The default is the single moment 0.
+/// Closed interval of simulated time: of a shutter, of an exposure, of a frame. The default is the single moment 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TimeInterval {
     start_s: f64,
@@ -8,63 +8,63 @@ pub struct TimeInterval {
 }
 
 impl TimeInterval {
-    /// From `start_s` to `end_s`, s; `None` where one is not finite or the end lies before the start.
+    /// Returns the interval from `start_s` to `end_s`, s; `None` if one is not finite or the end lies before the start.
     #[must_use]
     pub fn new(start_s: f64, end_s: f64) -> Option<Self> {
         let is_legal = start_s.is_finite() && end_s.is_finite() && start_s <= end_s;
         is_legal.then_some(Self { start_s, end_s })
     }
 
-    /// A single moment, s; `None` where it is not finite.
+    /// Returns a single moment, s; `None` if it is not finite.
     #[must_use]
     pub fn at(time_s: f64) -> Option<Self> {
         Self::new(time_s, time_s)
     }
 
-    /// Where it begins, s.
+    /// Start, s.
     #[must_use]
     pub fn start_s(&self) -> f64 {
         self.start_s
     }
 
-    /// Where it ends, s.
+    /// End, s.
     #[must_use]
     pub fn end_s(&self) -> f64 {
         self.end_s
     }
 
-    /// How long it is, s; 0 for a single moment.
+    /// Length, s; 0 for a single moment.
     #[must_use]
     pub fn length_s(&self) -> f64 {
         self.end_s - self.start_s
     }
 
-    /// Half-way between its ends, s.
+    /// Midpoint, s.
     #[must_use]
     pub fn middle_s(&self) -> f64 {
         self.start_s + 0.5 * self.length_s()
     }
 
-    /// The same interval later by `delay_s`, which is finite.
+    /// Returns the same interval later by `delay_s`, which is finite.
     #[must_use]
     pub fn later(&self, delay_s: f64) -> Self {
         Self { start_s: self.start_s + delay_s, end_s: self.end_s + delay_s }
     }
 
-    /// The least interval that holds both.
+    /// Returns the smallest interval that holds both.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         Self { start_s: self.start_s.min(other.start_s), end_s: self.end_s.max(other.end_s) }
     }
 
-    /// Whether it is a single moment.
+    /// Returns true if it is a single moment.
     #[must_use]
     pub fn is_moment(&self) -> bool {
         self.start_s == self.end_s
     }
 
-    /// The simulated time, s, of a ray's [`crate::Ray::time_s`], which counts from the interval's start; that of its nearer end
-    /// for times outside, of its start for NaN.
+    /// Returns the simulated time, s, of a ray's [`crate::Ray::time_s`], which counts from the interval's start. Times outside are clamped to the interval; NaN
+    /// gives the start.
     #[must_use]
     pub fn moment(&self, time_s: f32) -> f64 {
         (self.start_s + f64::from(time_s)).max(self.start_s).min(self.end_s)

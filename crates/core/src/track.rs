@@ -1,7 +1,7 @@
 //! Transforms over time: keys of position, rotation and scale, and the motion between them.
 //!
-//! A track that does not change holds one matrix. One that moves is cut at its keys into spans, each a smooth function of
-//! time, so that it can be asked for its transform at any time and for boxes that hold all of an interval (`bounds`).
+//! A constant track holds one matrix. A moving one is cut at its keys into spans, each a smooth function of time. It gives the transform at any time, and boxes
+//! that bound the motion during an interval (`bounds`).
 
 mod bounds;
 mod rates;
@@ -23,26 +23,27 @@ pub use rolling::RollingError;
 
 pub(crate) use rates::{Bend, Moving as MovingTransform};
 
-/// Where something is at a moment: it is scaled, then rotated, then moved.
+/// Pose at a moment: scale, then rotation, then translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
     /// Simulated time, s.
     pub time_s: f64,
     /// Origin of the moved frame in the frame that it moves in, m.
     pub position_m: DVec3,
-    /// Rotation, a quaternion of any length but 0; it is made one of length 1. q and −q are the same.
+    /// Rotation, a quaternion of any length except 0; it is normalised. q and −q are the same.
     pub rotation: DQuat,
     /// Scale along each axis of the moved frame; negative ones mirror.
     pub scale: DVec3,
 }
 
-/// From rotation to rotation the short way about one axis at an even rate (Shoemake 1985), `share` of the way, 0 … 1. Both of any length but 0.
+/// Interpolates rotations along the shorter arc about one axis at constant rate (Shoemake 1985). `share` is the fraction of the arc, 0 … 1. Both quaternions
+/// may have any length except 0.
 pub fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
     Turn::even(from.normalize(), to.normalize()).at(share)
 }
 
 words! {
-    /// How a track moves from key to key. Before its first key and after its last it holds still.
+    /// Interpolation of a track between keys. The transform is constant before the first key and after the last.
     pub enum Interpolation = Linear {
         /// Position and scale along straight lines at an even speed; rotation the short way about one axis at an even rate (slerp,
         /// Shoemake 1985, "Animating rotation with quaternion curves", SIGGRAPH).
@@ -56,13 +57,13 @@ words! {
     }
 }
 
-/// Why a track is refused. Keys are counted from 0.
+/// Reason for which a track is refused. Keys are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TrackError {
     /// No key.
     #[error("a track without keys is nowhere; give it one key at least")]
     Empty,
-    /// A number that is infinite or NaN, or so large that velocities are.
+    /// A number is infinite or NaN, or so large that a velocity is.
     #[error("key {key} of the track is not finite, or motion from it to the next is faster than numbers can say")]
     NotFinite {
         /// The key.
@@ -94,7 +95,7 @@ pub enum TrackError {
     },
 }
 
-/// A transform over time. Before its first key and after its last it holds still.
+/// Transform over time. It is constant before its first key and after its last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track(Kind);
 
@@ -104,31 +105,30 @@ enum Kind {
     Moving(Arc<Keyed>),
 }
 
-/// Two keys or more, not all alike.
+/// Two keys or more, not all equal.
 #[derive(Clone, Debug, PartialEq)]
 struct Keyed {
-    /// Of the keys, in increasing order.
+    /// Times of the keys, in increasing order.
     times_s: Vec<f64>,
-    /// From each key but the last to the next.
+    /// One span from each key except the last to the next.
     spans: Vec<Span>,
     /// The last key.
     last: Pose,
-    /// What is applied before all that.
+    /// Transform applied before the track's own.
     first: DAffine3,
 }
 
 impl Track {
-    /// A transform that does not change: any affine one, kept bit for bit.
+    /// Returns a constant transform: any affine one, kept bit for bit.
     #[must_use]
     pub fn still(transform: DAffine3) -> Self {
         Self(Kind::Still(transform))
     }
 
-    /// Through `keys`, which must be in the order of time.
+    /// Returns the track through `keys`, which must be in order of time.
     ///
     /// # Errors
-    /// Where there are no keys, where they are out of order or two are at the same time, where numbers are not finite, where a
-    /// rotation has the length 0.
+    /// If there are no keys, if they are out of order or two are at the same time, if numbers are not finite, or if a rotation has length 0.
     pub fn new(keys: &[Key], interpolation: Interpolation) -> Result<Self, TrackError> {
         check(keys)?;
         let poses = poses(keys);
@@ -147,7 +147,7 @@ impl Track {
         Ok(Self(Kind::Moving(Arc::new(Keyed { times_s, spans, last, first: DAffine3::IDENTITY }))))
     }
 
-    /// The same track of something that `first` is applied to before it moves.
+    /// Returns the same track with `first` applied before it.
     #[must_use]
     pub fn after(&self, first: &DAffine3) -> Self {
         match &self.0 {
@@ -159,7 +159,7 @@ impl Track {
         }
     }
 
-    /// The transform at `time_s`.
+    /// Returns the transform at `time_s`.
     #[must_use]
     pub fn at(&self, time_s: f64) -> DAffine3 {
         match &self.0 {
@@ -168,7 +168,7 @@ impl Track {
         }
     }
 
-    /// Where the track does not change over time, its transform; `None` for a moving one.
+    /// Returns the transform if the track is constant; `None` for a moving one.
     #[must_use]
     pub fn as_still(&self) -> Option<DAffine3> {
         match &self.0 {
@@ -177,7 +177,7 @@ impl Track {
         }
     }
 
-    /// Where the track does not change within an interval, its transform there. A single moment is such an interval.
+    /// Returns the transform if the track is constant within an interval; else `None`. A single moment is such an interval.
     #[must_use]
     pub fn still_over(&self, interval: TimeInterval) -> Option<DAffine3> {
         match &self.0 {
@@ -204,13 +204,13 @@ impl Keyed {
         }
     }
 
-    /// The part of a span that has passed.
+    /// Elapsed fraction of a span.
     fn part(&self, span: usize, time_s: f64) -> f64 {
         let (start_s, end_s) = (self.times_s[span], self.times_s[span + 1]);
         ((time_s - start_s) / (end_s - start_s)).clamp(0.0, 1.0)
     }
 
-    /// The spans that an interval has more than a moment of, with the parts where it begins and ends.
+    /// Returns the spans that overlap an interval by more than a moment, with the fractions at which the overlap begins and ends.
     fn during(&self, interval: TimeInterval) -> impl Iterator<Item = (&Span, (f64, f64))> {
         let inner = &self.times_s[1..self.times_s.len() - 1];
         let first = inner.partition_point(|key_s| *key_s <= interval.start_s());
@@ -252,7 +252,7 @@ fn check(keys: &[Key]) -> Result<(), TrackError> {
     Ok(())
 }
 
-/// The keys with rotations of length 1, each of the two quaternions of a rotation being the one nearer to the key before.
+/// Returns the keys with unit rotations; of the two quaternions of a rotation, the one nearer to that of the previous key.
 fn poses(keys: &[Key]) -> Vec<Pose> {
     let mut before = DQuat::IDENTITY;
     let pose = |key: &Key| {
@@ -264,7 +264,7 @@ fn poses(keys: &[Key]) -> Vec<Pose> {
     keys.iter().map(pose).collect()
 }
 
-/// A quaternion made one of length 1. What has that length to eight roundings is left as it is.
+/// Normalises a quaternion. One whose length is 1 to eight roundings is left as it is.
 fn unit(q: DQuat) -> DQuat {
     if (q.length_squared() - 1.0).abs() <= 8.0 * f64::EPSILON { q } else { q.normalize() }
 }
@@ -277,7 +277,7 @@ fn straight(from: &Pose, to: &Pose) -> Span {
     }
 }
 
-/// How fast position, scale and rotation change at a key, per second.
+/// Rates of change of position, scale and rotation at a key, per second.
 type Rates = [DVec3; 3];
 
 fn smooth(times_s: &[f64], poses: &[Pose]) -> Vec<Span> {
@@ -295,7 +295,7 @@ fn smooth(times_s: &[f64], poses: &[Pose]) -> Vec<Span> {
     (0..poses.len() - 1).map(span).collect()
 }
 
-/// The rates at all keys; none for a single one.
+/// Returns the rates at all keys; none for a single key.
 fn rates(times_s: &[f64], poses: &[Pose]) -> Vec<Rates> {
     let lengths_s: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let means: Vec<Rates> =
@@ -304,13 +304,13 @@ fn rates(times_s: &[f64], poses: &[Pose]) -> Vec<Rates> {
     if last == 0 {
         return vec![means[0]; 2];
     }
-    // The derivative at a key of the parabola through three, from the mean rates before and after it.
+    // Derivative at a key of the parabola through three keys, from the mean rates before and after it.
     let inner = |i: usize| {
         let (before_s, after_s) = (lengths_s[i - 1], lengths_s[i]);
         let weight = before_s / (before_s + after_s);
         join(&means[i - 1], &means[i], |before, after| before * (1.0 - weight) + after * weight)
     };
-    // That of the same parabola at its end: the mean rate of a span is that at its middle.
+    // Derivative of the same parabola at its end: the mean rate of a span is that at its middle.
     let end = |mean: &Rates, inner: &Rates| join(mean, inner, |mean, inner| mean * 2.0 - inner);
     let mut rates: Vec<Rates> = (1..=last).map(inner).collect();
     let (first, end) = (end(&means[0], &rates[0]), end(&means[last], &rates[last - 1]));

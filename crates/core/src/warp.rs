@@ -6,34 +6,33 @@ use glam::{Vec2, Vec3};
 
 use crate::maths::f32::{cos, sin};
 
-/// From the unit square to the unit disc, area-preserving and continuous (Shirley and Chiu 1997). Density 1/π by area.
+/// Maps the unit square to the unit disc, area-preserving and continuous (Shirley and Chiu 1997). Density 1/π by area.
 #[must_use]
 pub fn concentric_disc(u: Vec2) -> Vec2 {
     ring(u).0
 }
 
-/// A direction of the upper hemisphere (z ≥ 0) with density cos θ / π by solid angle.
+/// Samples a direction of the upper hemisphere (z ≥ 0) with density cos θ / π by solid angle.
 #[must_use]
 pub fn cosine_hemisphere(u: Vec2) -> Vec3 {
     let (d, r) = ring(u);
     Vec3::new(d.x, d.y, ((1.0 - r) * (1.0 + r)).sqrt())
 }
 
-/// The point of the disc for one of the unit square, and its distance from the middle. Squares about the middle become
-/// circles; along them the angle from the nearer axis grows evenly, to π/4 at the corners.
+/// Maps a point of the unit square to the disc; also returns its distance from the centre. Squares about the centre become circles; along them the angle from
+/// the nearer axis grows linearly, to π/4 at the corners.
 #[inline]
 fn ring(u: Vec2) -> (Vec2, f32) {
     let p = u * 2.0 - Vec2::ONE;
     let upright = p.y.abs() >= p.x.abs();
     let (long, short) = if upright { (p.y, p.x) } else { (p.x, p.y) };
-    // In the middle itself any angle will do.
+    // Any angle is valid at the centre.
     let t = short / if long == 0.0 { 1.0 } else { long };
     let (along, across) = (long * cos_quarter(t), long * sin_quarter(t));
     (if upright { Vec2::new(across, along) } else { Vec2::new(along, across) }, long.abs())
 }
 
-/// cos(π t/4) for t of −1 to 1, by Taylor's series, whose next term is 4e-10 at most. In f32, for rounding alone counts
-/// here.
+/// cos(π t/4) for t of −1 to 1, by Taylor's series, whose next term is 4e-10 at most. In f32, as only rounding matters here.
 #[inline]
 fn cos_quarter(t: f32) -> f32 {
     let z = t * t;
@@ -71,7 +70,7 @@ pub fn cosine_hemisphere_pdf(cos_theta: f32) -> f32 {
     cos_theta.max(0.0) / PI
 }
 
-/// A direction of the unit sphere, uniform by solid angle (density 1/4π).
+/// Samples a direction of the unit sphere, uniform by solid angle (density 1/4π).
 #[must_use]
 pub fn uniform_sphere(u: Vec2) -> Vec3 {
     let z = 1.0 - 2.0 * u.x;
@@ -80,8 +79,8 @@ pub fn uniform_sphere(u: Vec2) -> Vec3 {
     Vec3::new(r * cos(phi), r * sin(phi), z)
 }
 
-/// A direction of the cone about +z with half angle acos(1 − `one_minus_cos_max`), uniform by solid angle (density
-/// 1/(2π · `one_minus_cos_max`)). The argument is 1 − cos θ so that a narrow cone (the sun) keeps its digits.
+/// Samples a direction of the cone about +z with half angle acos(1 − `one_minus_cos_max`), uniform by solid angle (density 1/(2π · `one_minus_cos_max`)). The
+/// argument is 1 − cos θ so that a narrow cone (the sun) keeps its precision.
 #[must_use]
 pub fn uniform_cone(u: Vec2, one_minus_cos_max: f32) -> Vec3 {
     let one_minus_cos = u.x * one_minus_cos_max;
@@ -91,7 +90,7 @@ pub fn uniform_cone(u: Vec2, one_minus_cos_max: f32) -> Vec3 {
     Vec3::new(r * cos(phi), r * sin(phi), z)
 }
 
-/// Barycentric coordinates (of the second and third vertex) of a point of a triangle, uniform by area.
+/// Samples barycentric coordinates (of the second and third vertex) of a point of a triangle, uniform by area.
 #[must_use]
 pub fn uniform_triangle(u: Vec2) -> Vec2 {
     if u.x < u.y {
@@ -134,7 +133,7 @@ mod tests {
     #[test]
     fn the_mean_of_a_cosine_hemisphere_is_two_thirds_up() {
         let mean = grid().map(cosine_hemisphere).sum::<Vec3>() / 4096.0;
-        // The midpoint rule on 64 rings overstates a mean with a vertical tangent at the rim by about 0.5·64^-1.5.
+        // The midpoint rule on 64 rings overestimates a mean with a vertical tangent at the edge by about 0.5·64^-1.5.
         assert!((mean - Vec3::new(0.0, 0.0, 2.0 / 3.0)).length() < 1.2e-3, "{mean}");
     }
 

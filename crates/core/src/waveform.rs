@@ -1,7 +1,6 @@
-//! How the light of a source goes over time: a factor on its strength, with exact means over any interval.
+//! Modulation of a light over time: a factor on its strength, with exact means over any interval.
 //!
-//! What recurs is reduced to its period before anything else is done, so that after 10⁶ s the phase is still right to the 10⁻¹⁰ s to
-//! which f64 tells such times.
+//! Times of a periodic waveform are first reduced to the period, so after 10⁶ s the phase is still accurate to 10⁻¹⁰ s, the resolution of f64.
 
 mod levels;
 #[cfg(test)]
@@ -13,16 +12,16 @@ use crate::maths::f64::{cos, sin};
 use crate::{Cycle, ExactTime, TimeInterval};
 use levels::{Levels, Piece};
 
-/// The greatest level that a waveform may have.
+/// Maximum level of a waveform.
 pub const MAX_LEVEL: f64 = 1e6;
 
-/// A factor on a light's strength over time, 0 … [`MAX_LEVEL`].
+/// Factor on a light's strength over time, 0 … [`MAX_LEVEL`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waveform {
     shape: Shape,
     /// Frequency or period; `None` if the waveform is not periodic.
     cycle: Option<Cycle>,
-    /// By how much all of it is later, s.
+    /// Delay of the whole waveform, s.
     delay_s: f64,
 }
 
@@ -32,22 +31,22 @@ enum Shape {
     Levels(Levels),
 }
 
-/// Pulses that recur: those of pulse-width modulation, or of a blinker.
+/// Periodic pulses: pulse-width modulation, or a blinker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulses {
-    /// How often they come, Hz, above 0.
+    /// Pulse frequency, Hz, above 0.
     pub frequency_hz: f64,
-    /// Share of the period that a pulse takes between the moments at which it is half up and half down (the pulse duration of IEEE Std
-    /// 181), above 0 and below 1. It is the mean over the peak, however slow the edges.
+    /// Duty cycle: fraction of the period between the half heights of a pulse (the pulse duration of IEEE Std 181), above 0 and below 1. It is the mean over
+    /// the peak, whatever the edges.
     pub duty: f64,
-    /// How long a pulse takes to rise and to fall, s, 0 or more: straight lines, half of which lies within the pulse. Half of both
-    /// together must fit into the pulse and into the pause.
+    /// Rise and fall time of a pulse, s, 0 or more. The edges are straight lines; half of each lies within the pulse. Half of both together must fit into the
+    /// pulse and into the pause.
     pub edges_s: [f64; 2],
-    /// The level of a pulse, above 0.
+    /// Level of a pulse, above 0.
     pub peak: f64,
 }
 
-/// How a table is read between its rows.
+/// Interpolation of a table between its rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Between {
     /// Along straight lines.
@@ -57,22 +56,22 @@ pub enum Between {
     Steps,
 }
 
-/// Why a waveform is refused.
+/// Reason for which a waveform is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum WaveformError {
-    /// A frequency that is not above 0, or not finite.
+    /// The frequency is not above 0, or not finite.
     #[error("found a frequency of {frequency_hz} Hz; give one above 0")]
     Frequency {
-        /// Found, Hz.
+        /// Frequency, Hz.
         frequency_hz: f64,
     },
-    /// A duty outside (0, 1).
+    /// The duty is outside (0, 1).
     #[error("found a duty of {duty}; give one above 0 and below 1")]
     Duty {
-        /// Found.
+        /// Duty.
         duty: f64,
     },
-    /// Edges that do not fit.
+    /// The edges do not fit.
     #[error(
         "half of the rise and the fall together take {edges_s} s, which must fit into the pulse and into the pause, {room_s} s; make \
          them faster"
@@ -83,55 +82,55 @@ pub enum WaveformError {
         /// The shorter one of pulse and pause, s.
         room_s: f64,
     },
-    /// A modulation depth outside [0, 1].
+    /// The modulation depth is outside [0, 1].
     #[error("found a modulation depth of {depth}; give one from 0 to 1")]
     Depth {
-        /// Found.
+        /// Depth.
         depth: f64,
     },
-    /// A level that is negative, too great or not finite.
+    /// A level is negative, too large or not finite.
     #[error("found the level {level}; give one from 0 to 1e6")]
     Level {
-        /// Found.
+        /// Level.
         level: f64,
     },
-    /// Levels that are all 0.
+    /// All levels are 0.
     #[error("the light is dark at every time; give one level above 0")]
     Dark,
-    /// No levels.
+    /// There are no levels.
     #[error("there are no levels; give one at least")]
     Empty,
-    /// Times out of order, or not finite.
+    /// Times are out of order, or not finite.
     #[error("the time {time_s} s follows {before_s} s; give the times in rising order")]
     Unordered {
-        /// The later row's time, s.
+        /// Time of the later row, s.
         time_s: f64,
-        /// The time before it, s.
+        /// Time before it, s.
         before_s: f64,
     },
-    /// A duration that is not above 0, or not finite.
+    /// A duration is not above 0, or not finite.
     #[error("found a duration of {duration_s} s; give one above 0")]
     Duration {
-        /// Found, s.
+        /// Duration, s.
         duration_s: f64,
     },
-    /// A period in which the table does not fit.
+    /// The table does not fit into the period.
     #[error(
         "the table lasts {length_s} s, and its period is {period_s} s; with steps the period must be longer, else at least as long"
     )]
     Period {
-        /// From the table's first time to its last, s.
+        /// Length from the table's first time to its last, s.
         length_s: f64,
-        /// Found, s.
+        /// Period, s.
         period_s: f64,
     },
 }
 
 impl Waveform {
-    /// Pulses, the first of which is half up at the time 0.
+    /// Returns pulses; the first one is at half height at the time 0.
     ///
     /// # Errors
-    /// Where a number is out of its range.
+    /// If a number is out of its range.
     pub fn pulses(pulses: &Pulses) -> Result<Self, WaveformError> {
         let Pulses { frequency_hz, duty, edges_s: [rise_s, fall_s], peak } = *pulses;
         let period_s = period_of(frequency_hz)?;
@@ -147,7 +146,7 @@ impl Waveform {
         if !(rise_s >= 0.0 && fall_s >= 0.0 && edges_s <= room_s * (1.0 + 1e-12)) {
             return Err(WaveformError::Edges { edges_s, room_s });
         }
-        // From half a rise before 0: up, on, down, off.
+        // From half a rise before 0: rise, plateau, fall, pause.
         let (plateau_s, dark_s) = ((pulse_s - edges_s).max(0.0), (pause_s - edges_s).max(0.0));
         let pieces = [
             Piece { length_s: rise_s, from: 0.0, to: peak },
@@ -159,11 +158,11 @@ impl Waveform {
         Ok(Self { cycle: Some(Cycle::from_frequency(frequency_hz)), ..Self::of_levels(levels) })
     }
 
-    /// The light of a lamp on mains of `frequency_hz`, 1 + m cos(2π · 2f t): brightest at the time 0 and twice a period of the mains,
-    /// with the `depth` of modulation m, 0 … 1. Its mean is 1. Left out are harmonics: give a table.
+    /// Returns the modulation of a lamp on mains of `frequency_hz`: 1 + m cos(2π · 2f t), with the modulation `depth` m, 0 … 1. It is brightest at the time 0
+    /// and twice per period of the mains. Its mean is 1. Harmonics are not included: use a table.
     ///
     /// # Errors
-    /// Where a number is out of its range.
+    /// If a number is out of its range.
     pub fn mains(frequency_hz: f64, depth: f64) -> Result<Self, WaveformError> {
         period_of(frequency_hz)?;
         if !(0.0..=1.0).contains(&depth) {
@@ -173,11 +172,11 @@ impl Waveform {
         Ok(Self { shape: Shape::Mains(Mains { frequency_hz, depth }), cycle, delay_s: 0.0 })
     }
 
-    /// Levels at rising times (s): held before the first and after the last, or with a `period_s` recurring, the last row followed
-    /// by the first one a period later.
+    /// Returns a table of levels at increasing times (s). Without `period_s` the first level holds before and the last after them. With it the table repeats:
+    /// the last row is followed by the first one a period later.
     ///
     /// # Errors
-    /// Where rows are out of order, a level is out of its range or all are 0, or the period is too short.
+    /// If rows are out of order, a level is out of its range or all are 0, or the period is too short.
     pub fn table(rows: &[(f64, f64)], between: Between, period_s: Option<f64>) -> Result<Self, WaveformError> {
         check_levels(rows.iter().map(|(_, level)| *level))?;
         let (first, last) = (rows[0], rows[rows.len() - 1]);
@@ -203,11 +202,11 @@ impl Waveform {
         Ok(Self::of_levels(Levels::recurring(first.0, &pieces, period_s)))
     }
 
-    /// Levels that hold for their durations (s), one after the other from the time 0 on: again and again, or once, with the first
-    /// held before it and the last after it.
+    /// Returns levels that hold for their durations (s), one after the other from the time 0 on: repeated, or once, with the first held before it and the last
+    /// after it.
     ///
     /// # Errors
-    /// Where a duration or a level is out of its range, or all levels are 0.
+    /// If a duration or a level is out of its range, or all levels are 0.
     pub fn programme(steps: &[(f64, f64)], repeats: bool) -> Result<Self, WaveformError> {
         check_levels(steps.iter().map(|(_, level)| *level))?;
         if let Some((duration_s, _)) = steps.iter().find(|(s, _)| !(*s > 0.0 && s.is_finite())) {
@@ -228,7 +227,7 @@ impl Waveform {
         Self { shape: Shape::Levels(levels), cycle, delay_s: 0.0 }
     }
 
-    /// The same later by `delay_s`, which is finite.
+    /// Returns the waveform later by `delay_s`, which is finite.
     #[must_use]
     pub fn later(self, delay_s: f64) -> Self {
         Self { delay_s: self.delay_s + delay_s, ..self }
@@ -241,7 +240,7 @@ impl Waveform {
         self.later(delay_s)
     }
 
-    /// The level at a simulated time, s; at a jump the one after it.
+    /// Returns the level at a simulated time, s; at a jump the level after it.
     #[must_use]
     pub fn at(&self, time_s: f64) -> f64 {
         let time_s = time_s - self.delay_s;
@@ -251,7 +250,7 @@ impl Waveform {
         }
     }
 
-    /// The mean level over an interval; at a single moment that of [`Waveform::at`].
+    /// Returns the mean level over an interval; at a single moment that of [`Waveform::at`].
     #[must_use]
     pub fn mean(&self, over: TimeInterval) -> f64 {
         let over = over.later(-self.delay_s);
@@ -261,7 +260,7 @@ impl Waveform {
         }
     }
 
-    /// The mean over all times; `None` where nothing recurs.
+    /// Returns the mean over all times; `None` if the waveform is not periodic.
     #[must_use]
     pub fn mean_level(&self) -> Option<f64> {
         match &self.shape {
@@ -270,7 +269,7 @@ impl Waveform {
         }
     }
 
-    /// The greatest level within an interval, its ends among it; 0 only where the light is dark throughout.
+    /// Returns the maximum level within an interval, its ends included; 0 only if the light is dark throughout.
     #[must_use]
     pub fn greatest(&self, over: TimeInterval) -> f64 {
         let over = over.later(-self.delay_s);
@@ -280,7 +279,7 @@ impl Waveform {
         }
     }
 
-    /// The greatest level at any time.
+    /// Returns the maximum level at any time.
     #[must_use]
     pub fn greatest_level(&self) -> f64 {
         match &self.shape {
@@ -289,7 +288,7 @@ impl Waveform {
         }
     }
 
-    /// After what time it recurs, s; `None` where it does not.
+    /// Returns the period, s; `None` if the waveform is not periodic.
     #[must_use]
     pub fn period_s(&self) -> Option<f64> {
         match &self.shape {
@@ -319,14 +318,14 @@ fn check_levels(levels: impl Iterator<Item = f64> + Clone) -> Result<(), Wavefor
 /// 1 + m cos(2π · 2f t).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Mains {
-    /// Of the mains, Hz.
+    /// Frequency of the mains, Hz.
     frequency_hz: f64,
     /// Depth of modulation m, 0 … 1.
     depth: f64,
 }
 
 impl Mains {
-    /// Periods of the light since the time 0.
+    /// Periods of the modulation (2f) since the time 0.
     fn periods(&self, time_s: f64) -> f64 {
         2.0 * self.frequency_hz * time_s
     }
@@ -336,7 +335,7 @@ impl Mains {
         1.0 + self.depth * cos(TAU * (periods - periods.round()))
     }
 
-    /// The cosine at the middle of the interval, as far as its length n in periods leaves it: sin(πn)/(πn).
+    /// Cosine at the middle of the interval, attenuated by its length n in periods: sin(πn)/(πn).
     fn mean(&self, over: TimeInterval) -> f64 {
         let length = self.periods(over.length_s());
         let rest = length - length.round();

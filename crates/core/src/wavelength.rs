@@ -2,15 +2,15 @@
 
 use core::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Sub};
 
-/// The shortest wavelength that a description may name, nm.
+/// Shortest wavelength that a description may state, nm.
 pub const SHORTEST_NM: f64 = 300.0;
-/// The longest wavelength that a description may name, nm.
+/// Longest wavelength that a description may state, nm.
 pub const MAX_NM: f64 = 1100.0;
 
-/// `N` wavelengths (nm) that one path carries, with the density by which each was drawn (1/nm).
+/// `N` wavelengths (nm) that one path carries, with the density by which each was sampled (1/nm).
 ///
-/// Hero wavelength sampling (Wilkie et al. 2014): the first is drawn, the others are its rotations by equal steps in
-/// the cumulative distribution, so that each alone is a fair sample of the support.
+/// Hero wavelength sampling (Wilkie et al. 2014): the first is sampled; the others are its rotations by equal steps in the cumulative distribution, so each
+/// alone is a valid sample of the support.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wavelengths<const N: usize> {
     /// Wavelengths, nm; the first is the hero.
@@ -20,7 +20,7 @@ pub struct Wavelengths<const N: usize> {
 }
 
 impl<const N: usize> Wavelengths<N> {
-    /// `N` wavelengths spread uniformly over `[low_nm, high_nm)`, from one number `u` in [0, 1).
+    /// Returns `N` wavelengths spread uniformly over `[low_nm, high_nm)`, from one number `u` in [0, 1).
     #[must_use]
     pub fn uniform(low_nm: f32, high_nm: f32, u: f32) -> Self {
         let range = high_nm - low_nm;
@@ -29,12 +29,12 @@ impl<const N: usize> Wavelengths<N> {
     }
 }
 
-/// The wavelength at `x` in [0, 1) of `[low_nm, high_nm)`; rounding does not take it to the upper end.
+/// Wavelength at `x` in [0, 1) of `[low_nm, high_nm)`; rounding never reaches the upper end.
 fn within(low_nm: f32, high_nm: f32, x: f32) -> f32 {
     (low_nm + (high_nm - low_nm) * x).min(high_nm.next_down())
 }
 
-/// `u` turned by `i` of `n` equal steps, in [0, 1).
+/// `u` rotated by `i` of `n` equal steps, in [0, 1).
 #[inline]
 pub(crate) fn turned(u: f32, i: usize, n: usize) -> f32 {
     let turned = u + i as f32 / n as f32;
@@ -64,19 +64,19 @@ impl<const N: usize> Spectral<N> {
         Self([value; N])
     }
 
-    /// The value of `f` at each index.
+    /// Returns the value of `f` at each index.
     #[must_use]
     pub fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
         Self(core::array::from_fn(f))
     }
 
-    /// `f` of each value.
+    /// Applies `f` to each value.
     #[must_use]
     pub fn map(self, f: impl FnMut(f32) -> f32) -> Self {
         Self(self.0.map(f))
     }
 
-    /// The largest value (−∞ never: `N` is at least 1). A NaN is passed over.
+    /// Returns the largest value (−∞ never: `N` is at least 1). Ignores NaN.
     #[must_use]
     pub fn max_value(self) -> f32 {
         self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
@@ -88,13 +88,13 @@ impl<const N: usize> Spectral<N> {
         self.0.into_iter().sum::<f32>() / N as f32
     }
 
-    /// Whether every value is exactly zero.
+    /// True if every value is exactly zero.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.0.into_iter().all(|v| v == 0.0)
     }
 
-    /// Whether every value is finite.
+    /// True if every value is finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.0.into_iter().all(f32::is_finite)
@@ -185,7 +185,7 @@ pub struct Bands {
 }
 
 impl Bands {
-    /// `count` bands of `width_nm` from `low_nm` up. `None` where they leave 300–1 100 nm or none is asked for.
+    /// Returns `count` bands of `width_nm` from `low_nm` up. `None` if they leave 300–1 100 nm or `count` is 0.
     #[must_use]
     pub fn new(low_nm: f64, width_nm: f64, count: usize) -> Option<Self> {
         let high_nm = low_nm + width_nm * count as f64;
@@ -193,8 +193,8 @@ impl Bands {
         legal.then_some(Self { low_nm, width_nm, count })
     }
 
-    /// Bands of `width_nm` that cover `[low_nm, high_nm]` exactly. `None` where the width does not divide the range
-    /// (to 1e-6 of a band) or the range is not legal.
+    /// Returns bands of `width_nm` that cover `[low_nm, high_nm]` exactly. `None` if the width does not divide the range (to 1e-6 of a band) or the range is
+    /// not legal.
     #[must_use]
     pub fn covering(low_nm: f64, high_nm: f64, width_nm: f64) -> Option<Self> {
         let count = ((high_nm - low_nm) / width_nm).round();
@@ -238,7 +238,7 @@ impl Bands {
         self.low_nm + self.width_nm * (i as f64 + 0.5)
     }
 
-    /// The band that holds `nm`; `None` outside. A band owns its lower edge.
+    /// Returns the index of the band that contains `nm`; `None` outside. A band includes its lower edge.
     #[must_use]
     pub fn index_of(self, nm: f64) -> Option<usize> {
         let i = ((nm - self.low_nm) / self.width_nm).floor();

@@ -1,43 +1,42 @@
-//! A density of wavelengths, made to be drawn from quickly.
+//! Density of wavelengths with fast sampling.
 
 use crate::Wavelengths;
 
-/// Steps of the guide for each piece, at least: most begin and end in one piece.
+/// Minimum number of guide steps per piece: most steps begin and end in one piece.
 const STEPS_PER_PIECE: usize = 16;
-/// Pieces that the guide can tell apart.
+/// Maximum number of pieces that the guide can address.
 const MAX_PIECES: usize = 1 << 16;
 /// Numbers in [0, 1) are multiples of its inverse.
 const GRID: f64 = 16_777_216.0;
 
-/// A piecewise-constant density over a range of wavelengths, from weights of equal pieces of it.
+/// Piecewise-constant density over a range of wavelengths, from weights of equal pieces of it.
 ///
-/// Drawn by inversion: a guide table (Chen and Asau 1974) finds the piece. The shares of the pieces are rounded to
-/// multiples of 2⁻²⁴, the grain of the numbers that draw them, and densities are those of the rounded shares: exactly
-/// the ones that wavelengths are drawn by. A piece with less than half a grain is never drawn.
+/// Sampled by inversion: a guide table (Chen and Asau 1974) finds the piece. The probabilities of the pieces are rounded to multiples of 2⁻²⁴, the resolution
+/// of the random numbers. Densities are those of the rounded probabilities: exactly the ones by which wavelengths are sampled. A piece of less than half of
+/// that resolution is never sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WavelengthDensity {
     pieces: Vec<Piece>,
-    /// For each of equal steps of [0, 1), a power of two of them, the piece that its beginning falls in.
+    /// Guide table: for each of equal steps of [0, 1), a power of two of them, the piece that contains its beginning.
     guide: Vec<u16>,
 }
 
-/// A piece that may be drawn.
+/// Piece of nonzero probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
-    /// Numbers from `begin` to `end` draw it.
+    /// Numbers from `begin` to `end` sample it.
     begin: f32,
     end: f32,
-    /// Wavelengths of it, nm; both belong to it.
+    /// Wavelengths of the piece, nm; both ends belong to it.
     low_nm: f32,
     high_nm: f32,
     nm_per_number: f32,
-    /// 1/nm.
+    /// Density, 1/nm.
     pdf: f32,
 }
 
 impl WavelengthDensity {
-    /// A density over `[low_nm, high_nm)`. `None` where there are no weights or more than 65 536, one is negative or not
-    /// finite, or all are zero.
+    /// Returns the density over `[low_nm, high_nm)`. `None` if there are no weights or more than 65 536, one is negative or not finite, or all are zero.
     #[must_use]
     pub fn new(weights: &[f32], low_nm: f32, high_nm: f32) -> Option<Self> {
         let total: f64 = weights.iter().map(|w| f64::from(*w)).sum();
@@ -59,7 +58,7 @@ impl WavelengthDensity {
         Some(Self { guide: guide(&pieces, (STEPS_PER_PIECE * weights.len()).next_power_of_two()), pieces })
     }
 
-    /// `N` wavelengths from one number `u` in [0, 1) and its rotations.
+    /// Samples `N` wavelengths from one number `u` in [0, 1) and its rotations.
     #[must_use]
     #[inline]
     pub fn draw<const N: usize>(&self, u: f32) -> Wavelengths<N> {
@@ -136,7 +135,7 @@ mod tests {
         );
     }
 
-    /// The piece of a number is the first whose end lies beyond it, also where the guide's steps are coarse.
+    /// The piece of a number is the first whose end lies beyond it, also for coarse guide steps.
     #[test]
     fn the_guide_leads_to_the_piece_that_a_search_finds() {
         let weights: Vec<f32> = (0..94).map(|i| if i % 7 == 0 { 1e-3 } else { ((i * 37) % 23) as f32 }).collect();
@@ -160,7 +159,7 @@ mod tests {
         for (piece, weight) in density.pieces.iter().zip(&weights) {
             let share = f64::from(piece.pdf) * 800.0 / 47.0;
             sum += share;
-            // Half a grain at either end, and edges of some 17 nm rounded to f32: each by 3e-5 nm at most.
+            // Half of the resolution at either end, and edges of some 17 nm rounded to f32: each by 3e-5 nm at most.
             assert!((share - f64::from(weight / total)).abs() < 1.0 / GRID + 4e-6 * share + 1e-9);
         }
         assert!((sum - 1.0).abs() < 1e-6, "{sum}");
@@ -176,7 +175,7 @@ mod tests {
                 sum += f64::from(*nm) / f64::from(pdf) / 1024.0;
             }
         }
-        // ∫ λ dλ over the three pieces that have weight; the midpoint rule is exact but for rounding.
+        // ∫ λ dλ over the three pieces of nonzero weight; the midpoint rule is exact except for rounding.
         let exact = 450.0 * 100.0 + 700.0 * 200.0;
         assert!((sum / exact - 1.0).abs() < 1e-4, "{sum} {exact}");
     }

@@ -1,6 +1,6 @@
 //! Choices of the format: enums whose values a file spells as one word each.
 //!
-//! A choice that several crates need stands here with its spelling, the lines of help of its words, and nothing that is decided by it.
+//! This file holds the choices that several crates need: spelling and help lines, but nothing that depends on the choice.
 
 use std::fmt;
 
@@ -8,15 +8,15 @@ use std::fmt;
 pub trait Word: Copy + PartialEq + Send + Sync + 'static {
     /// Every word with its value, in the order of the format.
     const WORDS: &'static [(&'static str, Self)];
-    /// One line about each word, in the same order.
+    /// One line of help for each word, in the same order.
     const ABOUT: &'static [&'static str];
 
-    /// The word of a value.
+    /// Returns the word of a value.
     fn word(self) -> &'static str {
         Self::WORDS.iter().find(|(_, value)| *value == self).map_or("", |(word, _)| *word)
     }
 
-    /// The value of a word; `None` for a word that the format does not have.
+    /// Returns the value of a word; `None` for an unknown word.
     fn from_word(word: &str) -> Option<Self> {
         Self::WORDS.iter().find(|(known, _)| *known == word).map(|(_, value)| *value)
     }
@@ -27,7 +27,7 @@ pub trait Word: Copy + PartialEq + Send + Sync + 'static {
     }
 }
 
-/// Declares an enum of words: `"word" => Variant`, each below its documentation; `pub enum Name = Variant` has that variant as its default.
+/// Declares an enum of words: `"word" => Variant`, each below its documentation; `pub enum Name = Variant` makes that variant the default.
 #[macro_export]
 macro_rules! words {
     (
@@ -51,14 +51,14 @@ macro_rules! words {
     };
 }
 
-/// A setting by the key of the format that states it.
+/// Setting, with the key of the format that states it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// The key, without its table.
     pub key: &'static str,
     /// Its value.
     pub value: SettingValue,
-    /// Whether it has an effect where paths are traced only.
+    /// True if it has an effect only with path tracing.
     pub is_of_paths: bool,
 }
 
@@ -75,13 +75,13 @@ pub enum SettingValue {
 }
 
 impl Setting {
-    /// A setting that has an effect whichever integrator there is.
+    /// Returns a setting that has an effect with every integrator.
     #[must_use]
     pub fn new(key: &'static str, value: SettingValue) -> Self {
         Self { key, value, is_of_paths: false }
     }
 
-    /// A setting that has an effect where paths are traced only.
+    /// Returns a setting that has an effect only with path tracing.
     #[must_use]
     pub fn of_paths(key: &'static str, value: SettingValue) -> Self {
         Self { key, value, is_of_paths: true }
@@ -110,7 +110,7 @@ impl From<u32> for SettingValue {
     }
 }
 
-/// Values that reports and requests hold as their words.
+/// Serialises values of reports and requests as their words.
 macro_rules! serde_words {
     ($($name:ident),*) => { $(
         impl serde::Serialize for $name {
@@ -129,7 +129,7 @@ macro_rules! serde_words {
 }
 
 words! {
-    /// Which light paths are simulated: a trade of time for accuracy. All see the same surfaces: depth and identities do not depend on it.
+    /// Light paths that are simulated: a trade-off between time and accuracy. Surfaces are the same for all: depth and identities do not depend on it.
     pub enum Integrator = Path {
         /// Local shading by lamps, suns and sky, without shadows.
         "flat" => Flat,

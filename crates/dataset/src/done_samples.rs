@@ -1,7 +1,7 @@
-//! The samples of a folder that are whole, which a run that goes on leaves; all others are made anew.
+//! Complete samples of a folder. A resumed run keeps them and renders all others again.
 //!
-//! The record of a sample states what was drawn, the digests of the sample's files and a hash of itself. A sample is whole where all of that agrees with the set and
-//! with what is in the folder. Of samples that the run does not make only the records are looked at: what is made of all samples is made of them.
+//! The record of a sample states its changes, the digests of its files and a hash of itself. A sample is complete if all of that agrees with the set and with
+//! the folder. For samples outside the run only the records are checked: files over all samples are made from them.
 
 use std::{ops::Range, path::Path};
 
@@ -10,7 +10,7 @@ use etendue::{Error, ErrorCode, Message, Observer};
 use crate::records::{Records, record_name};
 use crate::{draw::Drawn, format::Writer, record::SampleRecord, set::Set};
 
-/// The samples of a folder, looked at by a run of some of them.
+/// Samples of a folder, checked by a run of some of them.
 pub(crate) struct DoneSamples<'a> {
     pub(crate) set: &'a Set,
     pub(crate) writers: &'a [Box<dyn Writer>],
@@ -19,7 +19,7 @@ pub(crate) struct DoneSamples<'a> {
 }
 
 impl DoneSamples<'_> {
-    /// Refuses records of samples that the run does not make and that cannot be used.
+    /// Refuses unusable records of samples outside the run.
     pub(crate) fn check_others(&self, samples: &Range<u32>) -> Result<(), Error> {
         for sample in self.records.numbers().iter().filter(|sample| !samples.contains(sample)) {
             if let Err(why) = self.record(*sample) {
@@ -33,7 +33,7 @@ impl DoneSamples<'_> {
         Ok(())
     }
 
-    /// The samples that a run that goes on makes: those that are not there or not whole. The observer is told of the latter.
+    /// Samples that a resumed run renders: those that are missing or incomplete. Incomplete ones are reported to the observer.
     pub(crate) fn left(&self, samples: &Range<u32>, observer: &dyn Observer) -> Vec<u32> {
         let is_left = |sample: &u32| {
             if self.records.numbers().binary_search(sample).is_err() {
@@ -47,7 +47,7 @@ impl DoneSamples<'_> {
         samples.clone().filter(is_left).collect()
     }
 
-    /// A record of the set.
+    /// Record of the set.
     fn record(&self, sample: u32) -> Result<SampleRecord, String> {
         let record = self.records.read(sample)?;
         let drawn = Drawn::of(self.set.variations.as_ref(), self.set.seed, sample);
@@ -57,7 +57,7 @@ impl DoneSamples<'_> {
         }
     }
 
-    /// A record whose files are as they were written.
+    /// Record whose files are unchanged.
     fn whole(&self, sample: u32) -> Result<(), String> {
         let record = self.record(sample)?;
         let is_there = |name: &str| {

@@ -1,4 +1,4 @@
-//! What a sample draws: a function of the seed, its number and the name of what is drawn.
+//! Variations of a sample: a function of the seed, its number and the name of the varied key.
 
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::{NoiseStream, stream_of_name};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::request::{Change, choice_texts, number_text, of_choice, of_value};
 
-/// What a sample is for.
+/// Use of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Split {
@@ -21,7 +21,7 @@ pub(crate) enum Split {
 impl Split {
     pub(crate) const ALL: [Self; 2] = [Self::Train, Self::Val];
 
-    /// The part of file names that says it.
+    /// Its part of file names.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Train => "train",
@@ -30,22 +30,22 @@ impl Split {
     }
 }
 
-/// What one sample is.
+/// Varied settings of one sample.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Drawn {
     pub(crate) split: Split,
-    /// Of its light and its noise.
+    /// Seed of its light and its noise.
     pub(crate) seed: u64,
-    /// Of the job, preset by preset and then variation by variation, in the order of the file: what comes last holds.
+    /// Changes of the job, preset by preset and then variation by variation, in the order of the file: later ones override earlier ones.
     pub(crate) groups: Vec<Vec<Change>>,
 }
 
 impl Drawn {
-    /// Those of a sample.
+    /// Returns the settings of a sample.
     pub(crate) fn of(variations: Option<&Variations>, seed: u64, sample: u32) -> Self {
         let stream = |name: &str| stream_of_name(seed, name, sample);
         let fraction = variations.and_then(|v| v.validation_fraction.as_ref()).map_or(0.0, |fraction| fraction.value);
-        // Names that no key has: keys are not empty and have no blank at their ends.
+        // Stream names that no key has: keys are not empty and have no trailing blank.
         let split = if stream(" split").unit_f64() < fraction { Split::Val } else { Split::Train };
         let mut groups = Vec::new();
         for preset in variations.map_or(&[][..], |v| &v.presets) {
@@ -59,7 +59,7 @@ impl Drawn {
         Self { split, seed: stream(" light").double_word() >> 1, groups }
     }
 
-    /// The changes as `--set` takes them.
+    /// The changes in the form of `--set`.
     pub(crate) fn set(&self) -> Vec<String> {
         self.groups.iter().flatten().map(|(change, _)| change.clone()).collect()
     }
@@ -69,14 +69,14 @@ fn preset_name(name: &str) -> String {
     format!(" preset {name}")
 }
 
-/// A value as TOML.
+/// Samples a value, as TOML.
 fn value(distribution: &Distribution, random: &mut NoiseStream) -> String {
     match distribution {
         Distribution::Uniform(range) => number_text(random.random_range(range.min.value..range.max.value)),
         Distribution::LogUniform(range) => {
             let (min, max) = (range.min.value, range.max.value);
             let part = random.random_range(0.0..1.0);
-            // Rounding of the logarithms does not lead beyond the ends.
+            // Rounding of the logarithms does not exceed the limits.
             number_text(exp(ln(min) + part * (ln(max) - ln(min))).clamp(min, max))
         }
         Distribution::Normal(normal) => number_text(truncated(normal, random)),
@@ -88,7 +88,7 @@ fn value(distribution: &Distribution, random: &mut NoiseStream) -> String {
     }
 }
 
-/// Drawn until one is within, which the check of the file makes one of some fifty at worst.
+/// Samples until a value is within the limits; the check of the file guarantees that at least one in some fifty is.
 fn truncated(normal: &Normal, random: &mut NoiseStream) -> f64 {
     let distribution = rand_distr::Normal::new(normal.mean.value, normal.standard_deviation.value)
         .expect("a checked file has a positive deviation");
@@ -104,12 +104,12 @@ fn truncated(normal: &Normal, random: &mut NoiseStream) -> f64 {
     }
 }
 
-/// One of `count` choices, by weights or all alike.
+/// Samples one of `count` choices, by weights or uniformly.
 fn weighted(weights: &[Placed<f64>], count: usize, random: &mut NoiseStream) -> usize {
     if weights.is_empty() {
         return random.random_range(0..count);
     }
-    // Over the greatest, so that their sum is finite.
+    // Divided by the largest, so that their sum is finite.
     let greatest = weights.iter().map(|weight| weight.value).fold(0.0, f64::max);
     let parts: Vec<f64> = weights.iter().map(|weight| weight.value / greatest).collect();
     let mut left = random.random_range(0.0..parts.iter().sum());
@@ -119,7 +119,7 @@ fn weighted(weights: &[Placed<f64>], count: usize, random: &mut NoiseStream) -> 
         }
         left -= part;
     }
-    // Rounding of the sum: the last that may be drawn.
+    // Rounding of the sum: the last choice of nonzero weight.
     weights.iter().rposition(|weight| weight.value > 0.0).expect("a checked file has a weight above 0")
 }
 
@@ -145,7 +145,7 @@ mod tests {
         drawn.groups.iter().flatten().map(|(text, _)| text.as_str()).collect()
     }
 
-    /// The values of a key over some samples.
+    /// Values of a key over some samples.
     fn values(key: &str, samples: u32) -> Vec<String> {
         let file = file(TEXT);
         let of = |sample| Drawn::of(Some(&file), 7, sample);
@@ -177,7 +177,7 @@ mod tests {
         assert_ne!(whole, Drawn::of(Some(&file(TEXT)), 8, 70_000));
     }
 
-    // Five standard errors of 4 000 draws.
+    // Five standard errors of 4 000 samples.
     #[test]
     fn numbers_have_the_moments_of_their_distributions() {
         let (mean, deviation) = moments(&numbers("a"));
@@ -200,7 +200,7 @@ mod tests {
         let count = |values: &[String], value: &str| values.iter().filter(|v| *v == value).count();
         let found = values("c", 4000);
         let (x, table) = (count(&found, "\"x\""), count(&found, "{ k = [1, 2] }"));
-        // A quarter, 1 000: five standard deviations are 137.
+        // A quarter is 1 000: five standard deviations are 137.
         assert!(x + table == 4000 && x.abs_diff(1000) < 137, "{x} {table}");
         let found = values("i", 4000);
         assert!(["2", "3", "4"].iter().all(|value| count(&found, value).abs_diff(1333) < 150));

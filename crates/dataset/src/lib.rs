@@ -1,4 +1,4 @@
-//! Data sets: a job, varied sample after sample, written in the formats of those who train and test by pictures.
+//! Data sets: a job, varied sample after sample, written in the formats of training and test data sets.
 //!
 //! ```no_run
 //! use etendue::{Existing, JobRequest, Unobserved};
@@ -13,16 +13,16 @@
 //! # }
 //! ```
 //!
-//! A *sample* is the job with one draw of all that varies; its pictures are those of all cameras and frames. Sample 70 000 is the same alone or among
-//! all: what is drawn is a function of seed, key and number ([`etendue_core::random::stream_of_name`]).
+//! A *sample* is the job with one choice of all variations; its images are those of all cameras and frames. Sample 70 000 is the same alone or among all: the
+//! choice is a function of seed, key and number ([`etendue_core::random::stream_of_name`]).
 //!
 //! | folder | holds |
 //! | --- | --- |
-//! | `dataset.json` | what the set is made of; a run that goes on must agree with it |
-//! | `samples/NNNNNN.json` | a sample: what was drawn, and the truth of its pictures; with this file it is done |
-//! | `coco`, `kitti`, … | a format each, whole by itself |
+//! | `dataset.json` | facts of the set; a resumed run must agree with them |
+//! | `samples/NNNNNN.json` | a sample: its changes, and the ground truth of its images; with this file it is complete |
+//! | `coco`, `kitti`, … | one format each, complete by itself |
 //!
-//! Masks, boxes, poses and depth are those of the pipeline's ground truth; nothing is found anew here.
+//! Masks, boxes, poses and depth are those of the pipeline's ground truth; nothing is recomputed here.
 
 mod done_samples;
 mod draw;

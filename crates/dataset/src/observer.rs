@@ -1,16 +1,16 @@
-//! What an observer of the whole set is told of one sample's work.
+//! Observer that passes the progress of one sample on to the observer of the whole set.
 
 use etendue::{ImageTile, Message, Observer, Progress};
 
-/// The work of one sample as a part of all.
+/// Work of one sample as a part of all.
 pub(crate) struct OfSample<'a> {
     pub(crate) all: &'a dyn Observer,
-    /// Samples that are done, and of how many.
+    /// Number of finished samples, and total.
     pub(crate) done: usize,
     pub(crate) total: usize,
-    /// The number of the sample.
+    /// Number of the sample.
     pub(crate) sample: u32,
-    /// Whether notes are passed on: they are the same of most samples. Warnings always are, with the sample's number.
+    /// True if notes are passed on: they are the same for most samples. Warnings always are, with the sample's number.
     pub(crate) tells: bool,
 }
 

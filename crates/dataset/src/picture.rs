@@ -1,9 +1,10 @@
-//! A picture with its truth, of a camera's results.
+//! Image with its ground truth, from a camera's results.
 //!
-//! Masks in COCO's run lengths.
+//! Masks are stored as COCO's run lengths.
 //!
-//! Pixels are taken column by column; runs of pixels outside and inside take turns, beginning outside. The text of the runs is that of COCO's API (`rleToString`, Lin et al. 2014): from
-//! the fourth run on the difference to the run two before, in groups of five bits from the lowest, each with a bit that says whether more follow, plus 48.
+//! Pixels are taken column by column; runs of pixels outside and inside alternate, beginning outside. The text of the runs is that of COCO's API
+//! (`rleToString`, Lin et al. 2014): from the fourth run on the difference to the run two before, in groups of five bits from the lowest, each with a bit that
+//! is set if more follow, plus 48.
 
 use core::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -15,23 +16,23 @@ use glam::DQuat;
 use crate::draw::Split;
 use crate::record::{PictureRecord, Pose, objects};
 
-/// A picture of a sample with its truth.
+/// Image of a sample with its ground truth.
 pub(crate) struct Picture<'a> {
-    /// The number of its sample, and what that is for.
+    /// Number and split of its sample.
     pub(crate) sample: (u32, Split),
     pub(crate) record: PictureRecord,
-    /// The file's bytes.
+    /// Bytes of the file.
     pub(crate) bytes: Vec<u8>,
     pub(crate) truth: &'a GroundTruth,
-    /// As a display shows it.
+    /// Display-referred image.
     pub(crate) display: &'a Plane<Display>,
     results: &'a CameraResults,
-    /// Made when it is first asked for: it is that of all frames of the results.
+    /// Made on first use, for all frames of the results.
     cryptomatte: &'a OnceCell<Vec<u8>>,
 }
 
 impl Picture<'_> {
-    /// The coverage of objects and materials, as the bytes of a Cryptomatte.
+    /// Coverage of objects and materials, as the bytes of a Cryptomatte file.
     pub(crate) fn cryptomatte(&self) -> Result<&[u8], Error> {
         if let Some(known) = self.cryptomatte.get() {
             return Ok(known);
@@ -40,18 +41,18 @@ impl Picture<'_> {
         Ok(self.cryptomatte.get_or_init(|| made))
     }
 
-    /// All objects of the world at the picture's time.
+    /// All objects of the world at the image's time.
     pub(crate) fn world_objects(&self) -> Vec<WorldObject> {
         self.results.world_objects(self.record.frame)
     }
 
-    /// The pixels that would show each object were it alone.
+    /// Pixels of each object without occlusion.
     pub(crate) fn silhouettes(&self) -> BTreeMap<u32, Vec<usize>> {
         self.results.silhouettes(&self.truth.instance)
     }
 }
 
-/// Hands the pictures of a camera's frames over, one after the other; `warn` is told of pixels without valid light.
+/// Passes on the images of a camera's frames, one after the other; `warn` receives the pixels without valid light.
 pub(crate) fn each(
     results: &CameraResults,
     number: u32,
@@ -112,7 +113,7 @@ pub(crate) fn each(
     Ok(())
 }
 
-/// Of a camera without processing.
+/// Error for a camera without processing.
 pub(crate) fn no_picture(camera: &str) -> Error {
     Error::coded(
         ErrorCode::UnavailableOutput,
@@ -125,7 +126,7 @@ fn pose_record(pose: &CameraPose) -> Pose {
     Pose { position_m: pose.position_m.to_array(), rotation_wxyz: [w, x, y, z] }
 }
 
-/// The run lengths of every identity but 0, of `width` columns.
+/// Run lengths of every identity except 0, for `width` columns.
 fn run_lengths(ids: &[u32], width: usize) -> BTreeMap<u32, Vec<u32>> {
     let height = ids.len().checked_div(width).unwrap_or(0);
     let mut found: BTreeMap<u32, Runs> = BTreeMap::new();
@@ -147,7 +148,7 @@ struct Runs {
 }
 
 impl Runs {
-    /// A pixel inside, behind all others.
+    /// Adds a pixel inside, after all others.
     fn add(&mut self, at: usize) {
         match self.lengths.last_mut() {
             Some(inside) if at == self.end => *inside += 1,
@@ -198,7 +199,7 @@ mod tests {
 
     #[test]
     fn texts_are_those_of_coco_s_api() {
-        // By pycocotools 2.0.11, mask.frPyObjects of the same counts.
+        // From pycocotools 2.0.11, mask.frPyObjects of the same counts.
         assert_eq!(text(&[0, 2, 2, 1, 1]), "022OO");
         assert_eq!(text(&[6, 1, 40, 4, 5, 4, 5, 4, 21]), "61X13mN000`0");
     }

@@ -1,4 +1,4 @@
-//! The record of a sample: what was drawn and the truth of its pictures, in `samples/NNNNNN.json`.
+//! Record of a sample: its changes and the ground truth of its images, in `samples/NNNNNN.json`.
 
 use std::collections::BTreeMap;
 
@@ -10,26 +10,26 @@ use serde_json::Value;
 
 use crate::draw::Split;
 
-/// A sample that is done.
+/// Complete sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SampleRecord {
     pub(crate) sample: u32,
     pub(crate) split: Split,
-    /// Of its light and noise.
+    /// Seed of its light and noise.
     pub(crate) seed: u64,
-    /// What was drawn: changes of keys as `--set` takes them.
+    /// Changes of keys, in the form of `--set`.
     pub(crate) set: Vec<String>,
-    /// The hash of the sample's plan.
+    /// Hash of the sample's plan.
     pub(crate) plan: String,
     pub(crate) pictures: Vec<PictureRecord>,
-    /// The digests of the sample's files, by their names in the data set's folder.
+    /// Digests of the sample's files, by their names in the data set's folder.
     pub(crate) files: BTreeMap<String, FileDigest>,
-    /// The hash of all else.
+    /// Hash of everything else.
     pub(crate) sha256: Option<String>,
 }
 
 impl SampleRecord {
-    /// The same with its hash.
+    /// Returns the same record with its hash.
     pub(crate) fn sealed(mut self) -> Self {
         self.sha256 = None;
         let bytes = sidecar::encode(&self).unwrap_or_default();
@@ -37,18 +37,18 @@ impl SampleRecord {
         self
     }
 
-    /// Whether it is as it was written.
+    /// Returns true if it is unchanged since it was written.
     pub(crate) fn is_sealed(&self) -> bool {
         self.sha256.is_some() && self.clone().sealed().sha256 == self.sha256
     }
 }
 
-/// A picture of a sample.
+/// Image of a sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PictureRecord {
     pub(crate) camera: String,
     pub(crate) frame: u32,
-    /// Half-way through the exposure.
+    /// Middle of the exposure, s.
     pub(crate) time_s: f64,
     /// The same time with all digits, if the number is rounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -57,11 +57,11 @@ pub(crate) struct PictureRecord {
     pub(crate) extension: String,
     pub(crate) width_px: usize,
     pub(crate) height_px: usize,
-    /// fx, skew, cx, fy, cy in raster coordinates; `None` where pictures are not rectilinear.
+    /// fx, skew, cx, fy, cy in raster coordinates; `None` if images are not rectilinear.
     pub(crate) camera_matrix_px: Option<[f64; 5]>,
-    /// From the camera's frame to the world.
+    /// Transform from the camera's frame to the world.
     pub(crate) pose: Pose,
-    /// From the camera's frame to the frame that carries it.
+    /// Transform from the camera's frame to the frame that carries it.
     pub(crate) mount: Option<Pose>,
     pub(crate) objects: Vec<ObjectRecord>,
 }
@@ -73,14 +73,14 @@ impl PictureRecord {
     }
 }
 
-/// A place and a rotation.
+/// Position and rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Pose {
     pub(crate) position_m: [f64; 3],
     pub(crate) rotation_wxyz: [f64; 4],
 }
 
-/// An object of a picture: its keys are those of `boxes.json`, and its mask.
+/// Object of an image: the keys of `boxes.json`, and its mask.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ObjectRecord {
     pub(crate) id: u32,
@@ -95,12 +95,12 @@ pub(crate) struct ObjectRecord {
     pub(crate) visible_fraction: f64,
     pub(crate) truncated_fraction: Option<f64>,
     pub(crate) box_3d: SolidRecord,
-    /// The pixels that show it, as COCO's compressed run lengths; `None` where none does.
+    /// Visible pixels, as COCO's compressed run lengths; `None` if there are none.
     #[serde(default)]
     pub(crate) mask_rle: Option<String>,
 }
 
-/// A box in space.
+/// Box in space.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SolidRecord {
     pub(crate) size_m: [f64; 3],
@@ -108,7 +108,7 @@ pub(crate) struct SolidRecord {
     pub(crate) world: Stance,
 }
 
-/// Where a box stands.
+/// Pose of a box.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Stance {
     pub(crate) centre_m: [f64; 3],
@@ -116,18 +116,18 @@ pub(crate) struct Stance {
 }
 
 impl PictureRecord {
-    /// The part of file names that no other picture of the set has.
+    /// Unique part of file names in the set.
     pub(crate) fn stem(&self, sample: u32) -> String {
         format!("{sample:06}_{}_{:04}", self.camera, self.frame)
     }
 
-    /// Those that some pixel shows, with their masks.
+    /// Objects with a visible pixel, with their masks.
     pub(crate) fn visible(&self) -> impl Iterator<Item = (&ObjectRecord, &str, [f64; 4])> {
         self.objects.iter().filter_map(|object| Some((object, object.mask_rle.as_deref()?, object.visible_box_px?)))
     }
 }
 
-/// The objects of a frame's boxes.
+/// Objects of a frame's boxes.
 pub(crate) fn objects(boxes: Value) -> Vec<ObjectRecord> {
     let Value::Object(mut boxes) = boxes else { return Vec::new() };
     let objects = boxes.remove("objects").unwrap_or_default();

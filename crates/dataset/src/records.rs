@@ -1,4 +1,4 @@
-//! Records of samples, and the writer that a format has for them.
+//! Records of samples, and the writer trait of formats.
 
 use std::path::{Path, PathBuf};
 use std::{io, ops::Range};
@@ -9,22 +9,22 @@ use etendue_scene::limits::DESCRIPTION;
 
 use crate::{picture::Picture, record::SampleRecord, set::Set};
 
-/// The folder of the samples' records.
+/// Folder of the samples' records.
 const SAMPLES: &str = "samples";
 
-/// The name of a sample's record.
+/// Name of a sample's record.
 pub(crate) fn record_name(sample: u32) -> String {
     format!("{SAMPLES}/{sample:06}.json")
 }
 
-/// The samples of a folder, in the order of their numbers; one is in memory at a time.
+/// Samples of a folder, in the order of their numbers; one is in memory at a time.
 pub(crate) struct Records {
     root: PathBuf,
     samples: Vec<u32>,
 }
 
 impl Records {
-    /// Of the folder of a data set, which may have no sample yet.
+    /// Returns those in the folder of a data set, which may have no sample yet.
     pub(crate) fn in_folder(root: &Path) -> Result<Self, Error> {
         if root.join(SAMPLES).exists() {
             Self::of(root)
@@ -33,7 +33,7 @@ impl Records {
         }
     }
 
-    /// Of the folder of a data set that has samples.
+    /// Returns those in the folder of a data set that has samples.
     pub(crate) fn of(root: &Path) -> Result<Self, Error> {
         let entries = std::fs::read_dir(root.join(SAMPLES)).map_err(Error::run)?;
         let mut samples = Vec::new();
@@ -46,12 +46,12 @@ impl Records {
         Ok(Self { root: root.to_path_buf(), samples })
     }
 
-    /// The numbers of the samples.
+    /// Numbers of the samples.
     pub(crate) fn numbers(&self) -> &[u32] {
         &self.samples
     }
 
-    /// One after the other.
+    /// Iterates over the records.
     pub(crate) fn each(&self) -> impl Iterator<Item = io::Result<SampleRecord>> + '_ {
         self.samples.iter().map(|sample| {
             let path = self.root.join(record_name(*sample));
@@ -59,7 +59,7 @@ impl Records {
         })
     }
 
-    /// The record of a sample; why it cannot be used, in words.
+    /// Record of a sample, or the reason in words for which it cannot be used.
     pub(crate) fn read(&self, sample: u32) -> Result<SampleRecord, String> {
         let bytes =
             read_regular(&self.root.join(record_name(sample)), &DESCRIPTION).map_err(|cause| cause.to_string())?;
@@ -73,30 +73,30 @@ impl Records {
     }
 }
 
-/// Writes one format.
+/// Writer of one format.
 pub(crate) trait Writer {
-    /// Refuses to make samples anew in the place of ones that are in the folder, where what is made of them is not to be had in part.
+    /// Refuses to render samples again in a folder if the files made from them cannot be replaced in part.
     fn check_replaced(&self, _records: &Records, _samples: &Range<u32>, _folder: &OutputFolder) -> Result<(), Error> {
         Ok(())
     }
 
-    /// Returns true where a file of a sample that is no longer in its place is, as it was written, part of another file of the format.
+    /// Returns true if a file of a sample, no longer at its path, is part of another file of the format, unchanged.
     fn holds(&self, _name: &str, _record: &SampleRecord, _records: &Records, _root: &Path) -> bool {
         false
     }
 
-    /// The files of one picture.
+    /// Writes the files of one image.
     fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error>;
 
-    /// The files of one sample, after those of its pictures.
+    /// Writes the files of one sample, after those of its images.
     fn sample(&self, _set: &Set, _record: &SampleRecord, _folder: &mut OutputFolder) -> Result<(), Error> {
         Ok(())
     }
 
-    /// The files of all samples that are in the folder.
+    /// Writes the files over all samples in the folder.
     fn finish(&self, set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error>;
 
-    /// Removes what is of no more use when these have their names.
+    /// Removes files that are no longer needed once these have their names.
     fn tidy(&self, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {
         Ok(())
     }

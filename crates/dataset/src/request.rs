@@ -1,4 +1,4 @@
-//! The request of a data set, and what varies in it: changes of keys at places of a file.
+//! Request of a data set, and its variations: changes of keys with their places in a file.
 
 use std::{ops::Range, path::PathBuf};
 
@@ -54,23 +54,23 @@ impl DatasetRequest {
     }
 }
 
-/// A change `key=value` as `--set` takes it, and where the file states it.
+/// Change `key=value` in the form of `--set`, and its place in the file.
 pub(crate) type Change = (String, Place);
 
-/// The changes that give all keys of a variation a value.
+/// Changes that give all keys of a variation a value.
 pub(crate) fn of_value<'a>(entry: &'a Variation, value: &'a str) -> impl Iterator<Item = Change> + 'a {
     entry.key.iter().map(move |key| (format!("{}={value}", key.value), key.place.clone()))
 }
 
-/// The changes of a preset's choice.
+/// Changes of a preset's choice.
 pub(crate) fn of_choice(preset: &Preset, choice: usize) -> Vec<Change> {
     preset.choices[choice].iter().map(|change| (change.value.clone(), change.place.clone())).collect()
 }
 
-/// Refuses keys that are not there and values that they do not take, by the ends of every distribution and all values and choices, one at a time in the place of
-/// what a sample has drawn: all faults before anything is rendered. `groups` are the sample's: of each preset, then of each variation.
+/// Refuses unknown keys and unaccepted values before anything is rendered. It tests the limits of every distribution and all values and choices, one at a time
+/// in place of the sample's own: all errors are reported. `groups` are the sample's: of each preset, then of each variation.
 pub(crate) fn check(variations: &Variations, groups: &[Vec<Change>], job: &JobRequest) -> Result<(), Error> {
-    // What is wrong without any change is told of the job alone.
+    // Errors without any change are those of the job alone.
     job.check_changes(&[])?;
     let mut faults = Vec::new();
     for (place, alternatives) in alternatives(variations).iter().enumerate() {
@@ -88,7 +88,7 @@ pub(crate) fn check(variations: &Variations, groups: &[Vec<Change>], job: &JobRe
     if faults.is_empty() { Ok(()) } else { Err(Error::Input(faults)) }
 }
 
-/// The choices of each preset, then the ends of each variation.
+/// Choices of each preset, then the limits of each variation.
 fn alternatives(variations: &Variations) -> Vec<Vec<Vec<Change>>> {
     let choices = |preset: &Preset| (0..preset.choices.len()).map(|choice| of_choice(preset, choice)).collect();
     let ends =
@@ -96,7 +96,7 @@ fn alternatives(variations: &Variations) -> Vec<Vec<Vec<Change>>> {
     variations.presets.iter().map(choices).chain(variations.vary.iter().map(ends)).collect()
 }
 
-/// The least and the greatest value, or all.
+/// Minimum and maximum value, or all values.
 fn ends(distribution: &Distribution) -> Vec<String> {
     let numbers = |numbers: &[f64]| numbers.iter().map(|number| number_text(*number)).collect();
     match distribution {
@@ -111,7 +111,7 @@ fn ends(distribution: &Distribution) -> Vec<String> {
     }
 }
 
-/// The values of a choice as TOML.
+/// Values of a choice as TOML.
 pub(crate) fn choice_texts(choice: &ChoiceOf) -> Vec<String> {
     choice.values.iter().map(etendue_scene::written::Item::in_one_line).collect()
 }

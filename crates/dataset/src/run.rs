@@ -1,4 +1,4 @@
-//! Sample after sample, each whole or not there; then what is made of all.
+//! Run of a data set: sample after sample, each complete or absent; then the files over all samples.
 
 use std::path::{Path, PathBuf};
 use std::{collections::BTreeMap, ops::Range};
@@ -15,15 +15,15 @@ use crate::records::{Records, record_name};
 use crate::request::{self, DatasetRequest};
 use crate::{done_samples::DoneSamples, draw::Drawn, observer::OfSample, picture, record::SampleRecord, set::Set};
 
-/// What the set is made of.
+/// File of the set's facts.
 const FACTS: &str = "dataset.json";
 
-/// Makes the samples of a data set and writes them in the formats asked for; answers with the paths of what it wrote. Samples get their names one after the
-/// other: a run that is interrupted keeps those that are whole, and one that goes on ([`Existing::Resume`]) leaves them. What is made of all samples, such as
-/// COCO's file, is of all that are in the folder. Runs on the caller's thread pool.
+/// Renders the samples of a data set and writes them in the requested formats; returns the paths of the written files. Samples are committed one by one: an
+/// interrupted run keeps the complete ones, and a resumed one ([`Existing::Resume`]) skips them. Files over all samples, such as COCO's, include all samples in
+/// the folder. Runs on the caller's thread pool.
 ///
 /// # Errors
-/// All faults of the job and of the variations, before anything is rendered; a sample whose plan cannot be made; a folder that holds another data set; where the
+/// All errors of the job and of the variations, before anything is rendered; a sample whose plan cannot be made; a folder that holds another data set; if the
 /// observer cancels, light is not finite, or the folder cannot be written.
 pub fn dataset(
     request: &DatasetRequest,
@@ -61,7 +61,7 @@ pub fn dataset(
     Ok(written)
 }
 
-/// The samples that are made.
+/// Samples that are to be rendered.
 fn samples_left(
     set: &Set,
     writers: &[Box<dyn Writer>],
@@ -105,7 +105,7 @@ fn text_hash(request: &DatasetRequest) -> Result<Option<String>, Error> {
     Ok(Some(hash::hex(&hash::of_bytes(&bytes))))
 }
 
-/// Refuses a folder that holds another data set, or one that nobody asked to go on with.
+/// Refuses a folder that holds another data set, or one that the caller did not request to resume.
 fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error> {
     let path = root.join(FACTS);
     if !path.exists() {
@@ -128,13 +128,13 @@ fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error>
 
 struct Run<'a> {
     request: &'a DatasetRequest,
-    /// The samples that it makes.
+    /// Samples to render.
     left: Vec<u32>,
     set: &'a Set,
     writers: &'a [Box<dyn Writer>],
     folder: &'a mut OutputFolder,
     observer: &'a dyn Observer,
-    /// Samples that this run has made.
+    /// Samples rendered by this run.
     made: usize,
 }
 
@@ -149,7 +149,7 @@ impl Run<'_> {
             let all = self.observer;
             let observer = OfSample { all, done, total: left.len(), sample: *sample, tells: done == 0 };
             self.sample(*sample, &observer)?;
-            // The record is the last of its files, so that a sample that has one is whole.
+            // The record is the last of its files, so a sample with a record is complete.
             written.extend(self.folder.publish().map_err(Error::run)?);
             self.made += 1;
         }
@@ -194,7 +194,7 @@ impl Run<'_> {
     }
 }
 
-/// Which sample the faults are of, and what it drew.
+/// Adds the sample, and its changes, to the errors.
 fn of_sample(error: Error, sample: u32, set: &[String]) -> Error {
     let Error::Input(mut faults) = error else { return error };
     for fault in &mut faults {

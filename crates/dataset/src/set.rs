@@ -1,4 +1,4 @@
-//! What is the same for all samples: cameras, classes, formats; and the file that says so.
+//! Common data of all samples: cameras, classes, formats; and the file that states them.
 
 use std::ops::Range;
 
@@ -9,24 +9,24 @@ use serde_json::{Value, json};
 
 use crate::{picture::no_picture, request::DatasetRequest};
 
-/// What is the same for all samples.
+/// Common data of all samples.
 pub(crate) struct Set {
     pub(crate) seed: u64,
     pub(crate) formats: Vec<SetFormat>,
     pub(crate) frames: Range<u32>,
-    /// Names, in the order of the job.
+    /// Camera names, in the order of the job.
     pub(crate) cameras: Vec<String>,
     /// Rectified pairs: the left and the right camera.
     pub(crate) pairs: Vec<(String, String)>,
-    /// Names and ids of the scene's classes, in the order of the ids.
+    /// Names and ids of the scene's classes, in the order of ids.
     pub(crate) classes: Vec<(String, u32)>,
     pub(crate) variations: Option<Variations>,
-    /// What `dataset.json` says.
+    /// Content of `dataset.json`.
     pub(crate) facts: Value,
 }
 
 impl Set {
-    /// Of a request and its job without variations. Cameras that a format cannot describe are refused.
+    /// Returns the set of a request and its job without variations. Refuses cameras that a format cannot describe.
     pub(crate) fn of(
         request: &DatasetRequest,
         job: &Job,
@@ -64,22 +64,22 @@ impl Set {
         Ok(Self { seed, formats, frames: request.frames.clone(), cameras, pairs, classes, variations, facts })
     }
 
-    /// The id of a class; `None` of what has none.
+    /// Id of a class; `None` for an object without one.
     pub(crate) fn class_id(&self, class: Option<&str>) -> Option<u32> {
         self.classes.iter().find(|(name, _)| Some(name.as_str()) == class).map(|(_, id)| *id)
     }
 
-    /// Its place among the classes, from 0.
+    /// Index among the classes, from 0.
     pub(crate) fn class_place(&self, class: Option<&str>) -> Option<usize> {
         self.classes.iter().position(|(name, _)| Some(name.as_str()) == class)
     }
 
-    /// Pictures of a camera in a sample.
+    /// Images of a camera per sample.
     pub(crate) fn frame_count(&self) -> u64 {
         u64::from(self.frames.end - self.frames.start)
     }
 
-    /// Keys of the variations that no format of the run reads, in sentences.
+    /// Keys of the variations that no format of the run uses, in sentences.
     pub(crate) fn idle_keys(&self) -> Vec<String> {
         let Some(file) = &self.variations else { return Vec::new() };
         let keys = [
@@ -97,7 +97,7 @@ impl Set {
         check_cameras(job, &self.formats)
     }
 
-    /// Refuses a sample whose classes are others: numbers would not mean the same in all files.
+    /// Refuses a sample with other classes: numbers would differ in meaning between files.
     pub(crate) fn check_classes(&self, job: &Job, sample: u32) -> Result<(), Error> {
         let mut classes = job.plan().classes.clone();
         classes.sort_by_key(|(_, id)| *id);
@@ -112,7 +112,7 @@ impl Set {
     }
 }
 
-/// As asked for, each once, else as the file says, else COCO.
+/// Requested formats, each once; else those of the file, else COCO.
 fn formats(request: &DatasetRequest, variations: Option<&Variations>) -> Vec<SetFormat> {
     let stated = variations.map_or(Vec::new(), |v| v.formats.iter().map(|format| format.value).collect());
     let asked = [&request.formats, &stated].into_iter().find(|list| !list.is_empty()).cloned();
@@ -158,7 +158,7 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
     if faults.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::UnknownName, faults)) }
 }
 
-/// Longest name of a camera in an archive, whose names have 100 characters.
+/// Maximum length of a camera name in an archive, whose names have 100 characters.
 const MAX_NAME_IN_TAR: usize = 69;
 
 fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
@@ -194,7 +194,7 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
     Ok(())
 }
 
-/// A format that cannot have a camera of this name, and why.
+/// A format that does not support a camera of this name, and the reason.
 fn unfit_name(name: &str, names: &[&str], formats: &[SetFormat]) -> Option<(SetFormat, String)> {
     let with_world = [SetFormat::Mcap, SetFormat::OpenLabel].into_iter().find(|format| formats.contains(format))?;
     if name == "world" {
@@ -205,7 +205,7 @@ fn unfit_name(name: &str, names: &[&str], formats: &[SetFormat]) -> Option<(SetF
     Some((SetFormat::Mcap, format!("its topics have the names of those of {other}; rename it")))
 }
 
-/// The name of a camera in topics: ROS 2 has letters, digits and underscores there, and no digit in front.
+/// Name of a camera in topics: ROS 2 allows letters, digits and underscores, and no leading digit.
 pub(crate) fn topic_name(camera: &str) -> String {
     let name = camera.replace('-', "_");
     if name.starts_with(|c: char| c.is_ascii_digit()) { format!("camera_{name}") } else { name }

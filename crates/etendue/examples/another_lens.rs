@@ -1,4 +1,4 @@
-//! Another lens on a stored radiance: the light at the entrance pupil is rendered once, then photographed by two apertures.
+//! Another lens on a stored radiance: the light at the entrance pupil is rendered once, then captured with two apertures.
 //!
 //! `cargo run --release -p etendue --example another_lens -- out/lenses`
 
@@ -8,7 +8,7 @@
 use etendue::{Error, Existing, ExposeRequest, JobRequest, RenderOptions, Unobserved, expose};
 use std::path::{Path, PathBuf};
 
-/// Writes the radiance and two photographs of it into `out` and answers with the photographs' files.
+/// Writes the radiance and two captures of it into `out`; returns the captures' files.
 pub(crate) fn run(out: &Path) -> Result<Vec<PathBuf>, Error> {
     let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
     let mut request = JobRequest { spp: Some(16), ..JobRequest::new(format!("{scenes}/cornell/cornell.toml")) };

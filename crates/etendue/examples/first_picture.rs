@@ -1,4 +1,4 @@
-//! A first picture: the Cornell box from its job file, looked at in memory and written to a folder.
+//! A first image: the Cornell box from its job file, read in memory and written to a folder.
 //!
 //! `cargo run --release -p etendue --example first_picture -- out/first`
 
@@ -8,7 +8,7 @@
 use etendue::{Error, Existing, JobRequest, RenderOptions, Unobserved};
 use std::path::{Path, PathBuf};
 
-/// Renders 16 samples a pixel into `out` and answers with the files' paths.
+/// Renders 16 samples per pixel into `out` and returns the files' paths.
 pub(crate) fn run(out: &Path) -> Result<Vec<PathBuf>, Error> {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cornell/cornell.toml");
     let job = JobRequest { spp: Some(16), ..JobRequest::new(scene) }.open()?;

@@ -1,4 +1,4 @@
-//! A chart, photographed and measured: dots before a camera, its distortion with uncertainty against what the camera file declares.
+//! A chart, captured and measured: dots in front of a camera; its distortion with uncertainty compared with the camera file.
 //!
 //! `cargo run --release -p etendue --example measure_chart -- out/chart`
 
@@ -12,7 +12,7 @@ use etendue::report::Report;
 use etendue::{Error, Existing, JobRequest, RenderOptions, Unobserved};
 use std::path::Path;
 
-/// Makes the chart, photographs and measures it in `out`.
+/// Makes the chart, captures and measures it in `out`.
 pub(crate) fn run(out: &Path) -> Result<Report, Error> {
     let size = GridSize { columns: Some(33), rows: None, pitch_mm: None };
     let chart = Chart::Dots(Dots { size, dot_ratio: 0.5 });

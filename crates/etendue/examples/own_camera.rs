@@ -1,4 +1,4 @@
-//! A camera in code: one scene seen by cameras whose pixels grow, without a file of any of them.
+//! A camera in code: one scene seen by cameras of increasing pixel size, without camera files.
 //!
 //! `cargo run --release -p etendue --example own_camera`
 
@@ -7,11 +7,11 @@
 
 use etendue::{Error, JobRequest, MemoryFiles, RenderOptions, Unobserved};
 
-/// Mean electrons of the middle pixel for each pixel pitch in µm: they grow with its area.
+/// Mean electrons of the central pixel for each pixel pitch in µm: they increase with its area.
 pub(crate) fn run(pitches_um: &[f64]) -> Result<Vec<f64>, Error> {
     let furnace = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/furnace/furnace.toml");
     let scene = std::fs::read_to_string(furnace).map_err(Error::input)?;
-    // The scene of the furnace; its own camera is left out.
+    // The scene of the furnace, without its own camera.
     let scene: String = scene.split("[[cameras]]").take(1).collect();
     pitches_um.iter().map(|pitch_um| middle_electrons(&scene, *pitch_um)).collect()
 }

@@ -54,12 +54,12 @@ pixel_pitch_um = 40
 spp = 4
 "#;
 
-/// The depth of the middle row of pixels, m.
+/// Depth of the middle row of pixels, m.
 pub(crate) fn run() -> Result<Vec<f32>, Error> {
     let place = |i: u32| 4.0 * (i as f32 / (SIDE - 1) as f32) - 2.0;
     let vertex = |i: u32| {
         let (x, y) = (place(i % SIDE), place(i / SIDE));
-        // Up and down along x: 0 at the folds' feet, 0.2 on their ridges.
+        // Up and down along x: 0 at the lower edges of the folds, 0.2 on their ridges.
         [x, y, 0.2 * (1.0 - 2.0 * (x.rem_euclid(1.0) - 0.5).abs())]
     };
     let positions: Vec<[f32; 3]> = (0..SIDE * SIDE).map(vertex).collect();

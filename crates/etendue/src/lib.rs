@@ -16,26 +16,26 @@
 //!
 //! | from | to | by |
 //! | --- | --- | --- |
-//! | a job file | its plan, radiance, electrons, raw, picture, ground truth | [`Job`] |
-//! | a job file | what it will model and cost, effect by effect, and what each could be left out for | [`Job::report`], [`Job::effects`] |
+//! | a job file | its plan, radiance, electrons, raw image, developed image, ground truth | [`Job`] |
+//! | a job file | modelled effects and their cost, and the changes that disable each | [`Job::report`], [`Job::effects`] |
 //! | a scene from arrays, a camera in code | the same | [`MemoryFiles`] |
-//! | a job file | where its cameras stand and how they project, for ROS, Kalibr and COLMAP | [`Job::save_calibration_files`] |
+//! | a job file | poses and projections of its cameras, for ROS, Kalibr and COLMAP | [`Job::save_calibration_files`] |
 //! | shards of a job | the files of the whole | [`merge()`] |
-//! | stored radiance and a camera file | what that camera would have taken | [`expose()`] |
+//! | stored radiance and a camera file | the capture of that camera | [`expose()`] |
 //! | stored radiance and a weather file | the same seen through fog | [`weather()`] |
-//! | stored raws and a camera file | pictures by its processing | [`develop()`] |
-//! | even light and a camera file | raws of the bare sensor | [`flat()`] |
+//! | stored raws and a camera file | images developed by its processing | [`develop()`] |
+//! | uniform illumination and a camera file | raws of the bare sensor | [`flat()`] |
 //! | an EMVA 1288 data sheet | a camera file | [`datasheet()`] |
 //! | a scene of another program | a scene and a job of the format | [`import()`] |
-//! | a camera file | a chart as a scene, with its truth | [`chart`] |
-//! | pictures | parameters of the camera with their uncertainty | [`measure`] |
-//! | a camera file | a laboratory folder photographed by it | [`laboratory()`] |
-//! | a laboratory folder of pictures | the camera that took them, as a camera file and a report | [`characterise`] |
+//! | a camera file | a chart as a scene, with reference data | [`chart`] |
+//! | images | parameters of the camera with their uncertainty | [`measure`] |
+//! | a camera file | a laboratory folder captured by it | [`laboratory()`] |
+//! | a laboratory folder of images | the camera that captured them, as a camera file and a report | [`characterise`] |
 //! | two results | whether they differ, and by how much | [`compare()`] |
-//! | any file that Étendue knows | what is in it | [`inspect()`] |
+//! | any supported file | its content | [`inspect()`] |
 //!
-//! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process. What the caller should
-//! know and is no error goes to its [`Observer`].
+//! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process. Notes and warnings for the caller go to its
+//! [`Observer`].
 
 pub use etendue_core::observer::{FramePlace, ImageTile, Message, Observer, Progress, Unit, Unobserved};
 pub use etendue_import::{ImportRequest, import};

@@ -1,4 +1,4 @@
-//! glTF files: their mesh as it is, lights, cameras and what moves in our keys.
+//! Import of glTF files: the mesh is referenced unchanged; lights, cameras and animated nodes are converted to our keys.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let mut scene = Scene::default();
     let mesh = if stage.mesh_nodes.is_empty() { None } else { Some(read_mesh(file).map_err(Error::input)?) };
     let still = stage.mesh_nodes.iter().any(|node| motion.parts.mover_of[*node].is_none());
-    // What stands still is called as the file, and its part of the file "still": no part that moves may be.
+    // The static part has the name of the file, and "still" in its part file name: no moving part may have that name.
     let mut names = Names::default();
     let mut still_name = String::new();
     if still {
@@ -63,21 +63,21 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     Ok(made)
 }
 
-/// The mesh of what stands still, in a file that `way` leads to.
+/// Adds the mesh of the static part, in a file at the path `way`.
 fn add_still(scene: &mut Scene, name: &str, way: &str, report: &mut Vec<String>) {
     scene.meshes.push(Mesh::new(name, way));
     scene.objects.push(Object::new(name, Body::Mesh(name.into()), Transform::default()));
     report.push(format!("its meshes: object \"{name}\", materials and pictures as the plan tells"));
 }
 
-/// What lights and cameras move with.
+/// State for lights and cameras: the moving frames.
 struct Held<'a> {
     motion: &'a GltfMotion,
     moving: &'a Moving,
 }
 
 impl Held<'_> {
-    /// The frame of what is in a node, and the way from its axes to those of the frame; in the file's axes.
+    /// Frame of the content of a node, and the transform from its axes to those of the frame; in the file's axes.
     fn place(&self, node: usize, to_file: DAffine3) -> (Option<String>, DAffine3) {
         let Some(mover) = self.motion.parts.mover_of[node] else { return (None, to_file) };
         let (name, scale) = self.moving.frame(mover);
@@ -91,10 +91,10 @@ fn glows(mesh: &MeshAsset) -> bool {
     mesh.slot_materials.iter().any(|slot| slot.surface.as_ref().is_some_and(emits))
 }
 
-/// `None` of a light that gives none.
+/// `None` for a light of zero intensity.
 fn light_of(light: &GltfLight, held: &Held<'_>, names: &mut Names, report: &mut Vec<String>) -> Option<Light> {
     let name = names.take(&light.name, "light");
-    // The specification multiplies linear sRGB by the intensity: what a lamp of that colour has is its luminance times as much.
+    // The specification multiplies linear sRGB by the intensity: a coloured light has the luminance of its colour times that of a white one.
     let share: f64 = light.colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
     let level = light.intensity * share;
     if level <= 0.0 {
@@ -116,7 +116,7 @@ fn light_of(light: &GltfLight, held: &Held<'_>, names: &mut Names, report: &mut 
         }
         GltfLightKind::Spot { inner_rad, outer_rad } => {
             report.push(note("spot, whose edge falls by our own curve between the same angles", "cd"));
-            // 90° in 32 bits may lie above it.
+            // 90° rounded to 32 bits may exceed it.
             let half_deg = [inner_rad, outer_rad].map(|rad| rad.to_degrees().min(90.0));
             lamps::spot(&name, position, ahead, half_deg, level, colour)
         }
@@ -163,7 +163,7 @@ fn camera_of(camera: &GltfCamera, held: &Held<'_>, names: &mut Names, report: &m
     };
     let free = if aspect.is_none() { "; its shape is ours" } else { "" };
     report.push(format!("camera \"{name}\": {told}{free}; its near and far planes are not used"));
-    // The scale of its node does not count.
+    // The scale of its node is ignored.
     let (frame, place) = held.place(camera.node, camera.to_file);
     let axis = |v: DVec3| to_world(place.matrix3 * v);
     let pose = pose_of(to_world(place.translation), axis(DVec3::NEG_Z), axis(DVec3::Y));
@@ -171,7 +171,7 @@ fn camera_of(camera: &GltfCamera, held: &Held<'_>, names: &mut Names, report: &m
     ImportedCamera { name, pose, view, size_px: size_of(aspect.unwrap_or(4.0 / 3.0)) }
 }
 
-/// A view of the whole mesh, from the front and above.
+/// View of the whole mesh, from the front and above.
 fn view_of(mesh: Option<&MeshAsset>) -> ImportedCamera {
     let places = || mesh.iter().flat_map(|m| m.positions.iter().map(|p| (m.origin, p)));
     let world =

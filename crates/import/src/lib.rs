@@ -1,7 +1,6 @@
-//! Scenes of other programs as files of the format: a scene, a job with its cameras, what became of what.
+//! Import of scenes of other programs as files of the format: a scene, a job with its cameras, and a conversion report.
 //!
-//! What a file of another program says is written down in our own keys, so that it can be read, changed and built upon
-//! (docs/import.md, docs/decisions/import.md).
+//! The content of another program's file is written in our own keys, so that it can be read, changed and extended (docs/import.md, docs/decisions/import.md).
 
 mod gltf;
 mod lamps;
@@ -25,7 +24,7 @@ use etendue_io::{Existing, OutputFolder};
 
 use written::Written;
 
-/// What is imported, by the endings of files.
+/// Supported scene files, by extension.
 const KINDS: &str = ".glb, .gltf, .pbrt, .xml (Mitsuba), .usd, .usda, .usdc or .usdz";
 
 /// A scene of another program.
@@ -47,18 +46,18 @@ fn parameter(text: &str) -> Result<(String, String), String> {
     }
 }
 
-/// Writes `scene.toml`, `job.toml` and what they need into a folder, of a scene of another program; answers with their paths. What was
-/// mapped to what and what was dropped stands at the head of the scene and goes to the observer.
+/// Imports a scene of another program: writes `scene.toml`, `job.toml` and their files into a folder and returns their paths. The conversion report (mapped and
+/// dropped content) is the header of the scene and is passed to the observer.
 ///
 /// # Errors
-/// Where the file cannot be read or used, a parameter has no effect, or the folder cannot be written.
+/// If the file cannot be read or used, a parameter has no effect, or the folder cannot be written.
 pub fn import(
     request: &ImportRequest,
     folder: &Path,
     existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
-    // The folder may be made by this: paths between files need it.
+    // The folder may be created by this call: paths between files need it.
     let from = std::path::absolute(folder)
         .map_err(|cause| Error::coded(ErrorCode::UnreadableFile, format!("{}: {cause}", folder.display())))?;
     let Written { files, report } = read(request, &from)?;
@@ -71,7 +70,7 @@ pub fn import(
     folder.commit().map_err(Error::run)
 }
 
-/// The files of a scene, whose paths lead from `folder`.
+/// Files of a scene, with paths relative to `folder`.
 fn read(request: &ImportRequest, folder: &Path) -> Result<Written, Error> {
     let ImportRequest { file, parameters } = request;
     let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
@@ -103,7 +102,7 @@ fn read(request: &ImportRequest, folder: &Path) -> Result<Written, Error> {
     }
 }
 
-/// What is said of a scene whose reader is not built in.
+/// Error for a scene whose reader is not built in.
 #[cfg(any(test, not(feature = "usd")))]
 fn without_usd(file: &Path) -> Error {
     Error::coded(

@@ -1,4 +1,4 @@
-//! Nodes of glTF files that move, as frames with keys and objects in them.
+//! Moving nodes of glTF files, as frames with keys and objects in them.
 
 use std::path::Path;
 
@@ -11,33 +11,33 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::naming::{Names, path_between, rounded};
 
-/// The binary chunk of a GLB file, by its name in `meshes/`.
+/// Binary chunk of a GLB file, by its name in `meshes/`.
 const BLOB: &str = "chunk.bin";
-/// How long a jump of a track with steps takes, s.
+/// Duration of a jump of a stepped track, s.
 const JUMP_S: f64 = 1e-6;
-/// From key to key tracks turn by less, degrees.
+/// Upper limit of the rotation between two keys, degrees.
 const MAX_TURN_DEG: f64 = 170.0;
 
-/// From the file's axes (+y up, +z forward) to the world's (+z up, +x forward).
+/// Rotation from the file's axes (+y up, +z forward) to the world's (+z up, +x forward).
 pub(super) fn to_world(v: DVec3) -> DVec3 {
     DVec3::new(v.z, v.x, v.y)
 }
 
-/// What moves, as it stands in the written scene.
+/// Moving nodes in the written scene.
 pub(super) struct Moving {
-    /// Frames and the scale of lengths in them, by the numbers of movers.
+    /// Frames and their scales of length, by the numbers of moving nodes.
     frames: Vec<(String, f64)>,
 }
 
 impl Moving {
-    /// The name of a mover's frame, and the scale of lengths in its node.
+    /// Name of a moving node's frame, and the scale of lengths in the node.
     pub(super) fn frame(&self, mover: usize) -> (&str, f64) {
         let (name, scale) = &self.frames[mover];
         (name, *scale)
     }
 }
 
-/// Adds what moves to a scene, by names that are free, and its meshes to what is written.
+/// Adds the moving nodes to a scene, under free names, and their meshes to the written files.
 pub(super) fn add_moving(
     scene: &mut Scene,
     motion: &GltfMotion,
@@ -78,7 +78,7 @@ pub(super) fn add_moving(
             object.keys = mover.scale.as_ref().map(scale_keys).unwrap_or_default();
             scene.objects.push(object);
         }
-        // Of an uneven scale nothing that moves stands within, and lights and cameras are not scaled.
+        // Nothing that moves lies within a non-uniform scale, and lights and cameras are not scaled.
         moving.frames.push((name, whole * mover.rest.2.x));
     }
     if let (Some(blob), false) = (&motion.parts.blob, motion.movers.is_empty()) {
@@ -87,7 +87,7 @@ pub(super) fn add_moving(
     Ok(moving)
 }
 
-/// A part as a file in `meshes/`.
+/// Part as a file in `meshes/`.
 pub(super) fn part_of(motion: &GltfMotion, mover: Option<(usize, [f64; 3])>, source: &Path, folder: &Path) -> Vec<u8> {
     let beside = source.parent().unwrap_or(Path::new(""));
     let way = |name: &str| path_between(&folder.join("meshes"), &beside.join(name)).to_string_lossy().into_owned();
@@ -96,14 +96,14 @@ pub(super) fn part_of(motion: &GltfMotion, mover: Option<(usize, [f64; 3])>, sou
 
 struct Way<'a> {
     mover: &'a GltfMover,
-    /// The scale of lengths in what it stands in.
+    /// Scale of lengths in the parent.
     above: f64,
-    /// From its parent's axes to those of the frame above.
+    /// Rotation from its parent's axes to those of the frame above.
     turn: DQuat,
 }
 
 impl Way<'_> {
-    /// Place and rotation in the frame above, in the file's axes.
+    /// Position and rotation in the frame above, in the file's axes.
     fn at(&self, time_s: f64) -> (DVec3, DQuat) {
         let (translation, rotation, _) = self.mover.rest;
         let own = self.mover.translation.as_ref().map_or(translation, |t| DVec3::from_array(t.at(time_s, straight)));
@@ -115,9 +115,9 @@ impl Way<'_> {
     fn placement(&self, time_s: f64) -> FramePlacement {
         let (position, turn) = self.at(time_s);
         let columns = [DVec3::Y, DVec3::Z, DVec3::X].map(|axis| to_world(turn * axis));
-        // The file's y, z, x are our z, x, y: columns are where our x, y, z go.
+        // The file's y, z, x are our z, x, y: columns are the images of our x, y, z.
         let [z, x, y] = columns;
-        // Without zeros below zero.
+        // Avoids negative zeros.
         let angles = rounded(angles_deg(DMat3::from_cols(x, y, z))).map(|angle| angle + 0.0);
         let position = to_world(position);
         FramePlacement {
@@ -127,7 +127,7 @@ impl Way<'_> {
         }
     }
 
-    /// Times of keys between which straight lines and slerps say the motion.
+    /// Times of keys between which straight lines and slerps describe the motion.
     fn times(&self) -> Vec<f64> {
         let mut times = Vec::new();
         self.mover.translation.iter().for_each(|track| add_times(track, &mut times));
@@ -144,7 +144,7 @@ impl Way<'_> {
         times
     }
 
-    /// What is not exact.
+    /// Note on approximations.
     fn told(&self, times: &[f64]) -> String {
         let (translation, rotation) = (&self.mover.translation, &self.mover.rotation);
         let mut told = String::new();
@@ -167,7 +167,7 @@ impl Way<'_> {
     }
 }
 
-/// A rotation at a time; that of the key before where a cubic curve passes through zero.
+/// Rotation at a time; that of the previous key where a cubic curve passes through zero.
 fn turn_at(track: &GltfTrack<4>, time_s: f64) -> DQuat {
     let turn = |time_s: f64| DQuat::from_array(track.at(time_s, turned));
     let own = turn(time_s);
@@ -191,7 +191,7 @@ fn add_times<const N: usize>(track: &GltfTrack<N>, times: &mut Vec<f64>) {
     }
 }
 
-/// Keys of an object whose size changes.
+/// Keys of an object of changing size.
 fn scale_keys(track: &GltfTrack<3>) -> Vec<Keyframe> {
     let mut times = Vec::new();
     add_times(track, &mut times);
@@ -211,7 +211,7 @@ fn straight(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
     std::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
 }
 
-/// As a track of a file mixes its numbers.
+/// Interpolates the numbers as a track of a file does.
 fn turned(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
     slerp(DQuat::from_array(a), DQuat::from_array(b), share).to_array()
 }

@@ -1,4 +1,4 @@
-//! Names, paths and angles as files of the format have them.
+//! Names, paths and angles in the form of the format.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -7,12 +7,12 @@ use etendue_core::maths::f64 as maths;
 use etendue_io::paths::relative_path;
 use glam::DVec3;
 
-/// Names that were given, each with the number of the next that is like it.
+/// Names in use, each with the number of the next similar one.
 #[derive(Debug, Default)]
 pub(super) struct Names(HashMap<String, u64>);
 
 impl Names {
-    /// A name that is like `wish`, and no other's: letters, digits, `-` and `_` remain of it, `fallback` where it has none.
+    /// Returns a unique name similar to `wish`: only its letters, digits, `-` and `_`, or `fallback` if it has none.
     pub(super) fn take(&mut self, wish: &str, fallback: &str) -> String {
         const MAX: usize = 60;
         let plain: String = wish.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' }).collect();
@@ -29,7 +29,7 @@ impl Names {
     }
 }
 
-/// Angles without the last digits, degrees: what was a quarter turn in the file is one again.
+/// Rounds angles, degrees, so that a quarter turn of the file is exact again.
 pub(super) fn rounded(degrees: [f64; 3]) -> [f64; 3] {
     degrees.map(|angle| (1e9 * angle).round() / 1e9)
 }
@@ -40,16 +40,16 @@ pub(super) fn azimuth_elevation_deg(v: DVec3) -> [f64; 2] {
     [maths::atan2(v.y, v.x).to_degrees(), maths::atan2(v.z, level).to_degrees()]
 }
 
-/// The way from a folder to a file, with `/`; the file's own path where there is none. `folder` is absolute and need not exist.
+/// Path from a folder to a file, with `/`; the file's own path if there is none. `folder` is absolute and need not exist.
 pub(super) fn path_between(folder: &Path, file: &Path) -> PathBuf {
     let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    // Links in what exists are followed, as `..` behind a link leads elsewhere.
+    // Links in the existing part are followed, as `..` after a link leads elsewhere.
     let (from, to) = (real(folder), real(&file));
-    // Another drive: no way leads there.
+    // Another drive: there is no relative path.
     if from.components().next() == to.components().next() { relative_path(&from, &to) } else { file }
 }
 
-/// A path whose existing part has no links.
+/// Path whose existing part has no links.
 fn real(path: &Path) -> PathBuf {
     let mut ancestors = path.ancestors();
     let found = ancestors.find_map(|part| part.canonicalize().ok().map(|real| (part, real)));

@@ -1,4 +1,4 @@
-//! What stands in for the light and the camera of a scene that has none.
+//! Substitutes for the light and the camera of a scene that has none.
 
 use etendue_core::maths::f64 as maths;
 use etendue_scene::record::{Emission, Environment, Level, LightColour, Pose, Scene};
@@ -6,10 +6,10 @@ use glam::DVec3;
 
 use super::written::{ImportedCamera, View, size_of};
 
-/// The sky of a scene without light, cd/m²: an overcast day's.
+/// Luminance of the default sky, cd/m²: an overcast day's.
 const SKY_CD_M2: f64 = 2000.0;
 
-/// Gives a scene an even sky; what is said of it.
+/// Gives a scene a uniform sky; returns the note on it.
 pub(super) fn even_sky(scene: &mut Scene) -> String {
     let level = Level::Luminance(SKY_CD_M2.into());
     let emission = Emission { colour: Some(LightColour::Illuminant("D65".into())), ..Emission::new(level) };
@@ -17,7 +17,7 @@ pub(super) fn even_sky(scene: &mut Scene) -> String {
     format!("it has no light: an even sky of {SKY_CD_M2} cd/m² is ours")
 }
 
-/// A view of all that lies between two corners of a box in the world, m, from the front and above.
+/// View of the box between two corners in the world, m, from the front and above.
 pub(super) fn whole_view(low: DVec3, high: DVec3) -> ImportedCamera {
     const HALF_FIELD_RAD: f64 = 0.35;
     let (middle, radius) = (0.5 * (low + high), (0.5 * (high - low).length()).max(1e-3));

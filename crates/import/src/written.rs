@@ -1,4 +1,4 @@
-//! A scene, its job and its report as files.
+//! Files of a scene, its job and its report.
 
 use std::{fmt::Write as _, path::Path};
 
@@ -10,15 +10,15 @@ use glam::{DMat3, DVec3};
 
 use super::naming::rounded;
 
-/// What an import writes.
+/// Result of an import.
 pub(super) struct Written {
     /// Names within the folder, and contents.
     pub(super) files: Vec<(String, Vec<u8>)>,
-    /// What became of what, line by line.
+    /// Conversion report, line by line.
     pub(super) report: Vec<String>,
 }
 
-/// A camera of an imported scene.
+/// Camera of an imported scene.
 pub(super) struct ImportedCamera {
     pub(super) name: String,
     pub(super) pose: Pose,
@@ -27,28 +27,28 @@ pub(super) struct ImportedCamera {
     pub(super) size_px: [u64; 2],
 }
 
-/// What a camera sees.
+/// View of a camera.
 pub(super) enum View {
-    /// The full vertical angle, rad.
+    /// Full vertical angle, rad.
     Perspective { yfov_rad: f64 },
-    /// The full vertical angle of what is sharp, rad; the radius of the lens, and the distance of what is sharp, m.
+    /// Full vertical angle of the focal plane, rad; radius of the lens, and focus distance, m.
     Lens { yfov_rad: f64, radius_m: f64, focus_m: f64 },
-    /// The width that is seen, m.
+    /// Visible width, m.
     Orthographic { width_m: f64 },
 }
 
-/// Height of the sensors of imported cameras, mm: that of a film of 36 mm by 24 mm. It has no influence on what is seen.
+/// Height of the sensors of imported cameras, mm: that of a film of 36 mm by 24 mm. It does not affect the view.
 const SENSOR_MM: f64 = 24.0;
-/// Rows of a picture whose file says only its shape.
+/// Rows of an image whose file states only its aspect ratio.
 const ROWS: f64 = 480.0;
 
-/// Columns and rows of a picture of this width over height.
+/// Columns and rows of an image of this aspect ratio.
 pub(super) fn size_of(aspect: f64) -> [u64; 2] {
     const MAX: f64 = 16_384.0;
     [(ROWS * aspect).round().clamp(1.0, MAX) as u64, ROWS as u64]
 }
 
-/// The pose of a camera in the world, m, that looks along `ahead`, with its picture's upper edge towards `up`; both of any length.
+/// Pose of a camera in the world, m, that looks along `ahead`, with the upper edge of its image towards `up`; both of any length.
 pub(super) fn pose_of(position: DVec3, ahead: DVec3, up: DVec3) -> Pose {
     let ahead = ahead.normalize_or(DVec3::X);
     let up = (up - up.dot(ahead) * ahead).normalize_or(ahead.any_orthonormal_vector());
@@ -71,7 +71,7 @@ impl ImportedCamera {
 }
 
 impl View {
-    /// The lens, and the height of its sensor, mm.
+    /// Lens, and height of its sensor, mm.
     fn lens(&self) -> (Table, f64) {
         let of = |kind: &str| Table::new().with("type", kind);
         match *self {
@@ -83,7 +83,7 @@ impl View {
                 (of("telecentric").with("field_width_m", width_m).with("f_number", 8.0), SENSOR_MM)
             }
             Self::Lens { yfov_rad, radius_m, focus_m } => {
-                // The sensor is so large that the lens of this radius is of f/2; where that makes the image as far off as the object, less.
+                // The sensor is large enough that a lens of this radius is of f/2; smaller if the image would be as far away as the object.
                 let image_m = |sensor_m: f64| 0.5 * sensor_m / maths::tan(0.5 * yfov_rad);
                 let focal_m = |sensor_m: f64| 1.0 / (1.0 / image_m(sensor_m) + 1.0 / focus_m);
                 let wanted_m = (4.0 * radius_m).min(0.5 * focus_m);

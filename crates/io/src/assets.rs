@@ -1,4 +1,4 @@
-//! Everything that a description names.
+//! Assets: all files that a description names.
 
 use std::sync::Arc;
 
@@ -15,10 +15,10 @@ use crate::{
     spectrum::read_spectrum_of, tile_cache::TileCache, trajectory::read_trajectory,
 };
 
-/// Reads every file of `named` (as a description names them), and those that its meshes name in turn; all pictures whole.
+/// Reads every file of `named` (as a description names them) and the files that its meshes name in turn. All images are decoded completely.
 ///
 /// # Errors
-/// All faults of all files, each with the place that names the file.
+/// All errors of all files, each with the place that names the file.
 pub fn load_assets(named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
     complete_assets(
         Assets::default(),
@@ -28,11 +28,11 @@ pub fn load_assets(named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
     )
 }
 
-/// The same where some assets are there already, such as those a program made. Pictures of textures that need more than `memory` are not
-/// decoded but become [large](Assets::large_images); every file lies in `sandbox`.
+/// Reads the assets that are missing from an existing set, such as that of a program. Textures that need more than `memory` are not decoded but become
+/// [large](Assets::large_images). Every file must lie in `sandbox`.
 ///
 /// # Errors
-/// All faults of all files, each with the place that names the file.
+/// All errors of all files, each with the place that names the file.
 pub fn complete_assets(
     mut assets: Assets,
     named: &[AssetRequest],
@@ -47,7 +47,7 @@ pub fn complete_assets(
         if requests.is_empty() {
             break;
         }
-        // Of what is outside, nothing is looked at.
+        // Files outside the sandbox are not opened.
         let mut inside = Vec::new();
         for request in requests {
             match sandbox.check(&request.path) {
@@ -58,7 +58,7 @@ pub fn complete_assets(
                 }
             }
         }
-        // Which textures are large is known once all are: meshes name more of them.
+        // Large textures are known only after all textures are: meshes name more of them.
         let (textures, others): (Vec<_>, Vec<_>) = inside.into_iter().partition(|r| r.kind == AssetKind::Texture);
         let now = if others.is_empty() { textures } else { others };
         let large = large_pictures(&mut assets, &now, memory);
@@ -76,9 +76,9 @@ pub fn complete_assets(
     if errors.is_empty() { Ok(assets) } else { Err(errors) }
 }
 
-/// The heads of those of `requests` that are textures too large to be held; where there are any, the assets get a place for their texels.
+/// Headers of the textures among `requests` that are too large for memory. If there are any, the assets receive a place for their texels.
 fn large_pictures(assets: &mut Assets, requests: &[AssetRequest], memory: &TextureMemory) -> Vec<Option<PictureHead>> {
-    // A picture whose head cannot be read is read as a small one, which tells why.
+    // An image with an unreadable header is read as a small one, which gives the error.
     let is_texture = |request: &&AssetRequest| request.kind == AssetKind::Texture;
     let heads: Vec<_> =
         requests.iter().map(|request| Some(request).filter(is_texture).and_then(|r| head(&r.path))).collect();

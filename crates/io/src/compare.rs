@@ -1,4 +1,4 @@
-//! Two results of the same kind, channel beside channel.
+//! Two results of the same kind, compared channel by channel.
 
 use std::path::Path;
 
@@ -7,25 +7,25 @@ use etendue_scene::asset::ImagePixels;
 use crate::exr::{ExrFile, Samples, read_exr};
 use crate::{Error, ErrorCode, picture::read_picture};
 
-/// The channels of two files of one size.
+/// Channels of two files of equal size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Channels by name. Previews (R, G, B beside spectral bands) and variances are no channels of their own.
+    /// Channels by name. Previews (R, G, B next to spectral bands) and variances are not separate channels.
     pub channels: Vec<Channel>,
-    /// What stands behind the variances of the first and the second file.
+    /// Origin of the variances of the first and the second file.
     pub origin: (Origin, Origin),
 }
 
-/// What stands behind the variances of a file, as its header states; 1 where it does not.
+/// Origin of the variances of a file, from its header; 1 if not stated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Origin {
     /// Independent replicates.
     pub replicates: u32,
-    /// Pixels whose errors may be equal, because their paths shared what they found.
+    /// Pixels whose errors may be correlated, because their paths shared samples.
     pub alike: u32,
 }
 
@@ -33,7 +33,7 @@ impl Origin {
     const NONE: Self = Self { replicates: 1, alike: 1 };
 }
 
-/// A channel that both files have.
+/// Channel present in both files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     /// Its name.
@@ -45,33 +45,33 @@ pub struct Channel {
 /// The samples of a channel in the first and in the second file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
-    /// Numbers, and their variances where both files have them.
+    /// Numbers, and their variances if both files have them.
     Number {
-        /// Of the first file.
+        /// Values of the first file.
         a: Vec<f32>,
-        /// Of the second.
+        /// Values of the second.
         b: Vec<f32>,
         /// Variances of the means.
         variance: Option<(Vec<f32>, Vec<f32>)>,
     },
     /// Identities.
     Identity {
-        /// Of the first file.
+        /// Identities of the first file.
         a: Vec<u32>,
-        /// Of the second.
+        /// Identities of the second.
         b: Vec<u32>,
     },
 }
 
 impl Channel {
-    /// Whether both files state a variance.
+    /// Returns true if both files state a variance.
     #[must_use]
     pub fn has_variance(&self) -> bool {
         matches!(self.content, Content::Number { variance: Some(_), .. })
     }
 }
 
-/// Reads two files for comparison: EXR with EXR, picture with picture.
+/// Reads two files for comparison: EXR with EXR, image with image.
 pub fn read_pair(a: &Path, b: &Path) -> Result<Pair, Error> {
     let is_exr = |path: &Path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
     match (is_exr(a), is_exr(b)) {
@@ -94,7 +94,7 @@ fn of_exr(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<Pair, Error> {
     Ok(Pair { width: a.width, height: a.height, channels, origin: (origin(a), origin(b)) })
 }
 
-/// Quantity and unit, which have to be the same where both files state them.
+/// Checks that quantity and unit are the same if both files state them.
 fn check_stated(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<(), Error> {
     for fact in ["quantity", "units"] {
         let stated = |file: &ExrFile| file.attributes.get(&format!("etendue:{fact}")).cloned();
@@ -135,12 +135,12 @@ fn check_channels(path: &Path, of_a: &[&str], of_b: &[&str]) -> Result<(), Error
     Err(Error::coded(ErrorCode::NotComparable, path, what))
 }
 
-/// The names that are not among the others.
+/// Names that are not among the others.
 fn beyond<'n>(names: &[&'n str], others: &[&str]) -> Vec<&'n str> {
     names.iter().filter(|name| !others.contains(name)).copied().collect()
 }
 
-/// The first names, and how many more there are.
+/// The first names, and the number of the rest.
 fn a_few(names: &[&str]) -> String {
     const TOLD: usize = 4;
     let told = names[..names.len().min(TOLD)].join(", ");
@@ -156,7 +156,7 @@ fn names(file: &ExrFile) -> Vec<&str> {
     file.channels.iter().map(|c| c.name.as_str()).collect()
 }
 
-/// R, G and B beside spectral bands follow from them.
+/// True for R, G and B next to spectral bands, from which they are computed.
 fn is_preview(file: &ExrFile, name: &str) -> bool {
     ["R", "G", "B"].contains(&name) && file.channels.iter().any(|c| c.name.starts_with("S0."))
 }
@@ -211,7 +211,7 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
     Ok(Pair { width, height, channels: channels.collect(), origin: (Origin::NONE, Origin::NONE) })
 }
 
-/// What a picture holds, in words.
+/// Kind of an image's pixels, in words.
 fn kind(pixels: &ImagePixels) -> &'static str {
     match pixels {
         ImagePixels::Gray8(_) => "grey of 8 bits",
@@ -223,7 +223,7 @@ fn kind(pixels: &ImagePixels) -> &'static str {
     }
 }
 
-/// The channels in the units of the file; colours of 16 bits in shares of 65 535.
+/// Channels in the units of the file; 16-bit colours as fractions of 65 535.
 fn channels_of(pixels: &ImagePixels) -> Vec<Vec<f32>> {
     let bytes = |of: &dyn Fn(usize) -> Vec<f32>, n: usize| (0..n).map(of).collect();
     match pixels {

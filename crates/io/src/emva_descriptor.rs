@@ -1,62 +1,62 @@
 //! Descriptor files of EMVA 1288 measurements, as the reference program reads them.
 //!
-//! One statement a line; `#` begins a comment line. Exposure times are in nanoseconds, photons a pixel; a comma may stand for
-//! the decimal point. File names are relative to the descriptor, with either slash.
+//! One statement per line; `#` begins a comment line. Exposure times are in nanoseconds, light in photons per pixel; the decimal separator may be a comma. File
+//! names are relative to the descriptor, with either slash.
 //!
 //! ```text
 //! v 4.0                    version of the standard
-//! n bits width height      of all pictures
-//! b exposure photons       a level of light, its pictures follow
-//! d exposure               a level without light, its pictures follow
-//! i FILE                   a picture
+//! n bits width height      of all images
+//! b exposure photons       a level of light, its images follow
+//! d exposure               a level without light, its images follow
+//! i FILE                   an image
 //! ```
 //!
-//! Two pictures are a level of the photon transfer curve, more of them a stack for the fixed patterns. Unknown statements are
-//! refused. Left out: masks and the extra columns of other programs.
+//! Two images form a level of the photon transfer curve; more form a stack for the fixed patterns. Unknown statements are refused. Not supported: masks and the
+//! extra columns of other programs.
 
 use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::source::{decode_text, read_description_bytes};
 
-/// Seconds a nanosecond.
+/// Seconds in a nanosecond.
 const NANOSECOND_S: f64 = 1e-9;
 
-/// Pictures of one level.
+/// Images of one level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DescribedLevel {
     /// Exposure time, s.
     pub exposure_s: f64,
-    /// Photons a pixel; 0 without light.
+    /// Photons per pixel; 0 without light.
     pub photons: f64,
-    /// The pictures, at least two.
+    /// The images, at least two.
     pub files: Vec<PathBuf>,
 }
 
 /// A descriptor file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EmvaDescriptor {
-    /// Bits a pixel.
+    /// Bits per pixel.
     pub bits: u32,
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// The levels in the file's order.
+    /// Levels in the file's order.
     pub levels: Vec<DescribedLevel>,
 }
 
-/// Reads a descriptor file; the pictures' paths start at its folder.
+/// Reads a descriptor file; image paths are relative to its folder.
 ///
 /// # Errors
-/// Where the file is missing, a line is not understood, or a level has fewer than two pictures.
+/// If the file is missing, a line is not understood, or a level has fewer than two images.
 pub fn read_emva_descriptor(file: &Path) -> Result<EmvaDescriptor, Error> {
     let bytes = read_description_bytes(file, "descriptor")?;
     let text = decode_text(file, &bytes)?;
     parse_emva_descriptor(text, file)
 }
 
-/// The descriptor of a text; `file` names it.
+/// Parses a descriptor; `file` names it in messages.
 ///
 /// # Errors
 /// As [`read_emva_descriptor`].

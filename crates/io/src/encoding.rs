@@ -1,58 +1,58 @@
-//! How a picture's numbers relate to light, and what says so.
+//! Relation between the numbers of an image and light, and its source.
 //!
-//! In this order: a side-car of this program that lists the picture; of a PNG its chunks cICP, iCCP, sRGB, gAMA (PNG
-//! specification, third edition, 4.3: the first of these that is there and understood); the kind of numbers, which is a guess.
-//! Left out: ICC profiles other than those named sRGB, the profiles of JPEG and TIFF, EXIF's ColorSpace.
+//! The sources, in order: a side-car of this program that lists the image; the PNG chunks cICP, iCCP, sRGB, gAMA (PNG specification, third edition, 4.3: the
+//! first of these that is present and understood); the kind of numbers, which is a guess. Not supported: ICC profiles other than those named sRGB, the profiles
+//! of JPEG and TIFF, EXIF's ColorSpace.
 
 use etendue_core::maths::f64::pow;
 use serde_json::{Value, json};
 
-/// How numbers over their full scale relate to light 0 … 1.
+/// Relation of numbers, over their full scale, to light 0 … 1.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Encoding {
-    /// In proportion to light, but for a black level.
+    /// Proportional to light, except for a black level.
     Linear,
-    /// For display after IEC 61966-2-1; white is the full scale.
+    /// Display encoding of IEC 61966-2-1; white is the full scale.
     Srgb,
     /// A power: number = light^(1/γ), γ above 0.
     Gamma(f64),
-    /// An S-curve of this contrast about this encoded value, on the curve of sRGB.
+    /// S-curve on the curve of sRGB, with this contrast about this encoded value.
     Contrast {
         /// Slope of the log-odds.
         contrast: f64,
-        /// The encoded value that becomes a half.
+        /// Encoded value that maps to one half.
         midpoint: f64,
     },
-    /// Light and number from light 0 to light 1, straight lines between.
+    /// Pairs of light and number from light 0 to light 1, linear between.
     Table(Vec<(f64, f64)>),
     /// A measured conversion function: exposure and output level.
     Oecf {
-        /// Exposure (any unit, the largest is light 1) and output.
+        /// Exposure (any unit; the largest is light 1) and output.
         points: Vec<(f64, f64)>,
-        /// The largest output level; `None`: the picture's full scale.
+        /// Largest output level; `None`: the full scale of the image.
         largest_output: Option<f64>,
     },
 }
 
-/// An encoding and the reason why it is taken, in words.
+/// Encoding with its source, in words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stated {
     /// The encoding.
     pub encoding: Encoding,
-    /// Who says so.
+    /// Source of the encoding.
     pub reason: String,
-    /// Whether nobody does.
+    /// True if the encoding is a guess.
     pub guessed: bool,
 }
 
 impl Stated {
-    /// An encoding for a reason.
+    /// Returns an encoding with its source.
     #[must_use]
     pub fn new(encoding: Encoding, reason: impl Into<String>) -> Self {
         Self { encoding, reason: reason.into(), guessed: false }
     }
 
-    /// A guess by what kind of numbers the file has.
+    /// Returns an encoding guessed from the kind of numbers in the file.
     pub(crate) fn guessed(encoding: Encoding, by: &str) -> Self {
         let reason = format!("guessed, as {by}; `encoding` says otherwise");
         Self { guessed: true, ..Self::new(encoding, reason) }
@@ -60,7 +60,7 @@ impl Stated {
 }
 
 impl Encoding {
-    /// Its name, of few words.
+    /// Short name.
     #[must_use]
     pub fn name(&self) -> String {
         match self {
@@ -73,7 +73,7 @@ impl Encoding {
         }
     }
 
-    /// As a side-car states it, in the words of `tone_curve` of a camera file.
+    /// Returns the encoding as a side-car states it, in the words of `tone_curve` of a camera file.
     #[must_use]
     pub fn to_json(&self) -> Value {
         match self {
@@ -86,7 +86,7 @@ impl Encoding {
         }
     }
 
-    /// Reads [`to_json`](Self::to_json); `None` of anything else.
+    /// Parses the result of [`to_json`](Self::to_json); `None` for anything else.
     #[must_use]
     pub fn from_json(said: &Value) -> Option<Self> {
         let number = |key: &str| said[key].as_f64();
@@ -106,8 +106,8 @@ impl Encoding {
         points("table").map(Self::Table).or_else(|| points("oecf").map(oecf))
     }
 
-    /// The curve of ITU-R BT.709 by 1024 points at even steps of the number: straight lines are within 1e-6 of it, but for
-    /// 3e-5 where its two parts meet (their rounded numbers leave a jump of 5e-5).
+    /// Curve of ITU-R BT.709 by 1024 points at equal steps of the number. Straight lines are within 1e-6 of it, except for 3e-5 where its two parts meet (their
+    /// rounded constants leave a jump of 5e-5).
     pub(crate) fn bt709() -> Self {
         const STEPS: u32 = 1024;
         let light = |number: f64| {

@@ -1,9 +1,7 @@
-//! What can be wrong with a file.
+//! Errors of files.
 //!
-//! Decoders of other authors: where one of them panics, the file is refused.
-//!
-//! Sizes are checked before anything is decoded; what is left are slips of a decoder over damaged data, which a user cannot tell from a damaged file. The
-//! panic ends here. A program may keep its message back ([`is_decoding`]).
+//! Third-party decoders: if one panics, the file is refused. Sizes are checked before decoding; what remains are decoder bugs on damaged data, which a user
+//! cannot distinguish from a damaged file. The panic is caught here. A program may suppress its message ([`is_decoding`]).
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -11,7 +9,7 @@ use std::{cell::Cell, fmt, io::ErrorKind};
 
 use etendue_scene::{ErrorCode, Place, Problem};
 
-/// One fault of one file: where, what is wrong, what was expected and what to do, in one sentence.
+/// Error of one file: place, cause, expected form and remedy, in one sentence.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Error {
     code: ErrorCode,
@@ -19,27 +17,27 @@ pub struct Error {
     line: Option<usize>,
     what: String,
     named_at: Option<String>,
-    /// Of a description that names the file: where.
+    /// Place in the description that names the file.
     place: Option<Box<Place>>,
-    /// Whether the path is at fault, not what is in the file.
+    /// True if the path is at fault, not the content of the file.
     is_path: bool,
 }
 
 impl Error {
-    /// A fault of the whole file; words alone are about its content ([`ErrorCode::MalformedFile`]).
+    /// Returns an error of the whole file; plain text is about its content ([`ErrorCode::MalformedFile`]).
     #[must_use]
     pub fn new(file: &Path, what: impl Into<Problem>) -> Self {
         let Problem { code, words } = what.into();
         Self { code, file: file.to_path_buf(), line: None, what: words, named_at: None, place: None, is_path: false }
     }
 
-    /// A fault of the whole file, with its code.
+    /// Returns an error of the whole file, with its code.
     #[must_use]
     pub fn coded(code: ErrorCode, file: &Path, what: impl Into<String>) -> Self {
         Self::new(file, Problem::new(code, what))
     }
 
-    /// A fault in line `line`, counted from 1.
+    /// Returns an error in line `line`, counted from 1.
     #[must_use]
     pub fn at(file: &Path, line: usize, what: impl Into<Problem>) -> Self {
         Self { line: Some(line), ..Self::new(file, what) }
@@ -51,56 +49,56 @@ impl Error {
         Self { is_path: true, ..Self::coded(ErrorCode::MissingFile, file, what) }
     }
 
-    /// The same fault with another code.
+    /// Returns the same error with another code.
     #[must_use]
     pub fn with_code(self, code: ErrorCode) -> Self {
         Self { code, ..self }
     }
 
-    /// The kind of the fault.
+    /// Error code.
     #[must_use]
     pub fn code(&self) -> ErrorCode {
         self.code
     }
 
-    /// The same fault with the place of the reference that led to the file.
+    /// Returns the same error with the place of the reference to the file.
     #[must_use]
     pub fn named_at(mut self, place: impl Into<String>) -> Self {
         self.named_at = Some(place.into());
         self
     }
 
-    /// The same fault with the place of the key that names the file.
+    /// Returns the same error with the place of the key that names the file.
     #[must_use]
     pub fn named_by(self, place: &Place) -> Self {
         Self { place: Some(Box::new(place.clone())), ..self.named_at(place.to_string()) }
     }
 
-    /// The key that names the file, where a description does.
+    /// Key that names the file, if a description does.
     #[must_use]
     pub fn place(&self) -> Option<&Place> {
         self.place.as_deref()
     }
 
-    /// Whether the path is at fault, not what is in the file.
+    /// Returns true if the path is at fault, not the content of the file.
     #[must_use]
     pub fn is_of_path(&self) -> bool {
         self.is_path
     }
 
-    /// The file at fault.
+    /// File of the error.
     #[must_use]
     pub fn file(&self) -> &Path {
         &self.file
     }
 
-    /// The line at fault, counted from 1, where one is.
+    /// Line of the error, counted from 1, if there is one.
     #[must_use]
     pub fn line(&self) -> Option<usize> {
         self.line
     }
 
-    /// What is wrong, without the place.
+    /// Problem, without the place.
     #[must_use]
     pub fn what(&self) -> &str {
         &self.what
@@ -124,7 +122,7 @@ impl fmt::Display for Error {
     }
 }
 
-/// The code of an error of the system about a file that is read.
+/// Code of a system error while a file is read.
 pub(crate) fn code_of(cause: &std::io::Error) -> ErrorCode {
     match cause.kind() {
         ErrorKind::NotFound => ErrorCode::MissingFile,
@@ -137,13 +135,13 @@ thread_local! {
     static DECODING: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether this thread is within a decoder whose panics become errors: what a panic hook asks before it prints.
+/// Returns true if this thread is within a decoder whose panics become errors. A panic hook checks it before it prints.
 #[must_use]
 pub fn is_decoding() -> bool {
     DECODING.get()
 }
 
-/// What `decode` makes of the bytes of `file`; an error where it panics.
+/// Result of `decode` on the bytes of `file`; an error if it panics.
 pub fn guarded<T>(file: &Path, decode: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     let was = DECODING.replace(true);
     let decoded = catch_unwind(AssertUnwindSafe(decode));
@@ -162,7 +160,7 @@ mod tests {
 
     #[test]
     fn a_panic_within_is_an_error_of_the_file() {
-        // The hook is that of all tests of the process: this one prints.
+        // The hook is shared by all tests of the process: this one prints.
         let told = guarded::<()>(Path::new("a.exr"), || panic!("within a decoder")).expect_err("refused").to_string();
         assert!(told.starts_with("a.exr: damaged: "), "{told}");
         assert!(!is_decoding());

@@ -1,25 +1,25 @@
-//! Text as it may leave the program: names in files, paths and arguments may hold what moves a terminal's cursor, changes its colours or its title, or turns the
-//! direction of what is read. Whoever prints, raises or logs text passes it through here; nothing else of the library escapes for a terminal.
+//! Escaping of output text. Names in files, paths and arguments may contain characters that move a terminal's cursor, change its colours or title, or reverse
+//! the reading direction. All printed, raised or logged text passes through here; nothing else of the library escapes for a terminal.
 //!
-//! Escaped are the control characters of Unicode (C0 but for line feed and tab, DEL, C1) and the characters of its bidirectional algorithm that have no shape
-//! (UAX #9: marks, embeddings, overrides, isolates).
+//! These characters are escaped: the control characters of Unicode (C0 except line feed and tab, DEL, C1) and the invisible characters of its bidirectional
+//! algorithm (UAX #9: marks, embeddings, overrides, isolates).
 
 use std::{borrow::Cow, fmt::Write as _};
 
-/// The text with such characters as `\u{1b}`.
+/// The text with such characters escaped as `\u{1b}`.
 #[must_use]
 pub fn terminal_text(text: &str) -> Cow<'_, str> {
     escaped_with(text, |out, c| write!(out, "\\u{{{:x}}}", u32::from(c)))
 }
 
-/// A JSON document with such characters as `\u001b`: they stand in its strings alone, where that is the same character.
+/// A JSON document with such characters escaped as `\u001b`. They occur only in strings, where the escape is the same character.
 #[must_use]
 pub fn terminal_json(document: &str) -> Cow<'_, str> {
     // All of them are in the basic plane: one unit of UTF-16 each.
     escaped_with(document, |out, c| write!(out, "\\u{:04x}", u32::from(c)))
 }
 
-/// Returns a text as it stands in HTML and SVG, in attributes too, with the characters that [`terminal_text`] escapes escaped.
+/// Returns a text for HTML and SVG, attributes included, with the characters that [`terminal_text`] escapes escaped.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     terminal_text(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")

@@ -1,22 +1,21 @@
-//! What EXIF data say of how a picture was taken: camera, exposure, aperture, colour filters, levels.
+//! EXIF data of an image: camera, exposure, aperture, colour filters, levels.
 //!
-//! Read from the APP1 segment of JPEG, the eXIf chunk of PNG, and the directories of TIFF and DNG themselves (Exif 2.32, CIPA DC-008; TIFF/EP,
-//! ISO 12234-2; Digital Negative 1.4, Adobe 2012). Only the first directory and the Exif directory that it names are looked at. Numbers that
-//! lie beyond the file, and of kinds that the tag does not have, are taken for not stated. Left out: maker notes, BigTIFF, directories of
-//! further pictures.
+//! Read from the APP1 segment of JPEG, the eXIf chunk of PNG, and the directories of TIFF and DNG themselves (Exif 2.32, CIPA DC-008; TIFF/EP, ISO 12234-2;
+//! Digital Negative 1.4, Adobe 2012). Only the first directory and the Exif directory that it names are read. Numbers beyond the end of the file, or of a type
+//! that the tag does not allow, count as not stated. Not supported: maker notes, BigTIFF, directories of further images.
 
 use std::path::Path;
 
 use crate::{Error, png, source::read_bytes};
 
-/// What is stated; `None` where it is not.
+/// Stated data; `None` if not stated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exif {
-    /// The camera's maker.
+    /// Camera maker.
     pub make: Option<String>,
-    /// The camera's model.
+    /// Camera model.
     pub model: Option<String>,
-    /// The body's number.
+    /// Serial number of the body.
     pub serial: Option<String>,
     /// Exposure time, s.
     pub exposure_s: Option<f64>,
@@ -24,21 +23,21 @@ pub struct Exif {
     pub f_number: Option<f64>,
     /// Sensitivity: ISO speed.
     pub iso: Option<f64>,
-    /// Columns of the colour filters' tile, and its letters R, G, B row by row.
+    /// Columns of the colour filter tile, and its letters R, G, B row by row.
     pub filters: Option<(usize, String)>,
-    /// Reading of saturation, DN.
+    /// Saturation level, DN.
     pub white_level_dn: Option<f64>,
 }
 
-/// The EXIF data of a picture file; `None` where it has none.
+/// EXIF data of an image file; `None` if it has none.
 ///
 /// # Errors
-/// Where the file cannot be read.
+/// If the file cannot be read.
 pub fn read_exif(file: &Path) -> Result<Option<Exif>, Error> {
     Ok(exif_of(&read_bytes(file, "picture")?))
 }
 
-/// The EXIF data in the bytes of a picture file.
+/// EXIF data in the bytes of an image file.
 #[must_use]
 pub fn exif_of(bytes: &[u8]) -> Option<Exif> {
     let data = match bytes {
@@ -49,7 +48,7 @@ pub fn exif_of(bytes: &[u8]) -> Option<Exif> {
     Tiff::of(data).map(Tiff::exif)
 }
 
-/// The TIFF in the APP1 segment.
+/// TIFF data in the APP1 segment.
 fn of_jpeg(bytes: &[u8]) -> Option<&[u8]> {
     const APP1: u8 = 0xe1;
     const SCAN: u8 = 0xda;
@@ -66,14 +65,14 @@ fn of_jpeg(bytes: &[u8]) -> Option<&[u8]> {
     }
 }
 
-/// A plain TIFF's bytes.
+/// Bytes of a plain TIFF.
 #[derive(Clone, Copy)]
 struct Tiff<'a> {
     bytes: &'a [u8],
     big: bool,
 }
 
-/// An entry of a directory: its kind, and its value's bytes.
+/// Entry of a directory: type, and bytes of the value.
 struct Entry<'a> {
     kind: u16,
     data: &'a [u8],
@@ -122,7 +121,7 @@ impl<'a> Tiff<'a> {
         (!text.is_empty()).then_some(text)
     }
 
-    /// The first number of an entry.
+    /// First number of an entry.
     fn number(self, directory: usize, tag: u16) -> Option<f64> {
         let entry = self.entry(directory, tag)?;
         let value = Self { bytes: entry.data, ..self };
@@ -139,7 +138,7 @@ impl<'a> Tiff<'a> {
     fn exif(self) -> Exif {
         const EXIF: u16 = 34_665;
         let first = self.long(4).map_or(0, |at| at as usize);
-        // What has no Exif directory may have its entries in the first (TIFF/EP).
+        // A file without an Exif directory may have the entries in the first directory (TIFF/EP).
         let further = self.number(first, EXIF).map_or(first, |at| at as usize);
         let number = |tag: u16| self.number(further, tag).or_else(|| self.number(first, tag));
         let above_zero = |tag: u16| number(tag).filter(|n| *n > 0.0);
@@ -155,7 +154,7 @@ impl<'a> Tiff<'a> {
         }
     }
 
-    /// TIFF/EP's tile of colour filters.
+    /// Colour filter tile of TIFF/EP.
     fn filters(self, directory: usize) -> Option<(usize, String)> {
         let columns = self.entry(directory, 33_421).filter(|e| e.kind == 3 && e.data.len() == 4)?;
         let columns = usize::from(Self { bytes: columns.data, ..self }.short(2)?);
@@ -170,7 +169,7 @@ impl<'a> Tiff<'a> {
 mod tests {
     use super::*;
 
-    /// A directory of a model, and an Exif directory of an exposure of 1/250 s, of either byte order.
+    /// Directory with a model, and Exif directory with an exposure of 1/250 s, in either byte order.
     fn tiff(big: bool) -> Vec<u8> {
         let short = |v: u16| if big { v.to_be_bytes() } else { v.to_le_bytes() }.to_vec();
         let long = |v: u32| if big { v.to_be_bytes() } else { v.to_le_bytes() }.to_vec();

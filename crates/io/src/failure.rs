@@ -1,4 +1,4 @@
-//! Errors between a file and its results: of inputs, each with its place, and of the run.
+//! Errors of the library: of inputs, each with its place, and of the run.
 
 use std::fmt::{self, Display};
 use std::{ops::RangeInclusive, path::PathBuf};
@@ -7,28 +7,28 @@ use crate::error::code_of;
 
 pub use etendue_scene::{ErrorCode, ExampleContext, Problem};
 
-/// An error of a call of the library. No file under a final name is half-written.
+/// Error of a call of the library. No file under a final name is incomplete.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// The input or the arguments cannot be used: all faults, with file, line, key and argument where they have them. Messages name arguments
-    /// by their fields in backticks. (Exit status 2 of the program.)
+    /// The input or the arguments cannot be used: all errors, with file, line, key and argument if they have them. Messages name arguments by their fields in
+    /// backticks. (Exit status 2 of the program.)
     Input(Vec<Fault>),
-    /// The input is good and the run did not succeed: it was cancelled, the disk is full, light is not finite. (Exit status 1.)
+    /// The input is valid but the run failed: it was cancelled, the disk is full, light is not finite. (Exit status 1.)
     Run(String),
 }
 
 impl Error {
-    /// One unusable input.
+    /// Returns the error of one unusable input.
     pub fn input(error: impl Into<Fault>) -> Self {
         Self::Input(vec![error.into()])
     }
 
-    /// An argument that cannot be used, by the name of its field, which the message has in backticks.
+    /// Returns the error of an unusable argument, by the name of its field, which the message has in backticks.
     pub fn argument(field: &str, message: impl Into<String>) -> Self {
         Self::Input(vec![Fault::argument(field, message)])
     }
 
-    /// Another code for all faults.
+    /// Sets the code of all errors.
     #[must_use]
     pub fn with_code(self, code: ErrorCode) -> Self {
         match self {
@@ -37,7 +37,7 @@ impl Error {
         }
     }
 
-    /// The same faults as those of an argument.
+    /// Returns the same errors as those of an argument.
     #[must_use]
     pub fn with_field(self, field: &str) -> Self {
         let of_field = |fault: Fault| Fault { field: Some(field.to_owned()), ..fault };
@@ -47,28 +47,28 @@ impl Error {
         }
     }
 
-    /// One unusable input: its kind, and a message that says where it is.
+    /// Returns the error of one unusable input: its code, and a message that states the place.
     pub fn coded(code: ErrorCode, message: impl Into<String>) -> Self {
         Self::Input(vec![Fault::new(code, message)])
     }
 
-    /// Several unusable inputs of one kind.
+    /// Returns the errors of several unusable inputs of one kind.
     pub fn all_coded<M: Into<String>>(code: ErrorCode, messages: impl IntoIterator<Item = M>) -> Self {
         Self::Input(messages.into_iter().map(|message| Fault::new(code, message)).collect())
     }
 
-    /// Several unusable inputs.
+    /// Returns the errors of several unusable inputs.
     pub fn inputs<E: Into<Fault>>(errors: impl IntoIterator<Item = E>) -> Self {
         Self::Input(errors.into_iter().map(Into::into).collect())
     }
 
-    /// A run that did not succeed although its input is good.
+    /// Returns the error of a run that failed although its input is valid.
     pub fn run(error: impl Display) -> Self {
         Self::Run(format!("error: {error}"))
     }
 }
 
-/// Errors that are shown; of more the number.
+/// Maximum number of errors shown; of the rest only the number.
 const MAX_SHOWN: usize = 50;
 
 impl std::error::Error for Error {}
@@ -91,31 +91,31 @@ impl Display for Error {
     }
 }
 
-/// One fault of an input.
+/// One error of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Its kind, which `explain` explains.
+    /// Error code, which `explain` explains.
     pub code: ErrorCode,
-    /// Where it is, what is wrong, what was expected and what to do, in one sentence.
+    /// Place, cause, expected form and remedy, in one sentence.
     pub message: String,
-    /// What is wrong, without the place; the message where they are not apart.
+    /// Problem without the place; the message if they are not separate.
     pub problem: String,
-    /// What to do; `None` where the message says it in its own words, or the code alone.
+    /// Remedy; `None` if the message or the code alone states it.
     pub remedy: Option<String>,
-    /// The file at fault; `None` where it is an argument's, or not known.
+    /// File of the error; `None` if it is an argument's, or unknown.
     pub file: Option<PathBuf>,
-    /// The line of the file, from 1; `None` where it is of the whole file or of an override, or is not known.
+    /// Line of the file, from 1; `None` for the whole file or an override, or if unknown.
     pub line: Option<u32>,
-    /// The column of the line, in characters from 1; `None` where it is not known.
+    /// Column of the line, in characters from 1; `None` if unknown.
     pub column: Option<u32>,
-    /// The dotted key of a description; `None` where there is none.
+    /// The dotted key of a description; `None` if there is none.
     pub key: Option<String>,
-    /// The argument at fault, by the name of its field in the request; `None` where it is not one, or not of one alone.
+    /// Argument of the error, by the name of its field in the request; `None` if it is not about exactly one argument.
     pub field: Option<String>,
 }
 
 impl Fault {
-    /// A fault that only its message places.
+    /// Returns an error without a place other than in its message.
     #[must_use]
     pub fn new(code: ErrorCode, message: impl Into<String>) -> Self {
         let message = message.into();
@@ -123,7 +123,7 @@ impl Fault {
         Self { code, message, problem, remedy: None, file: None, line: None, column: None, key: None, field: None }
     }
 
-    /// A fault of an argument. Messages name arguments by their fields in backticks, `` `time_s` ``; a front end spells them as its users write them.
+    /// Returns an error of an argument. Messages name arguments by their fields in backticks, `` `time_s` ``; a front end spells them as its users write them.
     #[must_use]
     pub fn argument(field: &str, message: impl Into<String>) -> Self {
         Self { field: Some(field.to_owned()), ..Self::new(ErrorCode::InvalidArgument, message) }
@@ -136,7 +136,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// The same at a key of a description.
+/// Returns the error with a key of a description as its place.
 fn at(code: ErrorCode, message: String, place: &etendue_scene::Place) -> Fault {
     let (line, column) = place.line_column().unzip();
     let file = Some(place.stating_file().to_path_buf()).filter(|_| place.is_stated());
@@ -157,7 +157,7 @@ impl From<etendue_scene::Fault> for Fault {
     }
 }
 
-/// A path at fault is where it is named; what is wrong in a file is there, with the key that names it.
+/// An error of a path is placed where the path is named; one of a file's content in the file, with the key that names it.
 impl From<crate::Error> for Fault {
     fn from(error: crate::Error) -> Self {
         let named = error.place().map(|place| at(error.code(), error.to_string(), place));
@@ -175,7 +175,7 @@ impl From<crate::Error> for Fault {
     }
 }
 
-/// A file that the caller reads.
+/// Error of a file that the caller reads.
 impl From<std::io::Error> for Fault {
     fn from(error: std::io::Error) -> Self {
         Self::new(code_of(&error), error.to_string())

@@ -1,9 +1,8 @@
-//! The lock of a folder for results: one run at a time writes into it.
+//! Lock of a results folder: only one run at a time writes into it.
 //!
-//! The folder itself is locked, not a file in it, so that nothing stays behind: the system lets go of the lock when its process ends, however that is. Whoever
-//! writes into a part of a folder shares the lock of the whole with others that do, and locks that part for itself. A second run is refused and told the number of
-//! the first one's process, which stands in the name of its mark ([`crate::run_mark`]). Where a system or a file system knows no locks of folders (Windows, some
-//! networks), runs are not told from one another.
+//! The folder itself is locked, not a file in it, so that nothing remains: the system releases the lock when its process ends, in whatever way. A run that
+//! writes into a part of a folder shares the lock of the whole and holds an exclusive lock of that part. A second run is refused; the message names the process
+//! of the first, from the name of its mark ([`crate::run_mark`]). Without locks of folders (Windows, some network file systems) runs are not distinguished.
 
 use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
@@ -15,22 +14,22 @@ use crate::{Error, ErrorCode, paths::Missed, run_mark};
 #[derive(Debug)]
 pub(crate) struct FolderLock {
     path: PathBuf,
-    /// `None` where folders cannot be locked.
+    /// `None` if folders cannot be locked.
     folder: Option<File>,
 }
 
 impl FolderLock {
-    /// The whole folder, for one run alone.
+    /// Locks the whole folder exclusively.
     pub(crate) fn alone(root: &Path) -> Result<Self, Missed> {
         Self::of(root, root, File::try_lock)
     }
 
-    /// The folder together with others that write into parts of it.
+    /// Locks the folder together with other runs that write into parts of it.
     pub(crate) fn shared(root: &Path) -> Result<Self, Missed> {
         Self::of(root, root, File::try_lock_shared)
     }
 
-    /// A part of a folder, for one run alone. Marks are in the folder.
+    /// Locks a part of a folder exclusively. Marks are in the folder.
     pub(crate) fn part(root: &Path, part: &Path) -> Result<Self, Missed> {
         Self::of(root, part, File::try_lock)
     }
@@ -51,8 +50,8 @@ impl FolderLock {
         }
     }
 
-    /// Whether the folder that is locked is the one that has its name: a run that ends without results removes a folder that it made, and another run may have made
-    /// it anew before this one locked it.
+    /// Returns true if the locked folder still has its name. A run that ends without results removes a folder that it made, and another run may have made it
+    /// again before this one locked it.
     pub(crate) fn is_of_its_name(&self) -> bool {
         self.folder.as_ref().is_none_or(|folder| is_same(folder, &self.path))
     }
@@ -65,13 +64,13 @@ fn is_same(opened: &File, path: &Path) -> bool {
     (opened.dev(), opened.ino()) == (named.dev(), named.ino())
 }
 
-/// Folders are not locked there.
+/// Folders are not locked on this system.
 #[cfg(not(unix))]
 fn is_same(_: &File, _: &Path) -> bool {
     true
 }
 
-/// The folder where the program runs has an empty path.
+/// The working directory has an empty path.
 fn here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }

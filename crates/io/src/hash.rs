@@ -1,4 +1,4 @@
-//! Content hashes: SHA-256 (FIPS 180-4) of the bytes of a file, and with its size the digest that a record states of files beside it.
+//! Content hashes: SHA-256 (FIPS 180-4) of the bytes of a file, and the digest (hash and size) that a record states of its files.
 
 use std::io::{self, Read};
 use std::{fs::File, path::Path};
@@ -15,8 +15,8 @@ pub fn of_bytes(bytes: &[u8]) -> ContentHash {
     Sha256::digest(bytes).into()
 }
 
-/// The hash of several files that make one asset (a mesh and its material library), in order: the hash of their
-/// hashes, so that moving a byte from one file to the next changes it.
+/// Hash of several files that make one asset (a mesh and its material library), in order: the hash of their hashes, so moving a byte from one file to the next
+/// changes it.
 #[must_use]
 pub fn of_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> ContentHash {
     let hashes: Vec<u8> = parts.into_iter().flat_map(of_bytes).collect();
@@ -29,32 +29,32 @@ pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Bytes that are read at once.
+/// Bytes read at a time.
 const PIECE: usize = 1 << 20;
 
 /// Size and content hash of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FileDigest {
-    /// Its size.
+    /// Size, bytes.
     pub bytes: u64,
     /// SHA-256 (FIPS 180-4) of its bytes, hexadecimal.
     pub sha256: String,
 }
 
 impl FileDigest {
-    /// The digest of a file.
+    /// Digest of a file.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// If it cannot be read.
     pub fn new(path: &Path) -> io::Result<Self> {
         Self::from_reader(File::open(path)?)
     }
 
-    /// The digest of all that a reader gives.
+    /// Digest of all bytes of a reader.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// If it cannot be read.
     pub fn from_reader(mut reader: impl Read) -> io::Result<Self> {
         let (mut hash, mut bytes) = (Sha256::new(), 0);
         let mut piece = vec![0; PIECE];
@@ -77,7 +77,7 @@ impl FileDigest {
         Self { bytes: bytes.len() as u64, sha256: hex(&of_bytes(bytes)) }
     }
 
-    /// Returns true where a regular file of this content is at `path`; a link is none.
+    /// Returns true if `path` is a regular file of this content; a link is not.
     #[must_use]
     pub fn matches(&self, path: &Path) -> bool {
         let is_of_size = path.symlink_metadata().is_ok_and(|found| found.is_file() && found.len() == self.bytes);

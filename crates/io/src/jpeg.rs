@@ -1,11 +1,11 @@
-//! JPEG files: display pictures, with loss.
+//! JPEG files: display images, lossy.
 
 use etendue_core::{Plane, quantity::Display};
 use image::{ExtendedColorType, ImageEncoder, codecs::jpeg::JpegEncoder};
 
 use crate::exr::EncodeError;
 
-/// A display picture, rounded to 8 bits, at a quality of 1 to 100. Values outside 0–1 are cut; NaN is black.
+/// Encodes a display image, rounded to 8 bits, at a quality of 1 to 100. Values outside 0–1 are clamped; NaN is black.
 pub fn encode_jpeg(picture: &Plane<Display>, quality: u8) -> Result<Vec<u8>, EncodeError> {
     let (width, height) = (picture.width(), picture.height());
     if width == 0 || height == 0 {
@@ -37,7 +37,7 @@ mod tests {
             (read.iter().zip(truth).map(|(a, b)| (f32::from(*a) - b).abs()).fold(0.0, f32::max), file.len())
         };
         let ((fine, large), (coarse, small)) = (worst(95), worst(20));
-        // A smooth ramp: a few steps of rounding at the best quality.
+        // Smooth ramp: a few steps of rounding at the best quality.
         assert!(fine <= 6.0 && coarse > fine && small < large, "{fine} {coarse}, {small} {large} bytes");
     }
 

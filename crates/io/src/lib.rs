@@ -3,30 +3,29 @@
 //! | direction | what | where |
 //! | --- | --- | --- |
 //! | in | Wavefront OBJ with its MTL, glTF 2.0, PLY | [`mesh`] |
-//! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
-//! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
-//! | in | EXIF data of pictures | [`exif`] |
+//! | in | PNG, JPEG, Radiance HDR, OpenEXR images | [`picture`] |
+//! | in | PNG, JPEG, TIFF, OpenEXR and raw images to be measured | [`photograph`] |
+//! | in | EXIF data of images | [`exif`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
 //! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
 //! | in | tables over a lens's field: Zemax | [`lens_table`] |
 //! | in | ray-transfer functions of lenses: ISET | [`ray_transfer`] |
 //! | in | calibrated cameras: OpenCV, ROS, Kalibr, COLMAP, OCamCalib | [`calibration`] |
 //! | in | spectra, refractive indices, coefficients of retro-reflection | [`spectrum`], [`mod@table`] |
-//! | out and in | tiles of textures that are too large for the memory | [`tile_cache`] |
-//! | in | everything a description names, with all errors at once | [`assets`] |
+//! | out and in | tiles of textures that are too large for memory | [`tile_cache`] |
+//! | in | all files that a description names, with all errors at once | [`assets`] |
 //! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
 //! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, raw TIFF and DNG, side-car JSON | [`exr`], [`png`], [`mod@tiff`], [`sidecar`] |
 //! | out | optical flow and disparity in the files of the benchmarks | [`correspondence`] |
 //! | out | videos without compression | [`y4m`] |
-//! | out | calibrated cameras and their poses, as ROS, Kalibr and COLMAP know them | [`calibration::export`] |
-//! | look | two results, channel beside channel | [`compare`] |
-//! | look | what is in a file, with a picture of it | [`inspect`] |
+//! | out | calibrated cameras and their poses, in the formats of ROS, Kalibr and COLMAP | [`calibration::export`] |
+//! | look | two results, channel by channel | [`compare`] |
+//! | look | content of a file, with an image of it | [`inspect`] |
 //!
-//! Encoders are pure: the same values give the same bytes, on any number of threads, without clock time. Results reach
-//! the disk through an [`OutputFolder`] alone, which refuses to overwrite, writes under temporary names and renames
-//! when everything is complete.
+//! Encoders are pure: the same values give the same bytes, on any number of threads, without clock time. Results reach the disk through an [`OutputFolder`]
+//! alone, which refuses to overwrite, writes under temporary names and renames when everything is complete.
 //!
-//! This crate renders nothing and decides nothing; it never prints and starts no threads.
+//! This crate renders nothing and holds no policy; it never prints and starts no threads.
 
 pub mod assets;
 pub mod calibration;

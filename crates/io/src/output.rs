@@ -1,13 +1,12 @@
-//! The folder that takes a run's results.
+//! Folder for a run's results.
 //!
-//! Contract: a final name holds a whole file or none. Files are written beside their final name under a temporary one
-//! (`.NAME.PID-N.part`), flushed to the disk, and renamed by [`OutputFolder::commit`]. Dropped without commit, a folder
-//! removes its temporaries and the folders it made itself. A run that is killed outright may leave `.part` files, which the
-//! next run in the folder removes; it leaves no half-written file under a final name.
+//! Contract: a final name holds a whole file or none. Files are written next to their final name under a temporary one (`.NAME.PID-N.part`), flushed to the
+//! disk, and renamed by [`OutputFolder::commit`]. A folder dropped without commit removes its temporary files and the folders it created. A killed run may
+//! leave `.part` files, which the next run in the folder removes; it leaves no incomplete file under a final name.
 //!
-//! One run at a time writes into a folder ([`OutputFolder::open`]), or into a part of it ([`OutputFolder::open_part`]). Symbolic links are not followed: one in
-//! the place of a file is that file's name, replaced or refused as any; one in the place of a folder within the output folder is refused. The output folder itself
-//! may be one.
+//! One run at a time writes into a folder ([`OutputFolder::open`]), or into a part of it ([`OutputFolder::open_part`]). Symbolic links are not followed: a link
+//! in the place of a file is replaced or refused like a file; one in the place of a folder within the output folder is refused. The output folder itself may be
+//! one.
 
 #[cfg(test)]
 mod tests;
@@ -20,30 +19,30 @@ use std::{collections::BTreeMap, sync::Arc};
 use crate::paths::{self, MadeFolders, Missed};
 use crate::{Error, ErrorCode, folder_lock::FolderLock, hash::FileDigest, run_mark::RunMark};
 
-/// How often a folder is made that another run removes at that moment, as nothing is in it.
+/// Maximum attempts to create a folder that another run keeps removing because it is empty.
 const TRIES: usize = 100;
 
-/// What to do with files that are already there under the names to be written.
+/// Treatment of existing files with the names to be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
     /// Refuse: an earlier result is never lost.
     Refuse,
     /// Replace them when the run commits.
     Replace,
-    /// Go on where an earlier run was interrupted: what it completed stays, the rest is replaced.
+    /// Continue an interrupted run: its completed files stay, the rest is replaced.
     Resume,
 }
 
-/// A folder for results; see the module for its contract.
+/// Folder for results; see the module for its contract.
 #[derive(Debug)]
 pub struct OutputFolder {
     root: PathBuf,
     existing: Existing,
     made: MadeFolders,
     pending: Vec<Pending>,
-    /// From opening to the end.
+    /// Mark of the run, from opening to the end.
     mark: Option<RunMark>,
-    /// Those of the folder and its part; several of one run share them.
+    /// Locks of the folder and its part; several folders of one run share them.
     locks: Arc<Vec<FolderLock>>,
 }
 
@@ -54,13 +53,13 @@ struct Pending {
 }
 
 impl OutputFolder {
-    /// Opens `root` for one run alone, making it where it is missing, and proves that it can be written to, so that a long run cannot
-    /// fail at its end for want of permission. Refused while another run writes into it.
+    /// Opens `root` exclusively for one run and creates it if missing. Tests that it is writable, so that a long run cannot fail at its end for lack of
+    /// permission. Refused while another run writes into it.
     pub fn open(root: &Path, existing: Existing) -> Result<Self, Error> {
         Self::opened(root, existing, |_| Ok(vec![FolderLock::alone(root)?]))
     }
 
-    /// The same for a run all of whose files are in the folder `part` of `root`: runs of other parts may write beside it.
+    /// The same for a run whose files are all in the folder `part` of `root`: other runs may write to other parts.
     pub fn open_part(root: &Path, part: &str, existing: Existing) -> Result<Self, Error> {
         Self::opened(root, existing, |folder| {
             let whole = FolderLock::shared(root)?;
@@ -72,19 +71,19 @@ impl OutputFolder {
         })
     }
 
-    /// The same for single files, each whole by itself, in a folder that may be another run's.
+    /// The same for single files, each complete by itself, in a folder that another run may use.
     pub fn open_beside(root: &Path, existing: Existing) -> Result<Self, Error> {
         Self::opened(root, existing, |_| Ok(Vec::new()))
     }
 
-    /// The same folder once more, for files of the same run that get their names at other times.
+    /// Returns the same folder again, for files of the same run that are committed at other times.
     pub fn again(&self, existing: Existing) -> Result<Self, Error> {
         let mut folder = Self::opened(&self.root, existing, |_| Ok(Vec::new()))?;
         folder.locks = Arc::clone(&self.locks);
         Ok(folder)
     }
 
-    /// The folder made, locked and marked. Until it is marked, a run that made it and ends without results may remove it; then it is made anew.
+    /// Creates, locks and marks the folder. Until it is marked, a run that created it and ends without results may remove it; then it is created again.
     fn opened(
         root: &Path,
         existing: Existing,
@@ -112,43 +111,43 @@ impl OutputFolder {
         let mark =
             RunMark::set(root).map_err(|cause| Missed::of(root, "this output folder cannot be written to", &cause))?;
         folder.mark = Some(mark);
-        // With the mark in it, it stays: what is locked must be what has the name now.
+        // With the mark in it, the folder stays: the locked folder must still have the name.
         match folder.locks.iter().all(FolderLock::is_of_its_name) {
             true => Ok(folder),
             false => Err(Missed::gone(root)),
         }
     }
 
-    /// The folder's path.
+    /// Path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.root
     }
 
-    /// Refuses at once, before any rendering, where a file of these names is there and may not be replaced.
+    /// Refuses immediately, before any rendering, if a file of these names exists and may not be replaced.
     pub fn claim<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Error> {
         names.into_iter().try_for_each(|name| self.check_free(&self.resolve(name)?))
     }
 
-    /// From now on, files of these names that are there are the run's own, which it replaces.
+    /// From now on, existing files of these names belong to the run, which replaces them.
     #[must_use]
     pub fn refining(mut self) -> Self {
         self.existing = Existing::Replace;
         self
     }
 
-    /// Removes the files of these names, where they are, and their folder, where nothing else is in it.
+    /// Removes the files of these names if they exist, and their folder if it is then empty.
     pub fn remove<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Error> {
         for name in names {
             let path = self.resolve(name)?;
             paths::remove_file(&self.root, &path)?;
-            // Left where it is not empty.
+            // Remains if it is not empty.
             let _ = path.parent().filter(|folder| *folder != self.root).map(fs::remove_dir);
         }
         Ok(())
     }
 
-    /// The names of the files in a folder within, sorted; none where it is not there. A link in its place is refused, links in it are left out.
+    /// Names of the files in a subfolder, sorted; none if it does not exist. A link in its place is refused; links in it are ignored.
     pub fn files_in(&self, folder: &str) -> Result<Vec<String>, Error> {
         let files = paths::files_in(&self.root, &self.resolve(folder)?)?;
         let name = |path: PathBuf| Some(format!("{folder}/{}", path.file_name()?.to_str()?));
@@ -160,7 +159,7 @@ impl OutputFolder {
         self.write_with(name, |file| file.write_all(bytes))
     }
 
-    /// The same of what `write` hands over piece by piece, for files that are larger than the memory should hold.
+    /// The same for data that `write` supplies piece by piece, for files too large to hold in memory.
     pub fn write_with(
         &mut self,
         name: &str,
@@ -187,14 +186,14 @@ impl OutputFolder {
         write_flushed(&temporary, write).map_err(unwritten)
     }
 
-    /// The path at which a file of the run can be read, as soon as it is written: its temporary name before it has its final one.
+    /// Path at which a file of the run can be read once it is written: the temporary name before the final one.
     pub fn readable(&self, name: &str) -> Result<PathBuf, Error> {
         let target = self.resolve(name)?;
         let pending = self.pending.iter().find(|file| file.name == target);
         Ok(pending.map_or(target, |file| file.temporary.clone()))
     }
 
-    /// The digests of those files that were written, have no final name yet and are `wanted`, by their names within the folder.
+    /// Digests of the `wanted` files that are written but have no final name yet, by their names within the folder.
     pub fn pending_digests(&self, wanted: impl Fn(&str) -> bool) -> Result<BTreeMap<String, FileDigest>, Error> {
         let named = self.pending.iter().map(|file| {
             let inside = file.name.strip_prefix(&self.root).unwrap_or(&file.name);
@@ -215,7 +214,7 @@ impl OutputFolder {
         self.publish()
     }
 
-    /// The same for what has been written so far; the run goes on.
+    /// The same for the files written so far; the run continues.
     pub fn publish(&mut self) -> Result<Vec<PathBuf>, Error> {
         for file in &self.pending {
             self.check_free(&file.name)?;
@@ -255,7 +254,7 @@ impl OutputFolder {
 
     fn check_free(&self, target: &Path) -> Result<(), Error> {
         paths::check_folders(&self.root, target)?;
-        // Of a link itself, not of where it leads.
+        // Metadata of a link itself, not of its target.
         let there = match fs::symlink_metadata(target) {
             Ok(there) => there,
             Err(cause) if cause.kind() == io::ErrorKind::NotFound => return Ok(()),
@@ -282,7 +281,7 @@ impl OutputFolder {
 }
 
 impl Drop for OutputFolder {
-    /// Removes what was not committed. Failures are passed over: there is nobody left to tell.
+    /// Removes uncommitted files. Failures are ignored: there is no one left to report to.
     fn drop(&mut self) {
         for file in &self.pending {
             let _ = paths::remove_file(&self.root, &file.temporary);
@@ -293,7 +292,7 @@ impl Drop for OutputFolder {
 }
 
 fn write_flushed(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
-    // The name is the run's own; what a killed process of the same number may have left under it, or a link, is not written into.
+    // The name belongs to the run. A leftover of a killed process with the same number, or a link, is not written into.
     let _ = fs::remove_file(path);
     let mut file = BufWriter::new(File::create_new(path)?);
     write(&mut file)?;

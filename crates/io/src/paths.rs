@@ -1,13 +1,11 @@
-//! Paths: as files name them, within an output folder, and folders that a run makes for its results.
+//! Relative paths, paths within an output folder, and folders that a run creates for its results.
 //!
-//! Paths within an output folder: no symbolic link is followed to write or to delete.
+//! Within an output folder no symbolic link is followed to write or to delete. Every module that writes or deletes below an output folder uses this one. The
+//! output folder itself may be a link, made by its owner. A folder within it may not: the maker of such a link would choose where files go or disappear. A link
+//! in the place of a file is replaced or removed itself, never its target.
 //!
-//! Every module that writes or deletes below an output folder asks here. The output folder itself may be a link, which its owner made; a folder within it may not,
-//! since whoever made that link chose where files go or disappear. A link in the place of a file is that file's name: it is replaced or removed, never what it leads to.
-//!
-//! Folders that a run makes for its results: made where they are missing, removed again where nothing came into them.
-//!
-//! Other runs may make and remove the same folders meanwhile, those of other parts of one output folder above all.
+//! Folders that a run creates for its results are created if missing and removed again if they stay empty. Other runs may create and remove the same folders
+//! meanwhile, above all those of other parts of one output folder.
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -15,7 +13,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::{Error, ErrorCode};
 
-/// The way from a folder to a file, such as `../models/car.glb`. Both are absolute, without `.` and `..`; links are not followed.
+/// Relative path from a folder to a file, such as `../models/car.glb`. Both are absolute, without `.` and `..`; links are not followed.
 #[must_use]
 pub fn relative_path(folder: &Path, file: &Path) -> PathBuf {
     let shared = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
@@ -29,13 +27,13 @@ pub fn camera_stem(file: &Path) -> String {
     file.file_stem().map_or_else(|| "camera".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Refuses a file, or a link to elsewhere, in the place of a folder between `root` and `target`.
+/// Refuses a file, or a link, in the place of a folder between `root` and `target`.
 pub(crate) fn check_folders(root: &Path, target: &Path) -> Result<(), Error> {
     let folders = target.ancestors().skip(1).take_while(|folder| *folder != root);
     folders.into_iter().try_for_each(check_folder)
 }
 
-/// The same of one folder, which need not be there.
+/// The same for one folder, which need not exist.
 pub(crate) fn check_folder(folder: &Path) -> Result<(), Error> {
     if folder.is_symlink() {
         return Err(Error::coded(
@@ -50,7 +48,7 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Removes a file below `root`, or a link in its place; what is not there is removed already.
+/// Removes a file below `root`, or a link in its place; succeeds if there is none.
 pub(crate) fn remove_file(root: &Path, target: &Path) -> Result<(), Error> {
     check_folders(root, target)?;
     match fs::remove_file(target) {
@@ -61,7 +59,7 @@ pub(crate) fn remove_file(root: &Path, target: &Path) -> Result<(), Error> {
     }
 }
 
-/// The files in a folder below `root`, by their names; none where it is not there. Links, folders and devices are not among them.
+/// Files in a folder below `root`, by name; none if it does not exist. Links, folders and devices are excluded.
 pub(crate) fn files_in(root: &Path, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     check_folders(root, folder)?;
     check_folder(folder)?;
@@ -84,23 +82,23 @@ pub(crate) fn files_in(root: &Path, folder: &Path) -> Result<Vec<PathBuf>, Error
     Ok(files)
 }
 
-/// Why a folder could not be had.
+/// Failure to create a folder.
 #[derive(Debug)]
 pub(crate) struct Missed {
-    /// What the user is told where no other try follows.
+    /// Error for the user if there is no other attempt.
     pub(crate) error: Error,
-    /// Whether it, or the folder around it, was removed meanwhile: another try may have it.
+    /// True if the folder, or its parent, was removed meanwhile: another attempt may succeed.
     pub(crate) is_gone: bool,
 }
 
 impl Missed {
-    /// A fault of the system over a path.
+    /// Returns the failure of a system call on a path.
     pub(crate) fn of(path: &Path, told: &str, cause: &io::Error) -> Self {
         let is_gone = cause.kind() == io::ErrorKind::NotFound;
         Self { error: Error::coded(ErrorCode::UnwritableOutput, path, format!("{told}: {cause}")), is_gone }
     }
 
-    /// A folder that has its name no more.
+    /// Returns the failure of a folder that no longer has its name.
     pub(crate) fn gone(path: &Path) -> Self {
         let told = "this output folder is removed again and again while it is made; choose another one";
         Self { error: Error::coded(ErrorCode::UnwritableOutput, path, told), is_gone: true }
@@ -113,18 +111,18 @@ impl From<Error> for Missed {
     }
 }
 
-/// Folders that a run made itself.
+/// Folders that a run created.
 #[derive(Debug, Default)]
 pub(crate) struct MadeFolders(Vec<PathBuf>);
 
 impl MadeFolders {
-    /// Makes a folder and those around it, where they are missing.
+    /// Creates a folder and its missing parents.
     pub(crate) fn make(&mut self, folder: &Path) -> Result<(), Missed> {
         let missing: Vec<&Path> = folder.ancestors().take_while(|f| !f.as_os_str().is_empty() && !f.exists()).collect();
         for path in missing.into_iter().rev() {
             match fs::create_dir(path) {
                 Ok(()) => self.0.push(path.to_path_buf()),
-                // Another run made it at this moment, or it is a link that leads nowhere: seen below.
+                // Another run created it at this moment, or it is a dangling link: distinguished below.
                 Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(cause) => return Err(Missed::of(path, "this output folder cannot be made", &cause)),
             }
@@ -138,12 +136,12 @@ impl MadeFolders {
         }
     }
 
-    /// They stay: results are in them.
+    /// Keeps the folders: they contain results.
     pub(crate) fn keep(&mut self) {
         self.0.clear();
     }
 
-    /// Removes those in which nothing is.
+    /// Removes the empty folders.
     pub(crate) fn remove(&mut self) {
         for folder in self.0.drain(..).rev() {
             let _ = fs::remove_dir(folder);
@@ -151,7 +149,7 @@ impl MadeFolders {
     }
 }
 
-/// The error of what is in the place of a folder and is none.
+/// Error of a path that is no folder.
 fn no_folder(path: &Path) -> Error {
     Error::coded(
         ErrorCode::UnwritableOutput,

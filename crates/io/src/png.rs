@@ -1,15 +1,15 @@
-//! PNG files: raw digital numbers, depth, display pictures.
+//! PNG files: raw digital numbers, depth, display images.
 //!
 //! | writer | depth | meaning of a value |
 //! | --- | --- | --- |
-//! | [`encode_raw16`] | 16 bit grey | digital number in proportion to light, not stretched, with the gAMA chunk of 1; the side-car states its bits |
+//! | [`encode_raw16`] | 16 bit grey | digital number proportional to light, not stretched, with the gAMA chunk of 1; the side-car states its bits |
 //! | [`encode_companded16`] | 16 bit grey | companded digital number; the side-car states its bits and lines |
 //! | [`encode_grey8`], [`encode_grey16`] | 8 and 16 bit grey | labels, masks and identities, as the caller states them |
 //! | [`encode_depth16`] | 16 bit grey | metres × the scale of the convention; 0 is invalid |
-//! | [`encode_display`] | 8 bit RGB | encoded for display, with the chunk that says how: sRGB, or gAMA and cHRM |
+//! | [`encode_display`] | 8 bit RGB | encoded for display, with the chunk that states it: sRGB, or gAMA and cHRM |
 //! | [`encode_display16`] | 16 bit RGB | the same of 10 to 16 bits, scaled to 16 by repeating the upper bits, with the sBIT chunk |
 //!
-//! What the chunks of a PNG say of how its numbers are encoded (PNG specification, third edition, 4.3 and 11.3.2).
+//! Also reads the chunks that state the encoding of a PNG's numbers (PNG specification, third edition, 4.3 and 11.3.2).
 
 use etendue_core::Plane;
 use etendue_core::quantity::{DigitalNumber, Display, Length};
@@ -18,37 +18,37 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use crate::{encoding::Stated, exr::EncodeError, photograph::Encoding};
 
-/// The gAMA chunk of numbers in proportion to light.
+/// The gAMA chunk of numbers proportional to light.
 const GAMMA_1: u32 = 100_000;
 
-/// The stored value of `depth_m` at `per_metre` units a metre (KITTI 256, ROS 1 000, TUM 5 000): rounded to nearest. 0,
-/// invalid, where it is not finite, not positive, or beyond the largest value: a wall too far away must not seem near.
+/// The stored value of `depth_m` at `per_metre` units per metre (KITTI 256, ROS 1 000, TUM 5 000), rounded to nearest. 0 (invalid) if it is not finite, not
+/// positive, or beyond the largest value: a far wall must not appear near.
 #[must_use]
 pub fn stored_depth(depth_m: f32, per_metre: f64) -> u16 {
     let units = (f64::from(depth_m) * per_metre).round();
     if units >= 1.0 && units <= f64::from(u16::MAX) { units as u16 } else { 0 }
 }
 
-/// Raw digital numbers of at most 16 bits, in proportion to light; larger ones are refused.
+/// Encodes raw digital numbers of at most 16 bits, proportional to light; larger ones are refused.
 pub fn encode_raw16(raw: &Plane<DigitalNumber>) -> Result<Vec<u8>, EncodeError> {
     Ok(with_chunk(encode_companded16(raw)?, *b"gAMA", &GAMMA_1.to_be_bytes()))
 }
 
-/// Raw digital numbers of at most 16 bits that are not in proportion to light; larger ones are refused.
+/// Encodes raw digital numbers of at most 16 bits that are not proportional to light; larger ones are refused.
 pub fn encode_companded16(raw: &Plane<DigitalNumber>) -> Result<Vec<u8>, EncodeError> {
     let narrowed = |dn: &u32| u16::try_from(*dn).map_err(|_| EncodeError::Wide { value: *dn });
     let values = raw.samples().iter().map(narrowed).collect::<Result<Vec<u16>, _>>()?;
     encode_grey16(raw.width(), raw.height(), &values)
 }
 
-/// Depth (m, planar or along the ray as the caller states it) at `per_metre` units a metre.
+/// Encodes depth (m, planar or along the ray as the caller states it) at `per_metre` units per metre.
 pub fn encode_depth16(depth: &Plane<Length>, per_metre: f64) -> Result<Vec<u8>, EncodeError> {
     let stored: Vec<u16> = depth.samples().iter().map(|&m| stored_depth(m, per_metre)).collect();
     encode_grey16(depth.width(), depth.height(), &stored)
 }
 
-/// A display picture, rounded to 8 bits. Values outside 0–1 are cut, as a display would; NaN is black. The file says how they are
-/// `encoded`, as far as a chunk can: of curves that none can state it says sRGB, for the display.
+/// Encodes a display image, rounded to 8 bits. Values outside 0–1 are clamped, as in a display; NaN is black. The file states the encoding `encoded` as far as
+/// a chunk can; for curves that no chunk can state it states sRGB, for the display.
 pub fn encode_display(picture: &Plane<Display>, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Vec::with_capacity(3 * picture.samples().len());
     bytes.extend(picture.samples().iter().flatten().map(|&v| (v * 255.0).round() as u8));
@@ -56,9 +56,9 @@ pub fn encode_display(picture: &Plane<Display>, encoded: &Encoding) -> Result<Ve
     Ok(with_statement(file, encoded))
 }
 
-/// A display picture of 10 to 16 bits in a file of 16. Values outside 0–1 are cut; NaN is black. The number q of b bits is
-/// stored as q 2^(16−b) + ⌊q/2^(2b−16)⌋, so that black is 0 and white 65 535, and a reader that keeps the upper b bits (the
-/// sBIT chunk says how many; PNG specification, 11.3.2.4) has q again. `encoded` as of [`encode_display`].
+/// Encodes a display image of 10 to 16 bits in a 16-bit file. Values outside 0–1 are clamped; NaN is black. The number q of b bits is stored as q 2^(16−b) +
+/// ⌊q/2^(2b−16)⌋, so that black is 0 and white 65 535, and a reader that keeps the upper b bits (the sBIT chunk states b; PNG specification, 11.3.2.4) recovers
+/// q. `encoded` as for [`encode_display`].
 pub fn encode_display16(picture: &Plane<Display>, bits: u32, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
     if !(9..=16).contains(&bits) {
         return Err(EncodeError::Encoder(format!("a picture of {bits} bits does not belong in a PNG of 16")));
@@ -74,31 +74,31 @@ pub fn encode_display16(picture: &Plane<Display>, bits: u32, encoded: &Encoding)
     Ok(with_chunk(with_statement(file, encoded), *b"sBIT", &[bits as u8; 3]))
 }
 
-/// sRGB-encoded bytes, three a pixel.
+/// sRGB-encoded bytes, three per pixel.
 pub(crate) fn encode_rgb8(width: usize, height: usize, rgb: &[u8]) -> Result<Vec<u8>, EncodeError> {
     let file = encode(width, height, rgb, ExtendedColorType::Rgb8)?;
     Ok(with_statement(file, &Encoding::Srgb))
 }
 
-/// Three numbers of 16 bits a pixel, of which no chunk says that they are colours.
+/// Three 16-bit numbers per pixel, without a chunk that declares them colours.
 pub(crate) fn encode_rgb16(width: usize, height: usize, values: &[u16]) -> Result<Vec<u8>, EncodeError> {
     let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_ne_bytes()).collect();
     encode(width, height, &bytes, ExtendedColorType::Rgb16)
 }
 
-/// Puts a text under a keyword behind the header (PNG specification, 11.3.3.2: Latin-1).
+/// Inserts a text under a keyword after the header (PNG specification, 11.3.3.2: Latin-1).
 pub(crate) fn with_text(file: Vec<u8>, keyword: &str, text: &str) -> Vec<u8> {
     with_chunk(file, *b"tEXt", &[keyword.as_bytes(), b"\0", text.as_bytes()].concat())
 }
 
-/// Numbers of 8 bits, one a pixel: labels and masks.
+/// Encodes 8-bit numbers, one per pixel: labels and masks.
 pub fn encode_grey8(width: usize, height: usize, values: &[u8]) -> Result<Vec<u8>, EncodeError> {
     encode(width, height, values, ExtendedColorType::L8)
 }
 
-/// Numbers of 16 bits, one a pixel: identities, lengths.
+/// Encodes 16-bit numbers, one per pixel: identities, lengths.
 pub fn encode_grey16(width: usize, height: usize, values: &[u16]) -> Result<Vec<u8>, EncodeError> {
-    // The encoder takes 16-bit values in the machine's byte order.
+    // The encoder expects 16-bit values in native byte order.
     let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_ne_bytes()).collect();
     encode(width, height, &bytes, ExtendedColorType::L16)
 }
@@ -117,13 +117,13 @@ fn encode(width: usize, height: usize, bytes: &[u8], kind: ExtendedColorType) ->
     Ok(file)
 }
 
-/// Puts the chunks that state an encoding behind the header.
+/// Inserts the chunks that state an encoding after the header.
 fn with_statement(file: Vec<u8>, encoded: &Encoding) -> Vec<u8> {
     let chunks = stating(encoded);
     chunks.into_iter().rev().fold(file, |file, (name, data)| with_chunk(file, name, &data))
 }
 
-/// Puts a chunk behind the header.
+/// Inserts a chunk after the header.
 fn with_chunk(mut file: Vec<u8>, name: [u8; 4], data: &[u8]) -> Vec<u8> {
     const AFTER_HEADER: usize = 8 + 4 + 4 + 13 + 4; // signature; length, name, data and checksum of IHDR
     let named = [&name[..], data].concat();
@@ -138,23 +138,23 @@ fn checksum(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| step(crc)))
 }
 
-/// A power, in units of 1/100 000 of light^power.
+/// Scale of the gAMA chunk, which stores the exponent p of light^p in units of 1/100 000.
 const UNIT: f64 = 100_000.0;
 
 /// Signature of a PNG.
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
-/// What a PNG says, and the names of what it says and is not understood.
+/// Encoding that a PNG states, and the names of unsupported statements.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Said {
     pub stated: Option<Stated>,
     pub not_understood: Option<String>,
 }
 
-/// What a chunk's data say; the name of what is not understood.
+/// Reader of a chunk's data; the error names unsupported content.
 type Reader = fn(&[u8]) -> Result<Stated, String>;
 
-/// The chunk of highest precedence that is understood; of files that are no PNG nothing.
+/// The supported chunk of highest precedence; nothing for files that are no PNG.
 pub(crate) fn said(file: &[u8]) -> Said {
     let chunks = chunks(file);
     let data = |name: &[u8; 4]| chunks.iter().find(|(found, _)| found == name).map(|(_, data)| *data);
@@ -171,19 +171,19 @@ pub(crate) fn said(file: &[u8]) -> Said {
     said
 }
 
-/// The text under the keyword Title, where a PNG has one before its picture.
+/// Text under the keyword Title, if a PNG has one before its image data.
 pub(crate) fn title(file: &[u8]) -> Option<&str> {
     let texts = chunks(file).into_iter().filter(|(name, _)| name == b"tEXt");
     let titles = texts.filter_map(|(_, data)| data.strip_prefix(b"Title\0"));
     titles.filter_map(|text| std::str::from_utf8(text).ok()).next()
 }
 
-/// The EXIF data, where a PNG has them before its picture.
+/// EXIF data, if a PNG has them before its image data.
 pub(crate) fn exif(file: &[u8]) -> Option<&[u8]> {
     chunks(file).into_iter().find(|(name, _)| name == b"eXIf").map(|(_, data)| data)
 }
 
-/// Names and data of the chunks before the picture's own.
+/// Names and data of the chunks before the image data.
 fn chunks(file: &[u8]) -> Vec<([u8; 4], &[u8])> {
     let mut found = Vec::new();
     let Some(mut rest) = file.strip_prefix(SIGNATURE) else { return found };
@@ -197,7 +197,7 @@ fn chunks(file: &[u8]) -> Vec<([u8; 4], &[u8])> {
     found
 }
 
-/// Coding-independent code points (ITU-T H.273, table 3): transfer characteristics that are written for pictures.
+/// Coding-independent code points (ITU-T H.273, table 3): transfer characteristics used for images.
 fn of_cicp(data: &[u8]) -> Result<Stated, String> {
     if data.get(3) == Some(&0) {
         return Err("its cICP chunk of narrow range".to_owned());
@@ -236,8 +236,8 @@ fn of_gamma(data: &[u8]) -> Result<Stated, String> {
     Ok(Stated::new(encoding, format!("its gAMA chunk says {}", f64::from(stored) / UNIT)))
 }
 
-/// The chunks that state an encoding: sRGB, or gAMA with the primaries of sRGB (cHRM). No chunk can state a curve of points or an S-curve: such
-/// a picture is meant for a display of sRGB and says so; its side-car states the curve.
+/// Chunks that state an encoding: sRGB, or gAMA with the primaries of sRGB (cHRM). No chunk can state a curve of points or an S-curve: such an image is meant
+/// for an sRGB display and states that; its side-car states the curve.
 fn stating(encoding: &Encoding) -> Vec<([u8; 4], Vec<u8>)> {
     let power = match encoding {
         Encoding::Linear => 1.0,
@@ -260,7 +260,7 @@ mod tests {
     #[test]
     fn depth_conventions_have_their_scale_and_0_is_invalid() {
         assert_eq!(stored_depth(10.0, 256.0), 2560);
-        assert_eq!(stored_depth(1.2345, 1000.0), 1235); // 1234.5000… in f32 lies above the half
+        assert_eq!(stored_depth(1.2345, 1000.0), 1235); // 1234.5000… in f32 is above the half
         assert_eq!(stored_depth(2.0, 5000.0), 10_000);
         for invalid in [f32::INFINITY, f32::NAN, -1.0, 0.0, 300.0, 1e-5] {
             assert_eq!(stored_depth(invalid, 256.0), 0, "{invalid}");
@@ -313,11 +313,11 @@ mod tests {
 
     #[test]
     fn checksums_are_those_of_png() {
-        // The CRC of an empty IEND chunk, and the sRGB chunk of rendering intent 0, as every PNG has them.
+        // CRC of an empty IEND chunk, and of the sRGB chunk of rendering intent 0, as in every PNG.
         assert_eq!((checksum(b"IEND"), checksum(b"sRGB\0")), (0xae42_6082, 0xaece_1ce9));
     }
 
-    /// A file of chunks, whose checksums nobody reads here.
+    /// File of chunks; its checksums are not read here.
     fn png(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
         let one =
             |(name, data): &(&[u8; 4], &[u8])| [&(data.len() as u32).to_be_bytes()[..], *name, data, &[0; 4]].concat();
@@ -340,7 +340,7 @@ mod tests {
         assert_eq!(encoding(&[(b"cICP", &[1, 1, 0, 1])]), Some(Encoding::bt709()));
         assert_eq!(encoding(&[(b"iCCP", b"sRGB IEC61966-2.1\0\0"), (b"gAMA", &gamma)]), Some(Encoding::Srgb));
         assert_eq!(encoding(&[]), None);
-        // What comes behind the picture's data is not said of it.
+        // Chunks after the image data are ignored.
         assert_eq!(encoding(&[(b"IDAT", &[1]), (b"sRGB", &[0])]), None);
     }
 

@@ -1,8 +1,8 @@
-//! Where a result came from: the facts that every output carries. No clock time is among them.
+//! Provenance of a result: the facts that every output carries. They include no clock time.
 
 use std::collections::BTreeMap;
 
-/// What made a result, and the geometry it is in.
+/// Origin of a result, and its geometry.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Provenance {
     /// Hash of the plan, hexadecimal.
@@ -17,16 +17,16 @@ pub struct Provenance {
     pub frame: u64,
     /// Simulated time at the start of the exposure, s.
     pub time_s: f64,
-    /// The geometric convention in words: projection, axes, where pixel centres are.
+    /// Geometric convention in words: projection, axes, position of pixel centres.
     pub geometry: String,
-    /// Camera to world: rows of a 3 × 4 matrix, translation in m. `None` where no one pose applies (a moving camera).
+    /// Camera to world: rows of a 3 × 4 matrix, translation in m. `None` if there is no single pose (a moving camera).
     pub camera_to_world: Option<[[f64; 4]; 3]>,
     /// Further facts; names become `etendue:<name>` in EXR headers.
     pub further: BTreeMap<String, String>,
 }
 
 impl Provenance {
-    /// The facts as named texts, sorted by name, without the `etendue:` prefix. Numbers read back to the same bits.
+    /// Facts as named texts, sorted by name, without the `etendue:` prefix. Numbers read back to the same bits.
     #[must_use]
     pub fn texts(&self) -> BTreeMap<String, String> {
         let mut texts = self.further.clone();
@@ -46,8 +46,7 @@ impl Provenance {
         texts
     }
 
-    /// The facts in named texts as [`Self::texts`] makes them. Names that are absent or unreadable keep their default;
-    /// unknown names land in `further`.
+    /// Facts from named texts as [`Self::texts`] writes them. Absent or unreadable names keep their default; unknown names go into `further`.
     #[must_use]
     pub fn from_texts(texts: &BTreeMap<String, String>) -> Self {
         let mut facts = Self::default();

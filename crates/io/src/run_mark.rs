@@ -1,8 +1,8 @@
-//! The mark of a run in its folder for results, by which leftovers of a killed run are told from files of a running one.
+//! Mark of a run in its results folder. It distinguishes leftovers of a killed run from files of a running one.
 //!
-//! A mark is the hidden file `.etendue.PID-N.part`. It is locked as long as its run lasts, however that ends, and lists
-//! the run's temporary files. A mark that can be locked was left behind: the next run in that folder removes what it
-//! lists, and it. Where a file system knows no locks, nothing of another run is touched.
+//! A mark is the hidden file `.etendue.PID-N.part`. It is locked until its run ends, in whatever way, and lists the run's temporary files. A mark that can be
+//! locked is a leftover: the next run in that folder removes the listed files and the mark. Without locks of the file system, files of other runs are never
+//! touched.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read as _, Write as _};
@@ -13,31 +13,31 @@ use crate::paths;
 const HEAD: &str = ".etendue.";
 const TAIL: &str = ".part";
 
-/// The mark of a run; it goes when it is dropped.
+/// Mark of a run; removed when dropped.
 #[derive(Debug)]
 pub(crate) struct RunMark {
     root: PathBuf,
     path: PathBuf,
-    /// What tells the run's temporary files from those of others: `PID-N`.
+    /// Identifier of the run's temporary files: `PID-N`.
     run: String,
     list: File,
 }
 
 impl RunMark {
-    /// Removes what killed runs left in `root`, and marks it.
+    /// Removes leftovers of killed runs in `root`, and marks it.
     pub(crate) fn set(root: &Path) -> io::Result<Self> {
         remove_leftovers(root);
         let process = std::process::id();
         for serial in 0_u64.. {
             let run = format!("{process}-{serial}");
             let path = root.join(format!("{HEAD}{run}{TAIL}"));
-            // Processes of several machines or containers may have one number.
+            // Processes of several machines or containers may have the same number.
             match File::options().write(true).create_new(true).open(&path) {
                 Ok(list) => match list.try_lock() {
                     // Another run took it for a leftover before it was locked.
                     Err(TryLockError::WouldBlock) => {}
                     Ok(()) if !path.exists() => {}
-                    // Without a lock the run works; only its leftovers would not be known for such.
+                    // The run works without a lock; only its leftovers would not be recognised.
                     Ok(()) | Err(TryLockError::Error(_)) => {
                         return Ok(Self { root: root.to_path_buf(), path, run, list });
                     }
@@ -49,7 +49,7 @@ impl RunMark {
         Err(ErrorKind::AlreadyExists.into())
     }
 
-    /// The temporary name of a file of the run, which is `target` (inside the folder) in the end; the list has it.
+    /// Temporary name of a file of the run whose final name is `target` (inside the folder); it is added to the list.
     pub(crate) fn temporary_of(&mut self, target: &Path) -> io::Result<PathBuf> {
         let name = target.file_name().unwrap_or_default().to_string_lossy();
         let temporary = target.with_file_name(format!(".{name}.{}{TAIL}", self.run));
@@ -61,13 +61,13 @@ impl RunMark {
 }
 
 impl Drop for RunMark {
-    /// Failures are passed over: the next run tries again.
+    /// Failures are ignored: the next run tries again.
     fn drop(&mut self) {
         let _ = fs::remove_file(&self.path);
     }
 }
 
-/// The number of a process that runs and has marked `root`, where one is known.
+/// Process number of a running process that has marked `root`, if known.
 pub(crate) fn running(root: &Path) -> Option<u32> {
     marks(root).into_iter().find_map(|(path, run)| {
         let is_held = matches!(File::open(path).ok()?.try_lock(), Err(TryLockError::WouldBlock));
@@ -75,11 +75,11 @@ pub(crate) fn running(root: &Path) -> Option<u32> {
     })
 }
 
-/// The marks in a folder, with what tells their runs from others.
+/// Marks in a folder, with the identifiers of their runs.
 fn marks(root: &Path) -> Vec<(PathBuf, String)> {
     let folder = if root.as_os_str().is_empty() { Path::new(".") } else { root };
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    // Neither links nor pipes that have such a name.
+    // Excludes links and pipes of such a name.
     let files = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_file()));
     let of_run = |entry: fs::DirEntry| {
         let name = entry.file_name();
@@ -89,7 +89,7 @@ fn marks(root: &Path) -> Vec<(PathBuf, String)> {
     files.filter_map(of_run).collect()
 }
 
-/// Removes what the marks of killed runs list. Failures are passed over: leftovers are in nobody's way.
+/// Removes the files that the marks of killed runs list. Failures are ignored: leftovers do no harm.
 fn remove_leftovers(root: &Path) {
     for (mark, run) in marks(root) {
         let _ = remove_run(root, &mark, &run);
@@ -107,11 +107,11 @@ fn remove_run(root: &Path, mark: &Path, run: &str) -> io::Result<()> {
     for name in names.lines().filter(|name| is_temporary(Path::new(name), run)) {
         let _ = paths::remove_file(root, &root.join(name));
     }
-    // While it is locked: nobody takes it for a mark of its own any more.
+    // Removed while locked, so that no run takes it for its own mark.
     fs::remove_file(mark)
 }
 
-/// Whether a name from a list is one that this program gives: whatever else it holds is left alone.
+/// Returns true if a listed name is one that this program gives: other names are not touched.
 fn is_temporary(name: &Path, run: &str) -> bool {
     let inside = name.components().all(|part| matches!(part, Component::Normal(_)));
     let file = name.file_name().and_then(|file| file.to_str()).unwrap_or_default();
@@ -129,7 +129,7 @@ mod tests {
         names
     }
 
-    /// What a run leaves that is killed: its lock is gone, its files are there.
+    /// State after a killed run: its lock is released, its files exist.
     fn killed(root: &Path, target: &Path) {
         let mut mark = RunMark::set(root).expect("a mark");
         fs::write(mark.temporary_of(target).expect("a name"), b"half").expect("write");

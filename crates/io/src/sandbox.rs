@@ -1,9 +1,9 @@
 //! Folders that the files of a job must lie in, so that a service can run the jobs of others.
 //!
-//! A path is followed as the system would, part by part, through every symbolic link; where it ends must lie in one of the folders. It is checked before a
-//! file is looked for, so that nothing is learnt of what is outside. Who may change the folders while a job is read could still lead out of them.
+//! A path is followed as the system would, part by part, through every symbolic link; the final target must lie in one of the folders. The check precedes any
+//! access to the file, so nothing is revealed about files outside. A user who can change the folders while a job is read could still escape them.
 //!
-//! As every file of a job is asked for here, this is also where its files are known.
+//! Every file access of a job passes through here, so the list of its files is also kept here.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,23 +12,23 @@ use std::{collections::BTreeSet, io};
 use crate::error::code_of;
 use crate::failure::{Error, ErrorCode, Problem};
 
-/// Where files may be read from.
+/// Folders that files may be read from.
 #[derive(Clone, Debug, Default)]
 pub struct Sandbox {
-    /// Without links; `None`: anywhere.
+    /// Resolved folders, without links; `None`: anywhere.
     folders: Option<Vec<PathBuf>>,
-    /// What was looked for, of all clones together; `None`: it is not noted.
+    /// Requested files, shared by all clones; `None`: not recorded.
     looked_for: Option<Arc<Mutex<BTreeSet<PathBuf>>>>,
 }
 
 impl Sandbox {
-    /// Files may lie anywhere.
+    /// No restriction.
     pub const NONE: Self = Self { folders: None, looked_for: None };
 
-    /// Files lie in the folder of `job`, or in one of `further`.
+    /// Allows the folder of `job` and those of `further`.
     ///
     /// # Errors
-    /// A folder is not there.
+    /// A folder does not exist.
     pub fn about(job: &Path, further: &[PathBuf]) -> Result<Self, Error> {
         let folder = job.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let own = folder
@@ -45,13 +45,13 @@ impl Sandbox {
         Ok(Self { folders: Some(folders), looked_for: None })
     }
 
-    /// The same, and from now on it notes which files may be looked for.
+    /// Returns the same sandbox, which also records the requested files.
     #[must_use]
     pub fn noting(self) -> Self {
         Self { looked_for: Some(Arc::default()), ..self }
     }
 
-    /// Which files were looked for, by the paths that they were looked for by; some need not be there. None unless it [notes](Self::noting) them.
+    /// Requested files, by the requested paths; some need not exist. Empty unless the sandbox [records](Self::noting) them.
     #[must_use]
     pub fn looked_for(&self) -> Vec<PathBuf> {
         let noted = self.looked_for.as_ref();
@@ -60,10 +60,10 @@ impl Sandbox {
         })
     }
 
-    /// Whether a file may be looked for.
+    /// Checks that a file may be read.
     ///
     /// # Errors
-    /// Where its path leads out, in words.
+    /// If its path leads outside, in words.
     pub fn check(&self, path: &Path) -> Result<(), Problem> {
         if self.admits(path) {
             self.note(path);
@@ -87,7 +87,7 @@ impl Sandbox {
     }
 }
 
-/// Where a path ends, without links; its last parts need not be there.
+/// Target of a path, without links; its last parts need not exist.
 fn end_of(path: &Path) -> io::Result<PathBuf> {
     let mut end = PathBuf::new();
     for part in std::path::absolute(path)?.components() {

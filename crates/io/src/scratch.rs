@@ -1,7 +1,7 @@
-//! Files without a name, for what a run needs until it ends.
+//! Unnamed scratch files, which last until a run ends.
 //!
-//! A file is removed from its folder as soon as it is open: the system frees its bytes when the last who holds it lets go, also where the program is
-//! killed. (Where names of open files cannot be removed, the system is asked to do it when the file is closed.)
+//! A file is removed from its folder as soon as it is open: the system frees its bytes when the last handle is closed, also if the program is killed. (On
+//! systems where open files cannot be removed, the file is marked for deletion on close.)
 
 use std::fs::{File, OpenOptions};
 use std::path::{Path, PathBuf};
@@ -12,27 +12,27 @@ use etendue_core::storage::{Scratch, ScratchStore};
 
 use crate::tile_cache::folder_of_user;
 
-/// A folder for scratch files. It is made when the first is.
+/// Folder for scratch files. It is created with the first one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScratchFolder {
     folder: PathBuf,
 }
 
 impl ScratchFolder {
-    /// Files in `folder`; `None` for that of the user, where tiles of textures are as well.
+    /// Files in `folder`; `None` for that of the user, which also holds texture tiles.
     #[must_use]
     pub fn new(folder: Option<&Path>) -> Self {
         Self { folder: folder.map_or_else(folder_of_user, Path::to_path_buf) }
     }
 
-    /// A file of a name that no other run gives.
+    /// Creates a file with a name that no other run uses.
     fn create(&self) -> io::Result<(File, PathBuf)> {
         static NUMBER: AtomicUsize = AtomicUsize::new(0);
         loop {
             let number = NUMBER.fetch_add(1, Ordering::Relaxed);
             let path = self.folder.join(format!(".etendue-scratch.{}-{number}", std::process::id()));
             match removed_when_closed(OpenOptions::new().read(true).write(true).create_new(true)).open(&path) {
-                // What a killed process of the same number left between two calls of the system.
+                // Leftover of a killed process of the same number between two system calls.
                 Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {}
                 opened => return opened.map(|file| (file, path)),
             }
@@ -49,7 +49,7 @@ impl ScratchStore for ScratchFolder {
         std::fs::create_dir_all(&self.folder).map_err(cannot)?;
         let (file, path) = self.create().map_err(cannot)?;
         remove_name(&path).map_err(cannot)?;
-        // Sparse: tells early where files of this size are not possible at all.
+        // Sparse: reports early if files of this size are not possible.
         file.set_len(bytes).map_err(cannot)?;
         Ok(Arc::new(ScratchFile { folder: self.folder.clone(), file, bytes }))
     }
@@ -167,7 +167,7 @@ mod tests {
         assert!(told.starts_with("the scratch folder ") && told.ends_with("with `scratch`"), "{told}");
     }
 
-    /// `/dev/full` answers every write as a full disk does.
+    /// `/dev/full` answers every write like a full disk.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_full_disk_is_named() {

@@ -1,7 +1,7 @@
-//! Side-car JSON: the facts of a result in a file beside it.
+//! Side-car JSON: the facts of a result in a separate file next to it.
 //!
-//! Keys are sorted, so that the same facts give the same bytes. JSON has no NaN or infinity: such a number becomes
-//! `null`, therefore a caller states an absent number by leaving its key out.
+//! Keys are sorted, so that the same facts give the same bytes. JSON has no NaN or infinity: such a number becomes `null`. A caller omits the key of an absent
+//! number.
 
 use std::path::Path;
 
@@ -11,17 +11,17 @@ use serde_json::{Map, Value};
 use crate::Error;
 use crate::source::{decode_text, read_description_bytes};
 
-/// What a side-car says; it is read up to the limit of files that describe.
+/// Reads a side-car, up to the size limit of descriptions.
 ///
 /// # Errors
-/// Where it cannot be read, is larger, or is not JSON.
+/// If it cannot be read, is larger, or is not JSON.
 pub fn read(file: &Path) -> Result<Value, Error> {
     let bytes = read_description_bytes(file, "side-car")?;
     serde_json::from_str(decode_text(file, &bytes)?)
         .map_err(|cause| Error::new(file, format!("not JSON ({cause}); remove it, or render again")))
 }
 
-/// `facts` as indented JSON with sorted keys and a newline at the end.
+/// Encodes `facts` as indented JSON with sorted keys and a newline at the end.
 pub fn encode(facts: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
     let mut bytes = serde_json::to_vec_pretty(&sorted(serde_json::to_value(facts)?))?;
     bytes.push(b'\n');

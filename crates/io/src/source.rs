@@ -1,4 +1,4 @@
-//! Reading a whole file, with an error that says what to do.
+//! Reading of whole files, with errors that state a remedy.
 
 use std::io::{ErrorKind, Read as _};
 use std::{borrow::Cow, fs::File, path::Path};
@@ -7,17 +7,17 @@ use etendue_scene::limits::{self, DESCRIPTION, Limit};
 
 use crate::{Error, ErrorCode, Problem, error::code_of, failure};
 
-/// The bytes of `file`; `what` names in words what it should be ("mesh", "texture").
+/// Reads the bytes of `file`; `what` is its expected kind in words ("mesh", "texture").
 pub fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
     read_bytes_within(file, what, &limits::FILE)
 }
 
-/// The bytes of a file that describes, of which a few may take much more memory than they are long: trees of values, lenses, lamps.
+/// Reads the bytes of a description file. Such a file (value tree, lens, lamp) may take much more memory than its length, so its limit is lower.
 pub fn read_description_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
     read_bytes_within(file, what, &limits::DESCRIPTION)
 }
 
-/// The bytes of a file of our own that is known to have at most `most` bytes, whatever files may have.
+/// Reads the bytes of a file of our own with at most `most` bytes, whatever the general limit.
 pub(crate) fn read_expected_bytes(file: &Path, what: &str, most: u64) -> Result<Vec<u8>, Error> {
     let check = |bytes: u64| match bytes <= most {
         true => Ok(()),
@@ -50,12 +50,12 @@ fn explained(file: &Path, what: &str, read: std::io::Result<Vec<u8>>) -> Result<
     Ok(bytes)
 }
 
-/// All bytes of a regular file. Pipes, devices and sockets may never end, or wait for ever, and cannot be read twice: they
-/// are refused before they are opened, `/dev/stdin` too unless a regular file is redirected to it.
+/// Reads all bytes of a regular file. Pipes, devices and sockets may never end, or block for ever, and cannot be read twice: they are refused before they are
+/// opened, `/dev/stdin` too unless a regular file is redirected to it.
 ///
 /// # Errors
-/// As reading a file has them; of the kind [`ErrorKind::InvalidInput`], with words for the user, where it is no regular file, of the kind
-/// [`ErrorKind::FileTooLarge`], with such words, where it is larger than its limit.
+/// As reading a file. If it is no regular file: kind [`ErrorKind::InvalidInput`] with a text for the user. If it is larger than its limit: kind
+/// [`ErrorKind::FileTooLarge`] with a text for the user.
 pub fn read_regular(file: &Path, limit: &Limit) -> std::io::Result<Vec<u8>> {
     read_checked(file, limit.most_bytes(), |bytes| limit.check_size(bytes))
 }
@@ -69,7 +69,7 @@ fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), P
     }
     let too_large = |told: Problem| std::io::Error::new(ErrorKind::FileTooLarge, told.words);
     check_size(metadata.len()).map_err(too_large)?;
-    // A file of /proc has no size, and one may grow.
+    // A file of /proc has no size, and a file may grow.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
     File::open(file)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     check_size(bytes.len() as u64).map_err(too_large)?;
@@ -91,7 +91,7 @@ fn word(_: std::fs::FileType) -> &'static str {
     "a device"
 }
 
-/// The text of `file`, UTF-8 (a byte-order mark is passed over).
+/// Text of `file`, UTF-8 (a byte-order mark is ignored).
 pub fn decode_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, Error> {
     let text = std::str::from_utf8(bytes).map_err(|cause| {
         let line = 1 + bytes[..cause.valid_up_to()].iter().filter(|&&b| b == b'\n').count();
@@ -100,7 +100,7 @@ pub fn decode_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, Error> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-/// The text of a lens program's file: UTF-16 with a byte-order mark (either order), UTF-8, or Latin-1 where it is neither.
+/// Text of a lens program's file: UTF-16 with a byte-order mark (either order), UTF-8, or Latin-1 otherwise.
 pub(crate) fn decode_lens_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, Error> {
     let wide = |unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
@@ -117,7 +117,7 @@ pub(crate) fn decode_lens_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'
     }
 }
 
-/// Begins notes on a file with its name.
+/// Prefixes notes on a file with its name.
 pub(crate) fn name_notes<'n>(file: &Path, notes: impl IntoIterator<Item = &'n mut String>) {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     notes.into_iter().for_each(|note| note.insert_str(0, &format!("{name}: ")));
@@ -151,7 +151,7 @@ mod tests {
     }
 }
 
-/// Reads a description as text; the error says in a few words why it cannot be read.
+/// Reads a description as text; the error states the reason in a few words.
 ///
 /// # Errors
 /// There is no such file, it is a folder, it is longer than a description may be, or it is not UTF-8.

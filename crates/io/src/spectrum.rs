@@ -40,7 +40,7 @@ fn asset(rows: &[Row], hash: [u8; 32]) -> SpectrumAsset {
     SpectrumAsset { points: rows.iter().map(|(_, point)| *point).collect(), hash }
 }
 
-/// The cause at its line, told as in all other files.
+/// Error at its line, in the form of all other files.
 fn fault(file: &Path, cause: &SpectrumError) -> Error {
     let text = cause.to_string();
     let told = text.strip_prefix("line ").and_then(|rest| rest.split_once(": "));
@@ -50,7 +50,7 @@ fn fault(file: &Path, cause: &SpectrumError) -> Error {
     }
 }
 
-/// The point of a line of a table that has been checked: what is no point is a header, a comment or empty.
+/// Point of a line of a checked table; other lines are headers, comments or empty.
 fn point(line: &str) -> Option<(f64, f64)> {
     let (nm, value) = line.split('#').next()?.split_once(',')?;
     Some((nm.trim().parse().ok()?, value.trim().parse().ok()?))

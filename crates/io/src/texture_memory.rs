@@ -1,9 +1,8 @@
-//! How much memory pictures take: which textures are held and which are read tile by tile, and how much a compressed picture may unpack to.
+//! Memory limits of images: the choice between textures in memory and textures read tile by tile, and the maximum decompressed size of an image.
 //!
-//! How much a compressed picture may unpack to: a small file must not fill the memory.
-//!
-//! At most 8 times the size of the file, or what the limit `picture-mib` says where that is more (docs/limits.md). Pictures of floats and those that are
-//! measured count 4 bytes a sample, others as their file stores them. It is known from the head, before anything is unpacked.
+//! A small file must not fill the memory. An image may decompress to at most 8 times the size of its file, or to the limit `picture-mib` if that is more
+//! (docs/limits.md). Images of floats and those that are measured count 4 bytes per sample, others as their file stores them. The size is known from the
+//! header, before decompression.
 
 use std::path::{Path, PathBuf};
 
@@ -11,14 +10,14 @@ use etendue_scene::{asset::PixelFormat, limits::PICTURE};
 
 use crate::{Error, ErrorCode, tile_cache::CacheUse};
 
-/// How much memory textures may take, and where those are kept that take more. No result depends on it.
+/// Memory limit of textures, and storage of those that exceed it. No result depends on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextureMemory {
-    /// Most bytes of texels in memory, at all resolutions together.
+    /// Maximum bytes of texels in memory, over all resolutions.
     pub limit_bytes: u64,
-    /// The folder of the tiles; `None`: the user's ([`TileCache::new`](crate::tile_cache::TileCache::new)).
+    /// Folder of the tiles; `None`: the user's ([`TileCache::new`](crate::tile_cache::TileCache::new)).
     pub cache: Option<PathBuf>,
-    /// What is done with that folder.
+    /// Use of that folder.
     pub cache_use: CacheUse,
 }
 
@@ -30,8 +29,8 @@ impl Default for TextureMemory {
 }
 
 impl TextureMemory {
-    /// Of pictures of these bytes, which are large: none where all fit; else all but the smallest, which may take half of the limit and leave
-    /// the other to tiles.
+    /// Selects the large images by their bytes: none if all fit; else all except the smallest, which may take half of the limit and leave the other half to
+    /// tiles.
     pub(crate) fn large(&self, bytes: &[u64]) -> Vec<bool> {
         if bytes.iter().sum::<u64>() <= self.limit_bytes {
             return vec![false; bytes.len()];
@@ -47,13 +46,13 @@ impl TextureMemory {
     }
 }
 
-/// Bytes of the texels of a picture at all resolutions: what its file has, and a third as many texels of three floats.
+/// Bytes of the texels of an image at all resolutions: those of its file, plus a third as many texels of three floats.
 pub(crate) fn pyramid_bytes(width: u32, height: u32, format: PixelFormat) -> u64 {
     let texel = if format.is_bytes() { 3 } else { 12 };
     u64::from(width) * u64::from(height) * (texel + 4)
 }
 
-/// How many times its own size any file may unpack to.
+/// Maximum ratio of decompressed to compressed size for any file.
 const TIMES_PACKED: u128 = 8;
 
 /// Refuses samples of 32 bits that are too many for a file of `packed` bytes.
@@ -76,12 +75,12 @@ pub(crate) fn check_bytes(file: &Path, bytes: u128, packed: usize) -> Result<(),
     Err(Error::coded(ErrorCode::TooLarge, file, told))
 }
 
-/// Bytes that a file of `packed` bytes may unpack to.
+/// Maximum decompressed bytes of a file of `packed` bytes.
 pub(crate) fn most(packed: usize) -> u128 {
     u128::from(PICTURE.most_bytes()).max(TIMES_PACKED * packed as u128)
 }
 
-/// Refuses samples of 32 bits that are more than `most` bytes, where it is known how many there should be.
+/// Refuses 32-bit samples of more than `most` bytes, if their expected number is known.
 pub(crate) fn check_within(file: &Path, samples: u128, most: u128) -> Result<(), Error> {
     let bytes = in_bytes(samples);
     if bytes <= most {
@@ -122,15 +121,15 @@ mod tests {
     #[test]
     fn a_measurement_may_unpack_and_a_bomb_may_not() {
         let file = Path::new("a.exr");
-        // Two megapixels of 38 bands with their variance, however well they pack.
+        // Two megapixels of 38 bands with their variance, however well they compress.
         assert!(check(file, 2_000_000 * 76, 500).is_ok());
-        // A header of 20 000² pixels; 100 MB that unpack to 100 GB.
+        // A header of 20 000² pixels; 100 MB that decompress to 100 GB.
         let told = check(file, 400_000_000, 500).expect_err("a bomb").to_string();
         let expected = "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller, or raise the limit: \
                         `limit` picture-mib=1526";
         assert_eq!(told, expected);
         assert!(check(file, 25_000_000_000, 100_000_000).is_err());
-        // A measurement of 40 GB that brings 5.
+        // A measurement of 40 GB in a file of 5 GB.
         assert!(check(file, 10_000_000_000, 5_000_000_000).is_ok());
     }
 }

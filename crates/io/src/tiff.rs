@@ -2,7 +2,7 @@
 //!
 //! | writer | depth | meaning of a value |
 //! | --- | --- | --- |
-//! | [`encode_raw_tiff`] | 16 or 32 bit grey | digital number as it was delivered, not stretched |
+//! | [`encode_raw_tiff`] | 16 or 32 bit grey | digital number of the ADC, not stretched |
 //! | [`encode_dng`] | 16 or 32 bit, colour filter array or linear | the same, with levels, filters and colours for raw readers |
 //!
 //! Uncompressed, one strip, little-endian (TIFF 6.0, Adobe 1992; Digital Negative 1.4, Adobe 2012). No clock time is written.
@@ -13,7 +13,7 @@ use etendue_core::{Plane, quantity::DigitalNumber};
 
 use crate::exr::EncodeError;
 
-/// Digital numbers, in 16 bits where they fit and else in 32.
+/// Encodes digital numbers, in 16 bits if they fit, else in 32.
 pub fn encode_raw_tiff(raw: &Plane<DigitalNumber>, bits: u32) -> Result<Vec<u8>, EncodeError> {
     const BLACK_IS_ZERO: u16 = 1;
     let mut directory = Directory::default();
@@ -21,7 +21,7 @@ pub fn encode_raw_tiff(raw: &Plane<DigitalNumber>, bits: u32) -> Result<Vec<u8>,
     Ok(directory.file(&sample_bytes(raw, bits)))
 }
 
-/// What every picture of digital numbers says of itself.
+/// Directory entries common to all images of digital numbers.
 fn picture(
     directory: &mut Directory,
     raw: &Plane<DigitalNumber>,
@@ -37,7 +37,7 @@ fn picture(
     else {
         return Err(EncodeError::Encoder(format!("{width} × {height} pixels are too many for TIFF")));
     };
-    directory.set(254, Value::Long(vec![0])); // the full picture
+    directory.set(254, Value::Long(vec![0])); // the full image
     directory.set(256, Value::Long(vec![columns]));
     directory.set(257, Value::Long(vec![rows]));
     directory.set(258, Value::Short(vec![stored_bits(bits)]));
@@ -45,11 +45,11 @@ fn picture(
     directory.set(262, Value::Short(vec![photometric]));
     directory.set(273, Value::StripOffset);
     directory.set(274, Value::Short(vec![1])); // the first row is the top one
-    directory.set(277, Value::Short(vec![1])); // one sample a pixel
+    directory.set(277, Value::Short(vec![1])); // one sample per pixel
     directory.set(278, Value::Long(vec![rows]));
     directory.set(279, Value::Long(vec![length]));
-    directory.set(284, Value::Short(vec![1])); // samples side by side
-    directory.set(339, Value::Short(vec![1])); // unsigned whole numbers
+    directory.set(284, Value::Short(vec![1])); // interleaved samples
+    directory.set(339, Value::Short(vec![1])); // unsigned integers
     Ok(())
 }
 
@@ -75,7 +75,7 @@ enum Value {
     Long(Vec<u32>),
     Rational(Vec<(u32, u32)>),
     SignedRational(Vec<(i32, i32)>),
-    /// Where the strip begins.
+    /// Offset of the strip.
     StripOffset,
 }
 
@@ -125,7 +125,7 @@ fn padded(bytes: &[u8], length: usize) -> Vec<u8> {
     bytes
 }
 
-/// A value as it is stored; no bytes where it is the strip's place.
+/// Encoded value; without bytes for the offset of the strip.
 struct Encoded {
     kind: u16,
     count: u32,
@@ -157,30 +157,30 @@ impl Value {
     }
 }
 
-/// What a DNG says beside its numbers.
+/// Facts of a DNG in addition to its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DngFacts {
-    /// The camera's name.
+    /// Camera name.
     pub camera: String,
     /// The writing program and its version.
     pub software: String,
-    /// Bits of a number.
+    /// Bits per number.
     pub bits: u32,
-    /// Digital number of no charge.
+    /// Digital number at zero charge.
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
-    /// Columns of the filter tile, and its colours row by row: 0 red, 1 green, 2 blue; `None` for a mono picture.
+    /// Columns of the filter tile, and its colours row by row: 0 red, 1 green, 2 blue; `None` for a mono image.
     pub tile: Option<(u16, Vec<u8>)>,
-    /// From XYZ (relative to D65) to the camera's colours.
+    /// Matrix from XYZ (relative to D65) to the camera's colours.
     pub xyz_to_camera: [[f64; 3]; 3],
-    /// The camera's colours of neutral, largest 1.
+    /// Neutral colour in the camera's colours, largest 1.
     pub neutral: [f64; 3],
-    /// The part that light reached: first column, first row, columns, rows.
+    /// Light-sensitive part: first column, first row, columns, rows.
     pub active: [u32; 4],
 }
 
-/// A DNG; a mono picture is stored as linear grey.
+/// Encodes a DNG; a mono image is stored as linear grey.
 pub fn encode_dng(raw: &Plane<DigitalNumber>, facts: &DngFacts) -> Result<Vec<u8>, EncodeError> {
     const FILTER_ARRAY: u16 = 32_803;
     const LINEAR: u16 = 34_892;
@@ -191,7 +191,7 @@ pub fn encode_dng(raw: &Plane<DigitalNumber>, facts: &DngFacts) -> Result<Vec<u8
     directory.set(272, Value::Text(ascii(&facts.camera)));
     directory.set(305, Value::Text(ascii(&facts.software)));
     directory.set(50_706, Value::Byte(vec![1, 4, 0, 0])); // version
-    directory.set(50_707, Value::Byte(vec![1, 1, 0, 0])); // oldest version that reads it
+    directory.set(50_707, Value::Byte(vec![1, 1, 0, 0])); // oldest version that can read it
     directory.set(50_708, Value::Text(format!("Etendue {}", ascii(&facts.camera))));
     let [x, y, width, height] = facts.active;
     directory.set(50_829, Value::Long(vec![y, x, y + height, x + width]));
@@ -222,7 +222,7 @@ fn ascii(text: &str) -> String {
     text.chars().map(|c| if c.is_ascii() && !c.is_ascii_control() { c } else { '_' }).collect()
 }
 
-/// To four decimals; to two where four of a level of 20 bits and more have no room.
+/// Rational with four decimals; with two if four overflow, for levels of 20 bits and more.
 fn rational(v: f64) -> (u32, u32) {
     let denominator = if v < 400_000.0 { 10_000 } else { 100 };
     ((v * f64::from(denominator)).round() as u32, denominator)

@@ -1,16 +1,16 @@
-//! Trajectories: places over time, as loggers write them.
+//! Trajectories: poses over time, as loggers write them.
 //!
-//! **CSV**: a line of column names, then rows; `#` comments and blank lines allowed; cells divided by commas, or by blanks where a
-//! line has no comma. **JSON**: a list of objects whose keys are the names.
+//! **CSV**: a line of column names, then rows; `#` comments and blank lines allowed; cells separated by commas, or by blanks if a line has no comma. **JSON**:
+//! a list of objects whose keys are the names.
 //!
 //! | names | |
 //! | --- | --- |
-//! | `time_s` | s by the logger's clock, rising, each time once; in JSON a number, or text if a number would be rounded |
-//! | `x_m`, `y_m`, `z_m` | place, m |
+//! | `time_s` | s by the logger's clock, increasing, each time once; in JSON a number, or text if a number would be rounded |
+//! | `x_m`, `y_m`, `z_m` | position, m |
 //! | `qw`, `qx`, `qy`, `qz` | rotation, a quaternion of length 1 to a hundredth |
-//! | `yaw_deg`, `pitch_deg`, `roll_deg` | or rotation about z, then y, then x of what turns, degrees |
+//! | `yaw_deg`, `pitch_deg`, `roll_deg` | alternative rotation about z, then y, then x of the rotated frame, degrees |
 //!
-//! Without a rotation nothing turns. Other names are not read, and told.
+//! Without these columns there is no rotation. Other names are not read, and are reported.
 
 use std::path::Path;
 
@@ -27,7 +27,7 @@ use crate::{Error, ErrorCode, hash};
 /// Reads a trajectory.
 ///
 /// # Errors
-/// The first fault, with its line.
+/// The first error, with its line.
 pub fn read_trajectory(file: &Path) -> Result<TrajectoryAsset, Error> {
     let is_json = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
     let bytes = if is_json { read_description_bytes(file, "trajectory") } else { read_bytes(file, "trajectory") }?;
@@ -54,13 +54,13 @@ const PLACE: [&str; 4] = ["time_s", "x_m", "y_m", "z_m"];
 const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
 const ANGLES: [&str; 3] = ["yaw_deg", "pitch_deg", "roll_deg"];
 
-/// How far the length of a quaternion may be from 1: loggers write few digits.
+/// Tolerance of a quaternion's length from 1: loggers write few digits.
 const LENGTH_ERROR: f64 = 0.01;
 
-/// Rows with their lines, and the names that were not read.
+/// Rows with their lines, and the unread names.
 type Read = (Vec<(usize, TrajectoryRow)>, Vec<String>);
 
-/// Where the values of a row stand.
+/// Columns of the values of a row.
 struct Columns {
     place: [usize; 4],
     rotation: Rotation,
@@ -72,13 +72,13 @@ enum Rotation {
     Angles([usize; 3]),
 }
 
-/// Whether a name says something.
+/// Returns true if a name is a known column.
 fn is_known(name: &str) -> bool {
     PLACE.contains(&name) || QUATERNION.contains(&name) || ANGLES.contains(&name)
 }
 
 impl Columns {
-    /// By the names of all columns.
+    /// Finds the columns by their names.
     fn of(names: &[&str]) -> Result<Self, String> {
         if let Some(twice) = names.iter().enumerate().find(|(i, name)| is_known(name) && names[..*i].contains(name)) {
             return Err(format!("two columns are called \"{}\"; leave one out", twice.1));
@@ -122,7 +122,7 @@ impl Columns {
     }
 }
 
-/// Where all of the wanted names stand.
+/// Indices of the wanted names, if all are present.
 fn found<const N: usize>(names: &[&str], wanted: [&str; N]) -> Option<[usize; N]> {
     let at = wanted.map(|wanted| names.iter().position(|name| *name == wanted));
     at.iter().all(Option::is_some).then(|| at.map(Option::unwrap_or_default))
@@ -198,7 +198,7 @@ fn read_json(file: &Path, text: &str) -> Result<Read, Error> {
     Ok((read_json.collect::<Result<_, _>>()?, unread))
 }
 
-/// The lines, counted from 1, that the entries of the outermost list begin in; the text is valid.
+/// Lines, counted from 1, on which the entries of the outermost list begin; the text is valid.
 fn entry_lines(text: &str) -> Vec<usize> {
     let (mut lines, mut line, mut depth, mut quoted, mut escaped) = (Vec::new(), 1, 0_u32, false, false);
     for byte in text.bytes() {
@@ -230,7 +230,7 @@ mod tests {
 
     use super::*;
 
-    /// A file of this name and content.
+    /// Writes a file of this name and content.
     fn written(name: &str, content: &str) -> (tempfile::TempDir, PathBuf) {
         let folder = tempfile::tempdir().expect("temporary folder");
         let file = folder.path().join(name);

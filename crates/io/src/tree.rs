@@ -1,7 +1,7 @@
 //! YAML (and so JSON) as a tree whose nodes know their line.
 //!
-//! Without aliases, tags and several documents, which no program that is read here writes but for OpenCV's `!!opencv-matrix`, and
-//! that one says nothing that its keys do not. OpenCV's own header `%YAML:1.0`, which is not YAML, is passed over.
+//! Aliases, tags and multiple documents are not supported. No supported program writes them except OpenCV's `!!opencv-matrix`, which adds nothing to its keys.
+//! OpenCV's own header `%YAML:1.0`, which is not YAML, is ignored.
 
 use std::{borrow::Cow, collections::BTreeSet, path::Path};
 
@@ -9,10 +9,10 @@ use saphyr_parser::{Event, Parser, ScalarStyle, Span, StrInput};
 
 use crate::{Error, ErrorCode, Problem};
 
-/// A node of the tree.
+/// Node of the tree.
 #[derive(Debug)]
 pub(crate) struct Node {
-    /// Counted from 1.
+    /// Line, counted from 1.
     pub(crate) line: usize,
     value: Value,
 }
@@ -24,9 +24,9 @@ enum Value {
     Map(Vec<(String, Node)>),
 }
 
-/// Deeper than any such file.
+/// Maximum depth, beyond that of any real file.
 const DEEPEST: usize = 32;
-/// More commas and brackets than any such file has: what stands between two takes up to 800 bytes while it is read.
+/// Maximum number of commas and brackets, beyond that of any real file: each value takes up to 800 bytes while it is read.
 const MOST_VALUES: usize = 1 << 21;
 
 /// Reads a document whose root is a map.
@@ -59,8 +59,8 @@ pub(crate) fn parse(text: &str) -> Read<Node> {
     }
 }
 
-/// A document that begins with a brace or bracket, behind the mark of a document on its line: by itself it might be a key, so that the scanner would keep
-/// all tokens of it until its end, some 400 bytes a byte. Others that do the same, as behind a remark, are bounded by [`MOST_VALUES`].
+/// Returns the document with a document mark before an initial brace or bracket, on the same line: otherwise it could be a key, and the scanner would keep all
+/// its tokens until the end, some 400 bytes per byte. Other forms of the problem, such as after a comment, are bounded by [`MOST_VALUES`].
 fn as_document(text: &str) -> Cow<'_, str> {
     let start = text.len() - text.trim_start().len();
     if text[start..].starts_with(['{', '[']) {
@@ -133,35 +133,35 @@ impl<'a> Events<'a> {
     }
 }
 
-/// A scalar's text; an empty one that is not quoted is nothing.
+/// Text of a scalar; an empty unquoted one is null.
 fn plain(text: &str, style: ScalarStyle) -> String {
     if style == ScalarStyle::Plain && text == "~" { String::new() } else { text.to_owned() }
 }
 
 impl Node {
-    /// The value of a key, where it is there.
+    /// Value of a key, if present.
     pub(crate) fn find(&self, key: &str) -> Option<&Node> {
         self.entries().iter().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
-    /// The value of the first of some names of a key.
+    /// Value of the first of several key names.
     pub(crate) fn any(&self, names: &[&str]) -> Read<&Node> {
         names.iter().find_map(|name| self.find(name)).ok_or_else(|| {
             Fault::at(self.line, format!("expected the key {}; found {}", names.join(" or "), list(&self.keys())))
         })
     }
 
-    /// The value of a key.
+    /// Value of a key.
     pub(crate) fn key(&self, key: &str) -> Read<&Node> {
         self.any(&[key])
     }
 
-    /// The keys of a map, as written; none of anything else.
+    /// Keys of a map, as written; none for other nodes.
     pub(crate) fn keys(&self) -> Vec<&str> {
         self.entries().iter().map(|(name, _)| name.as_str()).collect()
     }
 
-    /// The keys that are not among these.
+    /// Keys that are not among these.
     pub(crate) fn others(&self, known: &[&str]) -> Vec<&str> {
         self.keys().into_iter().filter(|key| !known.contains(key)).collect()
     }
@@ -193,7 +193,7 @@ impl Node {
         count.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a number of pixels from 1")))
     }
 
-    /// The items of a list; `None` of anything else.
+    /// Items of a list; `None` for other nodes.
     pub(crate) fn items(&self) -> Option<&[Node]> {
         match &self.value {
             Value::List(nodes) => Some(nodes),
@@ -201,14 +201,14 @@ impl Node {
         }
     }
 
-    /// All numbers of a list, of lists in it, or the one number.
+    /// All numbers of a list and of nested lists, or the single number.
     pub(crate) fn numbers(&self) -> Read<Vec<f64>> {
         let Some(items) = self.items() else { return Ok(vec![self.number()?]) };
         let rows: Vec<Vec<f64>> = items.iter().map(Node::numbers).collect::<Read<_>>()?;
         Ok(rows.concat())
     }
 
-    /// A list of so many numbers that `what` names.
+    /// List of exactly `N` numbers; `what` names it in messages.
     pub(crate) fn exactly<const N: usize>(&self, what: &str) -> Read<[f64; N]> {
         let numbers = self.numbers()?;
         let count = numbers.len();
@@ -216,14 +216,14 @@ impl Node {
     }
 }
 
-/// Names in a sentence.
+/// Names joined for a sentence.
 pub(crate) fn list(names: &[&str]) -> String {
     const SHOWN: usize = 24;
     let more = if names.len() > SHOWN { ", …" } else { "" };
     if names.is_empty() { "no keys".to_owned() } else { names[..names.len().min(SHOWN)].join(", ") + more }
 }
 
-/// What is wrong, and in which line (from 1; 0 for the whole file).
+/// Problem and its line (from 1; 0 for the whole file).
 #[derive(Debug)]
 pub(crate) struct Fault {
     pub(crate) line: usize,
@@ -249,7 +249,7 @@ impl Fault {
     }
 }
 
-/// A note of keys that say nothing of the camera.
+/// Note on keys that do not describe the camera.
 pub(crate) fn passed_over(keys: &[&str]) -> Vec<String> {
     if keys.is_empty() { Vec::new() } else { vec![format!("passed over: {}", keys.join(", "))] }
 }

@@ -1,28 +1,28 @@
 //! YUV4MPEG2 videos (`.y4m`): frames without compression, which ffmpeg, mpv and OpenCV read.
 //!
-//! Eight bits, 4:4:4, R′G′B′ by the matrix of ITU-R BT.709 in limited range (BT.709-6, 3.2 to 3.5; black 16, white 235, colour 16 to 240),
-//! rounded to nearest: the file says `C444` and `XCOLORRANGE=LIMITED`; it has no place for the matrix. The frame rate and the aspect of a pixel
-//! are the simplest fractions within 10⁻¹² of what is asked for: 29.97002997002997 is 30000:1001.
+//! Eight bits, 4:4:4, R′G′B′ by the matrix of ITU-R BT.709 in limited range (BT.709-6, 3.2 to 3.5; black 16, white 235, colour 16 to 240), rounded to nearest:
+//! the file says `C444` and `XCOLORRANGE=LIMITED`; it has no place for the matrix. The frame rate and the pixel aspect are the simplest fractions within 10⁻¹²
+//! of the requested values: 29.97002997002997 is 30000:1001.
 
 use std::io::{self, Write};
 
-/// What a video says of itself.
+/// Header of a video.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VideoFacts {
     /// Columns.
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Frames a second, above 0.
+    /// Frame rate, Hz, above 0.
     pub frame_rate_hz: f64,
-    /// A pixel's width over its height, above 0.
+    /// Pixel width over height, above 0.
     pub pixel_aspect: f64,
 }
 
-/// Writes the head of a video.
+/// Writes the header of a video.
 ///
 /// # Errors
-/// Of the writer.
+/// Those of the writer.
 pub fn write_head(out: &mut impl Write, facts: &VideoFacts) -> io::Result<()> {
     let VideoFacts { width, height, .. } = facts;
     let ([rate, per], [x, y]) = (fraction(facts.frame_rate_hz), fraction(facts.pixel_aspect));
@@ -32,7 +32,7 @@ pub fn write_head(out: &mut impl Write, facts: &VideoFacts) -> io::Result<()> {
 /// Writes a frame of R′G′B′ bytes, row by row from the top.
 ///
 /// # Errors
-/// Of the writer.
+/// Those of the writer.
 pub fn write_frame(out: &mut impl Write, pixels: &[[u8; 3]]) -> io::Result<()> {
     out.write_all(b"FRAME\n")?;
     let mut planes = [const { Vec::new() }; 3];
@@ -51,10 +51,10 @@ fn limited_range(rgb: [u8; 3]) -> [u8; 3] {
     [16.0 + 219.0 * luma, colour(b - luma, 1.8556), colour(r - luma, 1.5748)].map(|v| v.round() as u8)
 }
 
-/// Relative distance within which a fraction stands for a number.
+/// Relative tolerance of a fraction.
 const NEAR: f64 = 1e-12;
 
-/// The simplest fraction within [`NEAR`] of a number above 0: the first convergent of its continued fraction that is.
+/// Simplest fraction within [`NEAR`] of a number above 0: the first such convergent of its continued fraction.
 fn fraction(value: f64) -> [u64; 2] {
     let (mut before, mut now) = ([0.0, 1.0], [1.0, 0.0]);
     let mut rest = value;

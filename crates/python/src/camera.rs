@@ -1,4 +1,4 @@
-//! One camera's results.
+//! Results of one camera.
 
 use crate::frame::Frame;
 use crate::held::{Held, whole};
@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyRange};
 use std::sync::Arc;
 
-/// The results of one camera.
+/// Results of one camera.
 #[pyclass(frozen, module = "etendue")]
 pub(crate) struct Camera {
     results: Arc<etendue::Results>,
@@ -62,7 +62,7 @@ impl Camera {
         self.motion.get(py, self.threads, || Ok(self.camera().motion_truth()))
     }
 
-    /// A plane of the ground truth.
+    /// Plane of the ground truth.
     fn truth_plane<'py, Q>(&self, py: Python<'py>, of: fn(&GroundTruth) -> &Plane<Q>) -> PyResult<Bound<'py, PyAny>>
     where
         Q: Quantity,
@@ -72,7 +72,7 @@ impl Camera {
         plane(py, of(&truth), Arc::clone(&truth) as _)
     }
 
-    /// A plane that not every ground truth has.
+    /// Plane that not every ground truth has.
     fn optional_truth<'py, Q>(
         &self,
         py: Python<'py>,
@@ -86,7 +86,7 @@ impl Camera {
         of(&truth).map(|found| plane(py, found, Arc::clone(&truth) as _)).transpose()
     }
 
-    /// The first of the frames.
+    /// First of the frames.
     fn first(&self, py: Python<'_>) -> PyResult<Arc<Option<Frame>>> {
         let number = self.camera().frame_numbers().start;
         self.frame.get(py, self.threads, || {
@@ -94,7 +94,7 @@ impl Camera {
         })
     }
 
-    /// A cube that the job may not ask for.
+    /// Cube that the job may not request.
     fn cube<'py, Q: Quantity<Sample = f32>>(
         &self,
         py: Python<'py>,
@@ -109,20 +109,20 @@ impl Camera {
 
 #[pymethods]
 impl Camera {
-    /// The camera's name in its job.
+    /// Name of the camera in its job.
     #[getter]
     fn name(&self) -> &str {
         self.camera().name()
     }
 
-    /// Numbers of the frames that these results are of: one where light depends on time.
+    /// Numbers of the frames of these results: one if light depends on time.
     #[getter]
     fn frame_numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyRange>> {
         let frames = self.camera().frame_numbers();
         PyRange::new(py, frames.start as isize, frames.end as isize)
     }
 
-    /// Centres of the bands of radiance and irradiance, nm: a list, or None where there is neither.
+    /// Centres of the bands of radiance and irradiance, nm: a list, or None if there is neither.
     #[getter]
     fn wavelengths_nm(&self) -> Option<Vec<f64>> {
         let light = self.camera().light();
@@ -131,63 +131,63 @@ impl Camera {
         Some((0..bands.count()).map(|i| bands.centre_nm(i)).collect())
     }
 
-    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹: float32, (bands, height, width). None where the job does not ask for it.
+    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹: float32, (bands, height, width). None if the job does not request it.
     #[getter]
     fn radiance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.cube(py, &self.radiance, |light| light.radiance.as_ref().map(|radiance| &radiance.mean))
     }
 
-    /// The variance of the radiance's mean, in its unit squared: float32, (bands, height, width). None where there is no radiance.
+    /// Variance of the mean radiance, in its unit squared: float32, (bands, height, width). None if there is no radiance.
     #[getter]
     fn radiance_variance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.cube(py, &self.radiance_variance, |light| light.radiance.as_ref().map(|radiance| &radiance.variance))
     }
 
-    /// Spectral irradiance on the sensor plane, W·m⁻²·nm⁻¹: float32, (bands, height, width). None where the job does not ask for it.
+    /// Spectral irradiance on the sensor plane, W·m⁻²·nm⁻¹: float32, (bands, height, width). None if the job does not request it.
     #[getter]
     fn irradiance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.cube(py, &self.irradiance, |light| light.irradiance.as_ref())
     }
 
-    /// The part of the irradiance that is ghosts, W·m⁻²·nm⁻¹: float32, (bands, height, width). None where the camera makes none.
+    /// Irradiance of the ghosts, W·m⁻²·nm⁻¹: float32, (bands, height, width). None if the camera has none.
     #[getter]
     fn ghosts<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.cube(py, &self.ghosts, |light| light.ghosts.as_ref())
     }
 
-    /// Mean electrons of each pixel, e⁻: float32, (height, width). None where the camera has no electronics.
+    /// Mean electrons of each pixel, e⁻: float32, (height, width). None if the camera has no electronics.
     #[getter]
     fn electrons<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let electrons = self.camera().electrons();
         electrons.map(|electrons| plane(py, electrons, self.owner())).transpose()
     }
 
-    /// The photographs; none where the camera has no electronics. The sensor is run at every call, with the same bits.
+    /// Captured frames; none if the camera has no electronics. The sensor is simulated at every call, with the same bits.
     fn frames(&self, py: Python<'_>) -> PyResult<Vec<Frame>> {
         let numbers = self.camera().frame_numbers();
         let frames = run(py, self.threads, None, |_| Ok(self.camera().frames().map(Arc::new).collect::<Vec<_>>()))?;
         Ok(numbers.zip(frames).map(|(number, frame)| Frame::new(number, frame)).collect())
     }
 
-    /// Digital numbers of the first frame, DN: uint32, (height, width). None where the camera has no electronics.
+    /// Digital numbers of the first frame, DN: uint32, (height, width). None if the camera has no electronics.
     #[getter]
     fn raw<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.first(py)?.as_ref().as_ref().map(|frame| frame.raw(py)).transpose()
     }
 
-    /// The picture of the first frame, encoded, 0 to 1: float32, (height, width, 3). None where the camera makes none.
+    /// Image of the first frame, encoded, 0 to 1: float32, (height, width, 3). None if the camera makes none.
     #[getter]
     fn picture<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         Ok(self.first(py)?.as_ref().as_ref().map(|frame| frame.picture(py)).transpose()?.flatten())
     }
 
-    /// Distance along the camera's axis, m: float32, (height, width); +inf for the sky, NaN where no ray passes.
+    /// Distance along the camera's axis, m: float32, (height, width); +inf for the sky, NaN without a ray.
     #[getter]
     fn depth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.truth_plane(py, |truth| &truth.depth)
     }
 
-    /// Distance along each pixel's ray, m: float32, (height, width); +inf for the sky, NaN where no ray passes.
+    /// Distance along each pixel's ray, m: float32, (height, width); +inf for the sky, NaN without a ray.
     #[getter]
     fn distance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.truth_plane(py, |truth| &truth.distance)
@@ -205,13 +205,13 @@ impl Camera {
         self.truth_plane(py, |truth| &truth.position)
     }
 
-    /// What rounding took off the positions, m: float32, (height, width, 3). None but for cameras far from the world's origin.
+    /// Rounding remainder of the positions, m: float32, (height, width, 3). None except for cameras far from the world's origin.
     #[getter]
     fn positions_low<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.optional_truth(py, |truth| truth.position_low.as_ref())
     }
 
-    /// Positions in the camera's frame, m: float32, (height, width, 3); zero for the sky. None where the job does not ask for them.
+    /// Positions in the camera's frame, m: float32, (height, width, 3); zero for the sky. None if the job does not request them.
     #[getter]
     fn camera_space_positions<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.optional_truth(py, |truth| truth.camera_space_position.as_ref())
@@ -223,13 +223,13 @@ impl Camera {
         self.truth_plane(py, |truth| &truth.instance)
     }
 
-    /// Ids of classes: uint32, (height, width); 0 is the background and what has no class.
+    /// Ids of classes: uint32, (height, width); 0 is the background and objects without a class.
     #[getter]
     fn semantic_ids<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.truth_plane(py, |truth| &truth.semantic)
     }
 
-    /// Places in the plan's list of materials, from 1: uint32, (height, width); 0 is the background.
+    /// Indices in the plan's list of materials, from 1: uint32, (height, width); 0 is the background.
     #[getter]
     fn material_ids<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.truth_plane(py, |truth| &truth.material)
@@ -242,9 +242,9 @@ impl Camera {
         plane(py, &motion.neighbours[0].flow, Arc::clone(&motion) as _)
     }
 
-    /// All of motion (docs/ground-truth.md): a dict of "forward" and "backward" (None before frame 0), each with "flow", px, (height, width, 2),
-    /// "visibility", (height, width), and "scene_flow", m, (height, width, 3); "motion_vector", px/s, (height, width, 2); "velocity", m/s,
-    /// (height, width, 3); "time", s, (height, width).
+    /// Motion ground truth (docs/ground-truth.md): a dict of "forward" and "backward" (None before frame 0), each with "flow", px, (height, width, 2),
+    /// "visibility", (height, width), and "scene_flow", m, (height, width, 3); "motion_vector", px/s, (height, width, 2); "velocity", m/s, (height, width, 3);
+    /// "time", s, (height, width).
     fn motion_truth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let motion = self.motion(py)?;
         let told = PyDict::new(py);
@@ -256,29 +256,29 @@ impl Camera {
         Ok(told)
     }
 
-    /// Disparity to the camera that the job's `disparity_to` names, px: float32, (height, width). None where it names none.
+    /// Disparity to the camera that the job's `disparity_to` names, px: float32, (height, width). None if it names none.
     #[getter]
     fn disparity<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let held = self.disparity.get(py, self.threads, || Ok(self.camera().disparity()))?;
         held.as_ref().as_ref().map(|(disparity, _)| plane(py, disparity, Arc::clone(&held) as _)).transpose()
     }
 
-    /// Whether that camera sees each point: uint32, (height, width), the numbers of docs/ground-truth.md. None where the job names none.
+    /// Visibility of each point in that camera: uint32, (height, width), the numbers of docs/ground-truth.md. None if the job names none.
     #[getter]
     fn disparity_visibility<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let held = self.disparity.get(py, self.threads, || Ok(self.camera().disparity()))?;
         held.as_ref().as_ref().map(|(_, seen)| plane(py, seen, Arc::clone(&held) as _)).transpose()
     }
 
-    /// The boxes of the objects, as `boxes.json` has them.
+    /// Boxes of the objects, as in `boxes.json`.
     #[getter]
     fn boxes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let text = run(py, self.threads, None, |_| Ok(self.camera().boxes_json().to_string()))?;
         py.import("json")?.call_method1("loads", (text,))
     }
 
-    /// Each pixel's ray in the camera's frame: a dict of "origin", m, and "direction", float32, (height, width, 3); "ray", uint32, (height, width): 0
-    /// none, 1 the principal ray, 2 one through the centroid of the open pupil; "path", m, of a camera with a mirror.
+    /// Ray of each pixel in the camera's frame: a dict of "origin", m, and "direction", float32, (height, width, 3); "ray", uint32, (height, width): 0 none, 1
+    /// the principal ray, 2 one through the centroid of the open pupil; "path", m, for a camera with a mirror.
     #[getter]
     fn rays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rays = self.rays.get(py, self.threads, || Ok(self.camera().rays()))?;
@@ -297,7 +297,7 @@ impl Camera {
     }
 }
 
-/// The motion to a neighbouring frame; `None` where there is none.
+/// Motion to a neighbouring frame; `None` if there is none.
 fn neighbour<'py>(py: Python<'py>, motion: &Arc<MotionTruth>, place: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
     let Some(found) = motion.neighbours.get(place) else { return Ok(None) };
     let told = PyDict::new(py);

@@ -1,10 +1,10 @@
-//! Errors as exceptions: `etendue.InputError` for unusable input, `etendue.RunError` for a run that did not succeed.
+//! Errors as exceptions: `etendue.InputError` for unusable input, `etendue.RunError` for a failed run.
 
 use etendue::{Error, ErrorCode, Fault, terminal_text};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
-/// The exception of an error.
+/// Exception for an error.
 pub(crate) fn exception(py: Python<'_>, error: Error) -> PyErr {
     let made = match error {
         Error::Input(faults) => made(py, "InputError", |class| class.call1((told(faults),))),
@@ -25,7 +25,7 @@ fn made<'py>(
 
 type Told = (String, Option<String>, Option<u32>, Option<u32>, Option<String>, &'static str, String, Option<String>);
 
-/// What `_errors.Fault` is made of.
+/// Fields of `_errors.Fault`.
 fn told(faults: Vec<Fault>) -> Vec<Told> {
     let one = |fault: Fault| {
         let file = fault.file.map(|file| file.to_string_lossy().into_owned());
@@ -38,7 +38,7 @@ fn told(faults: Vec<Fault>) -> Vec<Told> {
     faults.into_iter().map(one).collect()
 }
 
-/// Unusable input that only Python could give.
+/// Error for unusable input that only Python can give.
 pub(crate) fn refused(py: Python<'_>, why: impl Into<String>) -> PyErr {
     exception(py, Error::coded(ErrorCode::InvalidArgument, why))
 }

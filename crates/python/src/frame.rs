@@ -1,4 +1,4 @@
-//! A photograph.
+//! Captured frame.
 
 use crate::samples::plane;
 use pyo3::exceptions::PyKeyError;
@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyList};
 use std::sync::Arc;
 
-/// A photograph of a camera.
+/// Captured frame of a camera.
 #[pyclass(frozen, module = "etendue")]
 pub(crate) struct Frame {
     number: u32,
@@ -21,7 +21,7 @@ impl Frame {
 
 #[pymethods]
 impl Frame {
-    /// The frame's number.
+    /// Frame number.
     #[getter]
     fn number(&self) -> u32 {
         self.number
@@ -33,32 +33,32 @@ impl Frame {
         plane(py, &self.frame.raw.plane, Arc::clone(&self.frame) as _)
     }
 
-    /// Bits of a digital number.
+    /// Bits per digital number.
     #[getter]
     fn bits(&self) -> u32 {
         self.frame.raw.bits
     }
 
-    /// The digital number of no charge.
+    /// Digital number at zero charge.
     #[getter]
     fn black_level_dn(&self) -> f64 {
         self.frame.raw.black_level_dn
     }
 
-    /// The digital number of a saturated pixel.
+    /// Digital number of a saturated pixel.
     #[getter]
     fn white_level_dn(&self) -> f64 {
         self.frame.raw.white_level_dn
     }
 
-    /// The picture as its file encodes it, before it is rounded to bits, 0 to 1: float32, (height, width, 3). None where the camera makes none.
+    /// Image as its file encodes it, before rounding to bits, 0 to 1: float32, (height, width, 3). None if the camera makes none.
     #[getter]
     pub(crate) fn picture<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let picture = self.frame.picture.as_ref();
         picture.map(|picture| plane(py, &picture.display, Arc::clone(&self.frame) as _)).transpose()
     }
 
-    /// The same in linear sRGB, not clipped: float32, (height, width, 3). None where the camera makes none.
+    /// The same image in linear sRGB, not clipped: float32, (height, width, 3). None if the camera makes none.
     #[getter]
     fn linear_picture<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let picture = self.frame.picture.as_ref();
@@ -82,7 +82,7 @@ impl Frame {
         found.ok_or_else(|| PyKeyError::new_err(format!("no array {name:?}; there are {}", self.keys().join(", "))))
     }
 
-    /// Names of the arrays that the frame has: raw, and of a camera that makes pictures picture and linear_picture.
+    /// Names of the arrays of the frame: raw, and image and linear_picture if the camera makes images.
     fn keys(&self) -> Vec<&'static str> {
         let all = ["raw", "picture", "linear_picture"];
         all[..if self.frame.picture.is_some() { 3 } else { 1 }].to_vec()
@@ -98,7 +98,7 @@ impl Frame {
         Ok(self.keys().into_iter().zip(self.values(py)?).collect())
     }
 
-    /// The array of a name, or `default` where there is none.
+    /// The array of a name, or `default` if there is none.
     #[pyo3(signature = (name, default = None))]
     fn get<'py>(
         &self,

@@ -1,4 +1,4 @@
-//! What a camera's results are made of when they are asked for first, and held from then on: all arrays of one thing share it.
+//! Derived results of a camera, computed on first use and then kept: all arrays of one result share it.
 
 use crate::samples::Cube;
 use crate::watch::run;
@@ -8,7 +8,7 @@ use etendue_core::quantity::Quantity;
 use pyo3::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// Something that is made at most once.
+/// Value that is computed at most once.
 pub(crate) struct Held<T>(OnceLock<Arc<T>>);
 
 impl<T> Default for Held<T> {
@@ -18,7 +18,7 @@ impl<T> Default for Held<T> {
 }
 
 impl<T: Send + Sync> Held<T> {
-    /// It, made by `make` where it is not there yet, on a pool of `threads`. Two callers at once may both make it; one's is held.
+    /// Returns the value. If it is missing, `make` computes it on a pool of `threads`. Two concurrent callers may both compute it; one result is kept.
     pub(crate) fn get(
         &self,
         py: Python<'_>,
@@ -33,7 +33,7 @@ impl<T: Send + Sync> Held<T> {
     }
 }
 
-/// The bands of a cube in one piece, wherever they are kept.
+/// Bands of a cube in one contiguous block, wherever they are stored.
 pub(crate) fn whole<Q: Quantity<Sample = f32>>(cube: &KeptCube<Q>) -> Result<Cube, Error> {
     let shape = [cube.bands().count(), cube.height(), cube.width()];
     let mut samples = Vec::with_capacity(shape.iter().product());

@@ -14,13 +14,13 @@ use pyo3::types::PyString;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// A job that was read, checked and compiled.
+/// Job that was read, checked and compiled.
 #[pyclass(frozen, module = "etendue")]
 pub(crate) struct Job {
     job: etendue::Job,
 }
 
-/// The file that a job made in Python is read as.
+/// File name of a job made in Python.
 const MADE: &str = "job.toml";
 
 #[pymethods]
@@ -28,17 +28,17 @@ impl Job {
     /// Opens a job.
     ///
     /// description: the path of a job file (TOML), or its keys as a dict.
-    /// set: changes of keys, as --set: a dict of dotted keys to values (None takes a key out), or texts key=value.
+    /// set: changes of keys, as --set: a dict of dotted keys to values (None removes a key), or texts key=value.
     /// spp, noise, time_s (s), progressive, scale ("1/4" or 0.25), seed, integrator, quality, camera: as the options of `etendue render`.
     /// files: files that the job names, made here: names to dicts or texts (TOML).
-    /// meshes: meshes that the job names: names to dicts of positions (n, 3), triangles (m, 3), and where they are wanted normals (n, 3) and uvs (n, 2),
+    /// meshes: meshes that the job names: names to dicts of positions (n, 3), triangles (m, 3), and optionally normals (n, 3) and uvs (n, 2),
     /// in the unit and axes that the job states for the mesh.
-    /// folder: the folder of a job that is a dict, which its paths are relative to. Default: the working folder.
-    /// sandbox: folders beside the job's own that its files may lie in. None: they may lie anywhere.
-    /// texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and where larger ones are kept. memory_mb: what the run may take, 0 for no limit;
-    /// None: what is free when the job is opened. No bit depends on them.
+    /// folder: the folder of a job that is a dict; its paths are relative to it. Default: the working folder.
+    /// sandbox: folders, in addition to the job's own, that its files may lie in. None: they may lie anywhere.
+    /// texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and the folders of larger ones.
+    /// memory_mb: memory limit of the run, 0 for no limit; None: the free memory when the job is opened. No bit of the results depends on them.
     ///
-    /// Raises InputError with every fault of all files.
+    /// Raises InputError with every error of all files.
     #[staticmethod]
     #[pyo3(signature = (
         description, *, set = None, spp = None, noise = None, time_s = None, progressive = false, scale = None, seed = None, integrator = None, quality = None,
@@ -103,7 +103,7 @@ impl Job {
         Ok(Self { job })
     }
 
-    /// What will be modelled, what is left out and why, and what it will cost: as `etendue plan --json`.
+    /// Modelled effects, omitted effects with reasons, and cost: as `etendue plan --json`.
     fn plan<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let text = py.detach(|| serde_json::to_string(&self.job.report()));
         let text = text.map_err(|error| PyValueError::new_err(error.to_string()))?;
@@ -115,20 +115,20 @@ impl Job {
         py.detach(|| self.job.summary())
     }
 
-    /// Paths of the files that were read: the job and all that it names, as they were named.
+    /// Paths of the files that were read: the job and all files that it names, as they were named.
     #[getter]
     fn files(&self) -> Vec<PathBuf> {
         self.job.files().to_vec()
     }
 
-    /// Names of the films of a shard, relative to its folder: one for each camera (of cameras of equal light one together); where light depends on time,
-    /// of each of the frames and captures.
+    /// Names of the films of a shard, relative to its folder: one per camera (one for all cameras of equal light); if light depends on time, one per frame and
+    /// capture.
     #[pyo3(signature = (frames = None))]
     fn film_names(&self, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         Ok(self.job.film_names(&range(frames)?))
     }
 
-    /// Names of all files of a whole run, relative to its folder.
+    /// Names of all files of a complete run, relative to its folder.
     #[pyo3(signature = (frames = None))]
     fn file_names(&self, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         Ok(self.job.file_names(&range(frames)?))
@@ -137,11 +137,11 @@ impl Job {
     /// Renders all cameras and keeps their light in memory.
     ///
     /// frames: a frame's number, or a range of consecutive ones. Default: frame 0.
-    /// threads: worker threads. Default: one a processor. No bit depends on it.
-    /// progress: called in this thread with what is worked on, how many tiles are done, and of how many, when one is; what it raises cancels the run, as
-    /// Ctrl-C does.
+    /// threads: worker threads. Default: one per processor. No bit of the results depends on it.
+    /// progress: called in this thread after each tile with the current step, the number of finished tiles, and the total; an exception from it cancels
+    /// the run, like Ctrl-C.
     ///
-    /// Warnings go to `warnings`, notes to the logger "etendue". Other threads of Python run meanwhile.
+    /// Warnings go to `warnings`, notes to the logger "etendue". Other Python threads run meanwhile.
     #[pyo3(signature = (*, frames = None, threads = None, progress = None))]
     fn render(
         &self,
@@ -156,11 +156,11 @@ impl Job {
         Results::new(py, results, threads)
     }
 
-    /// Renders camera after camera into a folder, holding one at a time: the files of `etendue render`, byte for byte. Answers with their paths.
+    /// Renders camera after camera into a folder, with one at a time in memory: the files of `etendue render`, byte for byte. Returns their paths.
     ///
-    /// overwrite: replaces what an earlier run left. resume: goes on where a run of the same plan was interrupted.
+    /// overwrite: replaces files of an earlier run. resume: continues an interrupted run of the same plan.
     /// shard: (i, n) renders the tiles whose number is i modulo n; `etendue.merge` joins the folders of all.
-    /// films: the only films of the shard to render, of `film_names()`; `merge` wants all of them in the folder. None: all.
+    /// films: the only films of the shard to render, of `film_names()`; `merge` requires all of them in the folder. None: all.
     #[pyo3(signature = (folder, *, frames = None, overwrite = false, resume = false, shard = None, films = None, threads = None, progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn save(
@@ -209,7 +209,7 @@ impl Job {
     }
 }
 
-/// The path of a job, and its text where it is made in Python.
+/// Path of a job, and its text if it is made in Python.
 fn source(description: &Bound<'_, PyAny>, folder: Option<PathBuf>) -> PyResult<(PathBuf, Option<String>)> {
     if let Some(keys) = toml::mapping(description)? {
         return Ok((folder.unwrap_or_default().join(MADE), Some(toml::file(&keys)?)));
@@ -232,7 +232,7 @@ fn options(py: Python<'_>, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Render
     Ok(RenderOptions { frames: range(frames)?, simd })
 }
 
-/// A number of threads that is one.
+/// Checks that a number of threads is valid.
 fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
     match threads {
         Some(threads) if !(1..=1024).contains(&threads) => {
@@ -242,7 +242,7 @@ fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
     }
 }
 
-/// A frame, or a range of consecutive ones; frame 0 where none is named.
+/// A frame, or a range of consecutive ones; frame 0 if none is named.
 fn range(frames: Option<&Bound<'_, PyAny>>) -> PyResult<Range<u32>> {
     let told = || {
         PyTypeError::new_err("frames: expected a frame's number, or a range of consecutive frames that is not empty")

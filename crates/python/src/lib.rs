@@ -1,7 +1,7 @@
 //! Étendue in Python: the library `etendue` behind classes whose planes are NumPy arrays, and the verbs of the command line as functions.
 //!
-//! What takes long runs on a thread of its own, with Python's lock released: the calling thread waits for it, hands progress and messages over, and
-//! looks for signals, so that Ctrl-C cancels ([`watch`]). The words of the API are in `python/etendue`.
+//! Long tasks run on a separate thread, with Python's lock released: the calling thread waits, passes on progress and messages, and checks for signals, so that
+//! Ctrl-C cancels ([`watch`]). The Python part of the API is in `python/etendue`.
 
 mod camera;
 mod error;
@@ -17,7 +17,7 @@ mod watch;
 
 use pyo3::prelude::*;
 
-/// What `import etendue` takes its classes and functions from.
+/// Classes and functions for `import etendue`.
 #[pymodule]
 fn _etendue(module: &Bound<'_, PyModule>) -> PyResult<()> {
     etendue_cli::quieten_decoders();

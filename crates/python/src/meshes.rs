@@ -1,4 +1,4 @@
-//! Files that are made in Python: texts, and meshes from arrays.
+//! Files made in Python: texts, and meshes from arrays.
 
 use crate::error::exception;
 use crate::toml;
@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyString;
 use std::path::Path;
 
-/// The arrays of a mesh, by their names in Python.
+/// Arrays of a mesh, by their names in Python.
 const ARRAYS: [&str; 4] = ["positions", "triangles", "normals", "uvs"];
 
-/// Files by the names that the job gives them, which are relative to its folder.
+/// Files by the names that the job uses, which are relative to its folder.
 pub(crate) fn files(
     folder: &Path,
     texts: Option<&Bound<'_, PyAny>>,
@@ -32,7 +32,7 @@ pub(crate) fn files(
     Ok(files)
 }
 
-/// Things by their names, of an argument that is a mapping.
+/// Items of an argument that is a mapping, by name.
 fn named<'py>(argument: &str, given: Option<&Bound<'py, PyAny>>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
     let Some(given) = given else { return Ok(Vec::new()) };
     let told = || PyTypeError::new_err(format!("{argument}: expected a dict of names to what they name"));
@@ -65,7 +65,7 @@ fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_,
     files.add_mesh(folder.join(name), &mesh).map_err(|error| exception(given.py(), error))
 }
 
-/// An array of a dict, and its place in words.
+/// Array of a dict, and its place in words.
 struct NamedArray<'py> {
     array: Bound<'py, PyAny>,
     told: String,
@@ -91,7 +91,7 @@ fn indices(NamedArray { array, told }: NamedArray<'_>) -> PyResult<Vec<[u32; 3]>
     Ok(bytes.as_chunks::<4>().0.iter().map(|b| u32::from_ne_bytes(*b)).collect::<Vec<_>>().as_chunks().0.to_vec())
 }
 
-/// An array of two dimensions with rows of `n`, of one of these kinds of numbers.
+/// Two-dimensional array with rows of `n` numbers of one of these kinds.
 fn rows<'py>(given: &Bound<'py, PyAny>, n: usize, kinds: &str, what: &str, told: &str) -> PyResult<Bound<'py, PyAny>> {
     let array = given.py().import("numpy")?.call_method1("asarray", (given,))?;
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;

@@ -9,7 +9,7 @@ use pyo3::types::{PyIterator, PyList};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The results of all cameras of a job: their light is held; frames and ground truth are made when they are asked for.
+/// Results of all cameras of a job: their light is kept in memory; frames and ground truth are computed on request.
 #[pyclass(frozen, module = "etendue")]
 pub(crate) struct Results {
     results: Arc<etendue::Results>,
@@ -28,7 +28,7 @@ impl Results {
 
 #[pymethods]
 impl Results {
-    /// The cameras, those of equal light one after the other; where light depends on time, once for each frame.
+    /// All cameras, those of equal light consecutively; if light depends on time, one entry per frame.
     #[getter]
     fn cameras(&self, py: Python<'_>) -> Vec<Py<Camera>> {
         self.cameras.iter().map(|camera| camera.clone_ref(py)).collect()
@@ -63,7 +63,7 @@ impl Results {
         self.names()
     }
 
-    /// The camera of each name; where light depends on time, of the first frame: `cameras` has all.
+    /// The camera of each name; if light depends on time, that of the first frame: `cameras` has all.
     fn values(&self, py: Python<'_>) -> PyResult<Vec<Py<Camera>>> {
         self.names().iter().map(|name| self.camera(py, name, None)).collect()
     }
@@ -73,7 +73,7 @@ impl Results {
         Ok(self.names().into_iter().zip(self.values(py)?).collect())
     }
 
-    /// The camera of a name, or `default` where there is none.
+    /// The camera of a name, or `default` if there is none.
     #[pyo3(signature = (name, default = None))]
     fn get(&self, py: Python<'_>, name: &str, default: Option<Py<PyAny>>) -> PyResult<Option<Py<PyAny>>> {
         if self.names().iter().any(|known| known == name) {
@@ -86,7 +86,7 @@ impl Results {
         self.camera(py, name, None)
     }
 
-    /// A camera by its name; where light depends on time, of one frame: the first unless another is named.
+    /// A camera by its name; if light depends on time, of one frame: the first unless another is named.
     #[pyo3(signature = (name, frame = None))]
     fn camera(&self, py: Python<'_>, name: &str, frame: Option<u32>) -> PyResult<Py<Camera>> {
         let of = |camera: &etendue::CameraResults| {
@@ -99,7 +99,7 @@ impl Results {
         Ok(self.cameras[place].clone_ref(py))
     }
 
-    /// Writes the files of `etendue render`, the same bytes; answers with their paths.
+    /// Writes the files of `etendue render`, byte for byte; returns their paths.
     #[pyo3(signature = (folder, *, overwrite = false))]
     fn save(&self, py: Python<'_>, folder: PathBuf, overwrite: bool) -> PyResult<Vec<PathBuf>> {
         run(py, self.threads, None, |watch| self.results.save(&folder, existing(overwrite), watch))
@@ -110,7 +110,7 @@ impl Results {
     }
 }
 
-/// What happens to files of an earlier run.
+/// Treatment of files of an earlier run.
 pub(crate) fn existing(overwrite: bool) -> Existing {
     if overwrite { Existing::Replace } else { Existing::Refuse }
 }

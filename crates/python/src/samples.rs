@@ -1,7 +1,7 @@
 //! Planes as NumPy arrays that share their memory: rows from the top, pixels from the left.
 //!
 //! NumPy reads the address by its array interface (version 3, <https://numpy.org/doc/stable/reference/arrays.interface.html>) and keeps the object that
-//! told it, which owns the samples. Arrays are read-only: what they show is what files are written of.
+//! provides it, which owns the samples. Arrays are read-only: files are written from the same memory.
 
 use etendue_core::Plane;
 use etendue_core::quantity::Quantity;
@@ -9,11 +9,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::sync::Arc;
 
-/// What a plane's sample is to NumPy.
+/// Type of a plane's sample for NumPy.
 pub(crate) trait Sample: Copy + Send + Sync + 'static {
     /// `f4`, `u4`.
     const TYPE: &'static str;
-    /// How many numbers a sample has, where it is not one.
+    /// Numbers per sample, if more than one.
     const NUMBERS: Option<usize> = None;
 }
 
@@ -53,7 +53,7 @@ impl Samples {
     }
 }
 
-/// An array of `shape` over samples that `owner` holds, unchanged and in their place as long as it lives.
+/// An array of `shape` over samples that `owner` holds, at a fixed address and unchanged during its lifetime.
 fn array<'py, T: Sample>(
     py: Python<'py>,
     samples: &[T],
@@ -79,7 +79,7 @@ where
     array(py, plane.samples(), vec![plane.height(), plane.width()], owner)
 }
 
-/// The bands of a cube in one piece.
+/// Bands of a cube in one contiguous block.
 pub(crate) struct Cube {
     pub(crate) shape: [usize; 3],
     pub(crate) samples: Vec<f32>,

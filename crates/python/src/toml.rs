@@ -1,4 +1,4 @@
-//! Values of Python as TOML writes them.
+//! Conversion of Python values to TOML.
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -14,10 +14,10 @@ pub(crate) fn to_toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(text)
 }
 
-/// How deep values may lie in one another: a list that holds itself ends.
+/// Maximum nesting depth of values: stops at a list that contains itself.
 const DEPTH: usize = 64;
 
-/// A mapping as a dict; `None` for what is none.
+/// A mapping as a dict; `None` for other values.
 pub(crate) fn mapping<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
     if let Ok(dict) = value.cast::<PyDict>() {
         return Ok(Some(dict.clone()));
@@ -28,7 +28,7 @@ pub(crate) fn mapping<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'
     Ok(Some(dict))
 }
 
-/// A file of the keys of a mapping, a line each.
+/// A file of the keys of a mapping, one per line.
 pub(crate) fn file(keys: &Bound<'_, PyDict>) -> PyResult<String> {
     let mut text = String::new();
     for (key, value) in keys {
@@ -41,7 +41,7 @@ pub(crate) fn file(keys: &Bound<'_, PyDict>) -> PyResult<String> {
     Ok(text)
 }
 
-/// Changes of keys, `key=value` each: of a mapping, where None takes the key out, or of a list of such texts.
+/// Changes of keys, `key=value` each: from a mapping, where None removes the key, or from a list of such texts.
 pub(crate) fn changes(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
     let Some(set) = set else { return Ok(Vec::new()) };
     let Some(keys) = mapping(set)? else {
@@ -128,7 +128,7 @@ fn write_list(text: &mut String, list: &Bound<'_, PyAny>, key: &str, depth: usiz
     Ok(())
 }
 
-/// A float keeps its point, so that it is none where a whole number is expected.
+/// A float keeps its decimal point, so that it does not become an integer.
 fn number(value: f64) -> String {
     match value {
         _ if value.is_nan() => "nan".to_owned(),
@@ -138,7 +138,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// A basic string: what TOML does not allow in one is escaped.
+/// A basic string, with the characters escaped that TOML does not allow.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for c in text.chars() {

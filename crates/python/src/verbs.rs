@@ -1,4 +1,4 @@
-//! The verbs of the command line, for the functions that `python/etendue/_verbs.py` makes of their list.
+//! Verbs of the command line, for the functions that `python/etendue/_verbs.py` creates from their list.
 
 use crate::error::exception;
 use crate::watch::run;
@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::ffi::OsString;
 
-/// Runs a verb: its answer, and why the run failed where it answered first.
+/// Runs a verb: its result, and the error if the run failed after giving one.
 #[pyfunction]
 #[pyo3(signature = (arguments, progress = None))]
 pub(crate) fn call(
@@ -25,7 +25,7 @@ pub(crate) fn call(
     }
 }
 
-/// Moves a limit on what files may cost for all of the process, as `--limit NAME=N`, which messages propose (docs/limits.md).
+/// Changes a limit on the cost of files for the whole process, as `--limit NAME=N`, which error messages suggest (docs/limits.md).
 ///
 /// name: as on the command line, such as "picture-mib".
 #[pyfunction]
@@ -39,7 +39,7 @@ pub(crate) fn catalogue() -> PyResult<String> {
     serde_json::to_string(&etendue_cli::catalogue()).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// The program: its exit status. Arguments begin with the program's name.
+/// Runs the program and returns its exit status. Arguments begin with the program's name.
 #[pyfunction]
 pub(crate) fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| etendue_cli::main(arguments))

@@ -1,4 +1,4 @@
-//! What takes long: on a thread of its own, watched by the one that called.
+//! Long tasks on a separate thread, watched by the calling one.
 
 use crate::error::exception;
 use etendue::{Error, Message, Observer, Progress, terminal_text};
@@ -8,14 +8,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long the calling thread sleeps between looks, at most and at first: what is short is not held up.
+/// Maximum and initial pause of the calling thread between checks: short tasks are not delayed.
 const PAUSE: Duration = Duration::from_millis(10);
 const FIRST_PAUSE: Duration = Duration::from_micros(100);
 
-/// What the caller is told after a panic, which the panic's own lines on stderr explain.
+/// Message after a panic, which the panic's own lines on stderr explain.
 const FAULT: &str = "a fault in the program ended this run, where stderr says; files that have their final names are whole. Please report those lines";
 
-/// What the task tells and the calling thread hands on.
+/// Messages of the task that the calling thread passes on.
 pub(crate) struct Watch {
     start: Instant,
     cancelled: AtomicBool,
@@ -24,11 +24,11 @@ pub(crate) struct Watch {
 
 #[derive(Default)]
 struct Heard {
-    /// The newest only.
+    /// Only the latest progress.
     progress: Option<(String, usize, usize)>,
-    /// Whether each is a warning.
+    /// Messages; true for a warning.
     messages: Vec<(bool, String)>,
-    /// The answer of a verb.
+    /// Result of a verb.
     answer: String,
 }
 
@@ -81,12 +81,12 @@ impl Watch {
         self.heard.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What a verb has answered.
+    /// Result of a verb.
     pub(crate) fn answer(&self) -> String {
         std::mem::take(&mut self.heard().answer)
     }
 
-    /// Hands on what was heard: progress to the caller's function, warnings to `warnings`, notes to `logging`.
+    /// Passes on what was received: progress to the caller's function, warnings to `warnings`, notes to `logging`.
     fn hand_on(&self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
         py.check_signals()?;
         let (newest, messages) = {
@@ -109,8 +109,8 @@ impl Watch {
     }
 }
 
-/// Runs `work` on a pool of `threads` (`None`: one a processor) with Python's lock released. `progress` is called with what is worked on, how much is
-/// done, and of how much, in the calling thread. What a signal or that function raises cancels the work and is raised in its place.
+/// Runs `work` on a pool of `threads` (`None`: one per processor) with Python's lock released. `progress` is called in the calling thread with the current
+/// step, the amount done, and the total. An exception from a signal or from that function cancels the work and is raised instead.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     threads: Option<u32>,
@@ -125,7 +125,7 @@ pub(crate) fn run<T: Send>(
             let (mut raised, mut pause) = (None, FIRST_PAUSE);
             loop {
                 let is_done = task.is_finished();
-                // What has raised is not called again.
+                // A function that has raised is not called again.
                 let progress = progress.filter(|_| raised.is_none());
                 if let Err(error) = Python::attach(|py| watch.hand_on(py, progress)) {
                     watch.cancelled.store(true, Ordering::Relaxed);

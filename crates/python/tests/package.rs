@@ -1,17 +1,17 @@
-//! The package's own tests, in Python (`tests/test_*.py`), of the module that this workspace builds. `ETENDUE_PYTHON` names an interpreter that has NumPy and
-//! what the extra "test" of `pyproject.toml` lists; without it they are skipped. `ETENDUE_PYTHON_CLUSTER` and
-//! `ETENDUE_PYTHON_NOTEBOOKS` name one that has the extra of that name as well.
+//! The package's own tests, in Python (`tests/test_*.py`), of the module that this workspace builds. `ETENDUE_PYTHON` names an interpreter with NumPy and the
+//! packages of the extra "test" of `pyproject.toml`; without it they are skipped. `ETENDUE_PYTHON_CLUSTER` and `ETENDUE_PYTHON_NOTEBOOKS` name one that also
+//! has the extra of that name.
 
 use etendue_testkit::skip::skipped;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The folder of this test's program and of the libraries that it was built with.
+/// Folder of this test's program and of the libraries that it was built with.
 fn built() -> PathBuf {
     std::env::current_exe().expect("this program").parent().expect("its folder").to_path_buf()
 }
 
-/// The package as it is installed: the files of Python with the module beside them.
+/// Installs the package: the Python files and the module in one folder.
 fn install(folder: &Path) {
     let package = folder.join("etendue");
     copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("python/etendue"), &package);
@@ -20,7 +20,7 @@ fn install(folder: &Path) {
     std::fs::copy(&module, package.join(name)).unwrap_or_else(|cause| panic!("{}: {cause}", module.display()));
 }
 
-/// A folder of files of Python with those below it.
+/// Copies a folder of Python files with its subfolders.
 fn copy(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).expect("a folder of the package");
     for entry in std::fs::read_dir(from).expect("the files of Python") {
@@ -34,7 +34,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Runs the tests that bear a mark with the interpreter that a variable names; skipped where it names none.
+/// Runs the tests with a mark by the interpreter that a variable names; skipped if it names none.
 fn passes(test: &str, variable: &str, mark: &str) {
     let Some(python) = std::env::var_os(variable) else {
         return skipped(test, &format!("{variable} names no interpreter"));

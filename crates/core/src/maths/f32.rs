@@ -13,18 +13,18 @@ use super::kernel::{
     polynomial, power_of_two, split, turned,
 };
 
-/// A function of libm where our own series do not hold; out of the way of the ordinary arguments.
+/// Calls a function of libm for arguments that our own series do not cover; kept out of line for the ordinary arguments.
 #[cold]
 #[inline(never)]
 fn special(f: impl Fn(f64) -> f64, x: f32) -> f32 {
     f(f64::from(x)) as f32
 }
 
-/// Beyond it, angles are reduced by libm.
+/// Largest angle reduced here; libm reduces larger ones.
 const LARGEST: f32 = 1.0e6;
 /// π/2 to 33 bits, so that its products with the turns of an angle up to [`LARGEST`] are exact.
 const HALF_PI_HIGH: f64 = f64::from_bits(0x3ff9_21fb_5440_0000);
-/// The rest of π/2.
+/// Low part of π/2.
 const HALF_PI_LOW: f64 = f64::from_bits(0x3dd0_b461_1a62_6331);
 
 /// Next terms: 7e-12 of the sine, 2e-12 of the cosine, at π/4.
@@ -32,7 +32,7 @@ const SIN: [f64; 5] = circular_series(3, -1.0);
 const COS: [f64; 5] = circular_series(4, 1.0);
 /// Next term: 9e-11 at 1/8.
 const ATAN: [f64; 4] = inverse_tangent_series(-1.0);
-/// (asin √z / √z − 1)/z for z of 0 to 1/4, fitted at the Chebyshev points: off by 6e-11 of the inverse sine.
+/// (asin √z / √z − 1)/z for z of 0 to 1/4, fitted at the Chebyshev points: error 6e-11 of the inverse sine.
 const ASIN: [f64; 7] = [
     0.166_666_666_860_856_43,
     0.074_999_924_044_018_38,
@@ -55,7 +55,7 @@ fn sin_cos_wide(x: f32) -> (f64, f64) {
     turned(sin, cos, quadrant)
 }
 
-/// Whether an angle is within the range of the reduction.
+/// Returns true if an angle is within the range of the reduction.
 #[inline]
 fn moderate(x: f32) -> bool {
     x.abs() <= LARGEST
@@ -97,7 +97,7 @@ pub fn tan(x: f32) -> f32 {
     if x == 0.0 { x } else { (sin / cos) as f32 }
 }
 
-/// atan(n/d) for 0 ≤ n ≤ d, d > 0: the nearest quarter is taken off, a series has the rest.
+/// atan(n/d) for 0 ≤ n ≤ d, d > 0: subtracts the nearest quarter and evaluates a series for the remainder.
 #[inline]
 fn atan_octant(n: f64, d: f64) -> f64 {
     let (quarters, i) = nearest(4.0 * (n / d));
@@ -107,7 +107,7 @@ fn atan_octant(n: f64, d: f64) -> f64 {
     ATAN_QUARTERS[(i as usize).min(4)].0 + (t + t * z * polynomial(z, &ATAN))
 }
 
-/// The angle of a finite point other than the origin, in double precision; the sign of a zero is not kept.
+/// Angle of a finite point other than the origin, in double precision. Ignores the sign of zeros.
 #[inline]
 fn angle_wide(y: f64, x: f64) -> f64 {
     let (ay, ax) = (y.abs(), x.abs());
@@ -207,7 +207,7 @@ pub fn exp_m1(x: f32) -> f32 {
     ((scale - 1.0) + scale * exp_m1_reduced(x - whole * LN_2)) as f32
 }
 
-/// Whether a logarithm is an ordinary number.
+/// Returns true if the logarithm is finite and the argument normal.
 #[inline]
 fn has_logarithm(x: f32) -> bool {
     x > 0.0 && x < f32::INFINITY

@@ -1,8 +1,7 @@
 //! Functions of one or two `f64`.
 //!
-//! `sin`, `cos`, `sin_cos`, `exp` and `ln` are our own, with errors below 1 unit in the last place (largest of 20 000 random
-//! arguments against 36 digits: 0.9), and so are `atan` and `atan2`, below 2 (1.6). The others are those of the libm
-//! crate (below 1 unit, portable), as they are on no hot path.
+//! `sin`, `cos`, `sin_cos`, `exp` and `ln` are our own, with errors below 1 unit in the last place (largest of 20 000 random arguments against 36 digits: 0.9),
+//! and so are `atan` and `atan2`, below 2 (1.6). The others are those of the libm crate (below 1 unit, portable), as no hot path uses them.
 
 use core::f64::consts::{FRAC_2_PI, LOG2_E};
 
@@ -11,7 +10,7 @@ use super::kernel::{
     out_of_octant, polynomial, power_of_two, split, turned,
 };
 
-/// Beyond it, angles are reduced by libm.
+/// Largest angle reduced here; libm reduces larger ones.
 const LARGEST: f64 = 16_384.0;
 /// π/2 in three parts of 39, 39 and 53 bits (Cody & Waite), so that the first two have exact products with the turns
 /// of an angle up to [`LARGEST`].
@@ -27,7 +26,7 @@ const COS: [f64; 7] = circular_series(4, 1.0);
 /// Next term: 3e-18 at 1/8.
 const ATAN: [f64; 8] = inverse_tangent_series(-1.0);
 
-/// The angle's distance from the nearest quarter turn, high and low part, and the number of that quarter turn.
+/// Returns the angle's distance from the nearest quarter turn, as a high and a low part, and the number of that quarter turn.
 #[inline]
 fn reduced(x: f64) -> (f64, f64, i32) {
     let (turns, quadrant) = nearest(x * FRAC_2_PI);
@@ -80,7 +79,7 @@ pub fn cos(x: f64) -> f64 {
     sin_cos(x).1
 }
 
-/// atan(n/d) for 0 ≤ n ≤ d, d neither tiny nor huge: the nearest quarter is taken off, a series has the rest.
+/// atan(n/d) for 0 ≤ n ≤ d, d neither tiny nor huge: subtracts the nearest quarter and evaluates a series for the remainder.
 #[inline]
 fn atan_octant(n: f64, d: f64) -> f64 {
     let (quarters, i) = nearest(4.0 * (n / d));
@@ -91,7 +90,7 @@ fn atan_octant(n: f64, d: f64) -> f64 {
     high + (t + (t * z * polynomial(z, &ATAN) + low))
 }
 
-/// A power of two that brings a length to where its products neither overflow nor lose bits.
+/// Returns a power of two that scales a length to a range in which its products neither overflow nor lose bits.
 #[inline]
 fn rescale(length: f64) -> f64 {
     const HUGE: f64 = f64::from_bits((1023 + 600) << 52);
@@ -249,9 +248,9 @@ pub fn hypot(x: f64, y: f64) -> f64 {
 mod tests {
     use super::*;
 
-    // Against libm, whose own error is below 1 unit in the last place.
+    // Comparison with libm, whose own error is below 1 unit in the last place.
 
-    /// Steps that two results may lie apart: our bound of 1 unit and libm's of 1; for angles of points ours is 2.
+    /// Largest difference of two results, in units in the last place: our bound of 1 and libm's of 1; for angles of points our bound is 2.
     const BOUND: u64 = 2;
     const ANGLE_BOUND: u64 = 3;
 
@@ -319,7 +318,7 @@ mod tests {
         assert!((-1074..1024).all(|k| exp2(f64::from(k)) == libm::ldexp(1.0, k)), "powers of two are exact");
     }
 
-    /// Figures of a calculation to 50 digits (mpmath 1.4.1), correctly rounded.
+    /// Expected values from a calculation to 50 digits (mpmath 1.4.1), correctly rounded.
     #[test]
     fn bits_are_pinned() {
         let got = [sin(1.0), cos(2.5), atan2(-1.5, -2.5), exp(-4.2), exp2(0.3), ln(7.3)];

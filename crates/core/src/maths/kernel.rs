@@ -1,10 +1,10 @@
-//! What both precisions are built from: polynomials, series, powers of two.
+//! Building blocks of both precisions: polynomials, series, powers of two.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// ln 2 to 32 bits, so that its products with exponents are exact.
 pub(super) const LN_2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
-/// The rest of ln 2.
+/// Low part of ln 2.
 pub(super) const LN_2_LOW: f64 = f64::from_bits(0x3dea_39ef_3579_3c76);
 
 /// atan(i/4), high and low parts.
@@ -41,19 +41,19 @@ pub(super) fn split(x: f64) -> (i32, f64) {
     (k as i32, f64::from_bits((bits - (k << 52)).cast_unsigned()))
 }
 
-/// Cosine and sine of no, one, two and three quarter turns.
+/// Cosine and sine of zero, one, two and three quarter turns.
 const QUARTER_TURNS: [(f64, f64); 4] = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
 
-/// Sine and cosine of an angle `quadrant` quarter turns further on. By a rotation, which is exact: a branch on a random
-/// quadrant would cost more than all the rest.
+/// Sine and cosine of an angle increased by `quadrant` quarter turns. Uses an exact rotation: a branch on a random quadrant would cost more than everything
+/// else.
 #[inline(always)]
 pub(super) fn turned(sin: f64, cos: f64, quadrant: i32) -> (f64, f64) {
     let (c, s) = QUARTER_TURNS[(quadrant & 3) as usize];
     (c * sin + s * cos, c * cos - s * sin)
 }
 
-/// The angle (high part, low part) that an octant of the upper half plane starts or ends with, and the sign of the
-/// octant's own angle: by |y| > |x| (1) and x < 0 (2).
+/// Angle (high part, low part) at which an octant of the upper half plane starts or ends, and the sign of the octant's own angle: by |y| > |x| (1) and x < 0
+/// (2).
 const OCTANTS: [(f64, f64, f64); 4] = [
     (0.0, 0.0, 1.0),
     (FRAC_PI_2, f64::from_bits(0x3c91_a626_3314_5c07), -1.0),
@@ -61,8 +61,7 @@ const OCTANTS: [(f64, f64, f64); 4] = [
     (FRAC_PI_2, f64::from_bits(0x3c91_a626_3314_5c07), 1.0),
 ];
 
-/// The angle of a point in the upper half plane from that of its octant, 0 to π/4; `steep` is |y| > |x|. By a table,
-/// for the same reason as [`turned`].
+/// Angle of a point in the upper half plane from that of its octant, 0 to π/4; `steep` is |y| > |x|. Uses a table, for the same reason as [`turned`].
 #[inline(always)]
 pub(super) fn out_of_octant(octant: f64, steep: bool, behind: bool) -> f64 {
     let (high, low, sign) = OCTANTS[usize::from(steep) | usize::from(behind) << 1];
@@ -75,7 +74,7 @@ pub(super) fn in_order(a: f64, b: f64) -> (f64, f64) {
     (if a < b { a } else { b }, if a < b { b } else { a })
 }
 
-/// c₀ + c₁ x + c₂ x² + …, even and odd terms apart, each by Horner's rule.
+/// c₀ + c₁ x + c₂ x² + …, even and odd terms separately, each by Horner's rule.
 #[inline(always)]
 pub(super) fn polynomial<const N: usize>(x: f64, c: &[f64; N]) -> f64 {
     let square = x * x;

@@ -1,14 +1,13 @@
 //! Transcendental functions with the same bits on every machine.
 //!
-//! `+ − × ÷ sqrt` are exact everywhere and stay with the standard library; what the platform's library computes
-//! differently from machine to machine is computed here: plain products and sums in a fixed order, never fused.
+//! `+ − × ÷ sqrt` are exact everywhere and stay with the standard library; functions whose platform versions differ between machines are computed here: plain
+//! products and sums in a fixed order, never fused.
 //!
-//! [`f32`](mod@f32) evaluates short series in double precision and rounds once, so its results are the correctly
-//! rounded ones but for about one in a hundred. [`f64`](mod@f64) carries low parts where they matter and stays within
-//! 2 units in the last place; its rarely used functions are those of the libm crate, which is portable as well.
-//! Arguments that are special (infinite, NaN, zero where it matters, or enormous angles) go to libm too.
+//! [`f32`](mod@f32) evaluates short series in double precision and rounds once, so about one result in a hundred is not correctly rounded. [`f64`](mod@f64)
+//! carries low parts where they matter and stays within 2 units in the last place; its rarely used functions are those of the libm crate, which is portable as
+//! well. Arguments that are special (infinite, NaN, zero where it matters, or enormous angles) go to libm too.
 //!
-//! Nanoseconds a call for random arguments, call and loop included (an empty one takes 3), on an AMD EPYC core:
+//! Nanoseconds per call for random arguments, call and loop included (an empty one takes 3), on an AMD EPYC core:
 //!
 //! | | f32 | libm | std | f64 | libm | std |
 //! | --- | --- | --- | --- | --- | --- | --- |
@@ -26,7 +25,7 @@ pub mod f32;
 pub mod f64;
 mod kernel;
 
-/// The greatest number that divides both; the other where one is 0.
+/// Largest common divisor; the other number if one is 0.
 #[must_use]
 pub fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     let (mut x, mut y) = (a, b);
@@ -36,10 +35,10 @@ pub fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     x
 }
 
-/// The least number above 0 that both, above 0, divide.
+/// Least common multiple of two numbers above 0.
 ///
 /// # Panics
-/// Where both are 0.
+/// If both are 0.
 #[must_use]
 pub fn least_common_multiple(a: u32, b: u32) -> u32 {
     a / greatest_common_divisor(a, b) * b

@@ -1,10 +1,9 @@
-//! What holds a carried thing during an interval.
+//! Bounds of a moving object in nested frames during an interval.
 //!
-//! One track has its own bounds. Of a chain the interval is cut at the keys of all its tracks and each piece into sixteen parts,
-//! or more where something turns fast, so that none turns by more than 0.1 rad in a part. At each moment the whole transform is
-//! affine: the box of a part is that of the moved corners at its two ends, enlarged by how far their paths stray from the chords
-//! between, h²/8 · max|p̈|. The acceleration of a point that is carried by a chain is bounded from within outwards by the product
-//! rule ([`crate::track`]'s `Bend`), so that a box is as tight as that of one track, however long the chain.
+//! One track has its own bounds. The interval of a chain is cut at the keys of all its tracks, and each piece into sixteen parts, or more for fast rotation, so
+//! that no track turns by more than 0.1 rad in a part. At each moment the whole transform is affine: the box of a part is that of the moved corners at its two
+//! ends, enlarged by the maximum deviation of their paths from the chords between, h²/8 · max|p̈|. The acceleration of a point that is carried by a chain is
+//! bounded from within outwards by the product rule ([`crate::track`]'s `Bend`), so that a box is as tight as that of one track, however long the chain.
 
 use core::f64::consts::PI;
 
@@ -14,18 +13,18 @@ use super::{Links, Motion, is_similarity};
 use crate::TimeInterval;
 use crate::track::{Bend, Track};
 
-/// Room for rounding by every track, relative to what is added up: some sixty operations of 1.1e-16 each, at most.
+/// Tolerance for rounding of each track, relative to the sum: at most some sixty operations of 1.1e-16 each.
 const ROUNDING: f64 = 2e-14;
-/// Rounding of a time, and of the part of a span that has passed, relative to the time.
+/// Rounding of a time, and of the elapsed fraction of a span, relative to the time.
 const TIME_ROUNDING: f64 = 1e-15;
-/// How much a part turns at most, rad.
+/// Maximum rotation within a part, rad.
 const TURN: f64 = 0.1;
-/// Parts of a piece, at least and at most.
+/// Minimum and maximum number of parts of a piece.
 const PARTS: (f64, f64) = (16.0, 1024.0);
 
 impl Motion {
-    /// Least and greatest coordinates of a box that holds the box from `low` to `high` (of the moved frame) at every moment of
-    /// an interval, by the arithmetic of [`Motion::at`] too.
+    /// Returns the minimum and maximum coordinates of a box that holds the box from `low` to `high` (of the moved frame) at every moment of an interval,
+    /// including the rounding of [`Motion::at`].
     #[must_use]
     pub fn bounds_over(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> (DVec3, DVec3) {
         if let Links::One(track) = &self.0 {
@@ -35,7 +34,7 @@ impl Motion {
         self.bounds_of_points(interval, &[0, 1, 2, 3, 4, 5, 6, 7].map(corner))
     }
 
-    /// As [`Motion::bounds_over`], of a ball.
+    /// Returns the same for a ball.
     #[must_use]
     pub fn bounds_of_ball(&self, interval: TimeInterval, centre: DVec3, radius: f64) -> (DVec3, DVec3) {
         if let Links::One(track) = &self.0 {
@@ -46,8 +45,8 @@ impl Motion {
         (low - reach, high + reach)
     }
 
-    /// A box that holds the ball of a radius about the moved frame's origin during an interval: looser than
-    /// [`Motion::bounds_of_ball`], and quick for intervals of many keys.
+    /// Returns a box that holds a ball of the given radius about the moved frame's origin during an interval: looser than [`Motion::bounds_of_ball`], and fast
+    /// for intervals of many keys.
     #[must_use]
     pub fn rough_bounds(&self, interval: TimeInterval, radius: f64) -> (DVec3, DVec3) {
         let carried = self.links()[1..].iter().rev().fold(radius, |radius, link| {
@@ -57,15 +56,14 @@ impl Motion {
         self.links()[0].rough_bounds(interval, carried)
     }
 
-    /// Bounds, during an interval, of the least and the greatest factor by which lengths change.
+    /// Returns bounds, during an interval, of the smallest and the largest factor by which lengths change.
     #[must_use]
     pub fn stretch_over(&self, interval: TimeInterval) -> (f64, f64) {
         let factors = self.links().iter().map(|link| link.stretch_over(interval));
         factors.fold((1.0, 1.0), |all, link| (all.0 * link.0, all.1 * link.1))
     }
 
-    /// A bound, during an interval, of the greatest coordinate in the moved frame of what lies in the box from `low` to `high`
-    /// of the world.
+    /// Returns a bound, during an interval, of the largest coordinate in the moved frame of points in the box from `low` to `high` of the world.
     #[must_use]
     pub fn local_reach(&self, interval: TimeInterval, world_box: (DVec3, DVec3)) -> f64 {
         let (inmost, outer) = (&self.links()[self.outer().len()], self.outer());
@@ -76,8 +74,8 @@ impl Motion {
         inmost.local_reach(interval, outer.iter().fold(world_box, inward))
     }
 
-    /// A bound of the angle, rad, by which normals turn during an interval from where they are at its start; π where scales
-    /// change, or where what turns is stretched.
+    /// Returns a bound of the angle, rad, by which normals turn during an interval from their directions at its start; π if scales change, or if the rotated
+    /// frame is stretched.
     #[must_use]
     pub fn turning_over(&self, interval: TimeInterval) -> f64 {
         let stretches = |link: &Track| !is_similarity(&link.at(interval.start_s()).matrix3);
@@ -87,7 +85,7 @@ impl Motion {
         self.links().iter().map(|link| link.turning_over(interval)).sum::<f64>().min(PI)
     }
 
-    /// Whether the transform has an inverse at every time.
+    /// Returns true if the transform has an inverse at every time.
     #[must_use]
     pub fn is_invertible(&self) -> bool {
         self.links().iter().all(Track::is_invertible)
@@ -116,7 +114,7 @@ impl Motion {
         (low, high)
     }
 
-    /// The interval cut at the keys within it.
+    /// Cuts the interval at the keys within it.
     fn pieces(&self, interval: TimeInterval) -> Vec<(f64, f64)> {
         let (start_s, end_s) = (interval.start_s(), interval.end_s());
         let mut ends_s = vec![start_s, end_s];
@@ -139,8 +137,8 @@ impl Motion {
         if start_s == end_s { 1 } else { (rate * (end_s - start_s) / TURN).ceil().max(PARTS.0).min(PARTS.1) as u32 }
     }
 
-    /// How far a point's path strays at most from the chord between its places at two times between which no key lies, with room
-    /// for the rounding of places and of times.
+    /// Maximum deviation of a point's path from the chord between its places at two times without a key between them, including the rounding of places and of
+    /// times.
     fn stray(&self, start_s: f64, end_s: f64, point: DVec3) -> f64 {
         let own = Bend { distance: point.length(), ..Bend::default() };
         let links = self.links();

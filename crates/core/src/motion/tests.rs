@@ -1,4 +1,4 @@
-//! Chains against their tracks, boxes against many moments, wheels against closed forms.
+//! Tests of chains against their tracks, boxes against many moments, and wheels against closed forms.
 
 use super::Motion;
 use crate::TimeInterval;
@@ -55,7 +55,7 @@ fn linear(keys: &[Key]) -> Motion {
     Track::new(keys, Interpolation::Linear).expect("legal").into()
 }
 
-/// Boxes, balls, lengths, ways back and angles of 3000 random chains of two to four motions, at 30 moments each.
+/// Boxes, balls, lengths, inverses and angles of 3000 random chains of two to four motions, at 30 moments each.
 #[test]
 fn bounds_hold_what_is_carried() {
     let mut random = Random(0);
@@ -135,8 +135,8 @@ fn what_stands_still_in_a_moving_frame_is_part_of_its_track() {
     assert!(carried.still_over(over(2.5, 2.6)).is_none() && carried.as_still().is_none());
 }
 
-/// A wheel of 0.3 m on a car at 15 m/s, over a shutter of 30 ms: the car goes 0.45 m and the wheel turns by 1.5 rad. A mesh's box
-/// of half side 0.3 sweeps at most the circle about its corners, 0.3 √2.
+/// A wheel of 0.3 m on a car at 15 m/s, over a shutter of 30 ms: the car goes 0.45 m and the wheel turns by 1.5 rad. A mesh's box of half side 0.3 stays within
+/// the circle about its corners, 0.3 √2.
 #[test]
 fn a_wheel_has_the_box_of_its_way_and_no_more() {
     let car = linear(&[key(0.0, DVec3::ZERO, 0.0), key(10.0, DVec3::X * 150.0, 0.3)]);
@@ -162,8 +162,8 @@ fn off(a: f64, b: f64) -> f64 {
     ((a - b) / turn - ((a - b) / turn).round()) * turn
 }
 
-/// φ = s/r: at an even speed, under even acceleration, on a circle (by the way of the wheel, not of the car), and where the hub
-/// turns away from a straight way (φ = (v / (r ω)) sin ωt). Not before the first key, not after the last.
+/// φ = s/r: at constant speed, at constant acceleration, on a circle (by the path of the wheel, not of the car), and for a hub that turns away from a straight
+/// path (φ = (v / (r ω)) sin ωt). No rotation before the first key or after the last.
 #[test]
 fn wheels_turn_by_the_way_that_they_go() {
     let r = 0.31;
@@ -182,7 +182,7 @@ fn wheels_turn_by_the_way_that_they_go() {
     let accelerated: Vec<Key> = [0.0, 1.0, 2.5, 4.0].map(|t: f64| key(t, DVec3::X * (1.5 * t * t), 0.0)).into();
     let accelerated: Motion = Track::new(&accelerated, Interpolation::Smooth).expect("legal").into();
     check(&accelerated, &|t| 1.5 * t * t / r, 1e-6);
-    // The car turns to the left on the spot; the right wheel goes forward on a circle of 0.8 m.
+    // The car turns to the left on the spot; the right wheel travels forward on a circle of 0.8 m.
     let spot = linear(&[key(0.0, DVec3::ZERO, 0.0), key(4.0, DVec3::ZERO, 3.0)]);
     let right = spot.carrying(&Motion::still(DAffine3::from_translation(DVec3::new(0.0, -0.8, r))));
     check(&right, &|t| 0.75 * 0.8 * t / r, 1e-12);
@@ -193,8 +193,8 @@ fn wheels_turn_by_the_way_that_they_go() {
     assert_eq!(Motion::still(DAffine3::IDENTITY).rolling(r), Err(RollingError::Still));
 }
 
-/// The rates that wheels are integrated from, against differences of places: of a fourth-order formula with h = 0.1 ms, whose error
-/// is h⁴/30 of the fifth derivative; rounding of places of 1 m adds some 1e-12.
+/// Rates from which wheels are integrated, compared with finite differences of positions: a fourth-order formula with h = 0.1 ms, whose error is h⁴/30 of the
+/// fifth derivative; rounding of positions of 1 m adds some 1e-12.
 #[test]
 fn velocities_are_those_of_the_places() {
     let mut random = Random(77_000);

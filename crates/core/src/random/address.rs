@@ -11,23 +11,23 @@ pub struct Pixel {
     pub y: u32,
 }
 
-/// The part of a random address that a picture's pixels share.
+/// Part of a random address that all pixels of an image share.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct FrameAddress {
     /// The job's seed.
     pub seed: u64,
-    /// The camera's place in the job, from 0.
+    /// Index of the camera in the job, from 0.
     pub camera: u32,
-    /// The frame, from 0. A still world's light is that of frame 0.
+    /// Frame, from 0. Frame 0 for the render of a static world.
     pub frame: u32,
-    /// The capture within the frame, from 0; a picture made of all captures has that of the first.
+    /// Capture within the frame, from 0. An image merged from all captures has that of the first.
     pub capture: u32,
 }
 
-/// The part of a random address that one pixel's samples share.
+/// Part of a random address that all samples of a pixel share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PixelAddress {
-    /// The picture.
+    /// Image.
     pub frame: FrameAddress,
     /// The pixel.
     pub pixel: Pixel,
@@ -50,7 +50,7 @@ impl PixelAddress {
     }
 }
 
-/// What a number of a path is used for. Append-only: the discriminants are part of the promised bits.
+/// Purpose of a random number of a path. Append-only: the discriminants are part of the guaranteed bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Draw {
@@ -62,35 +62,35 @@ pub enum Draw {
     Pupil = 2,
     /// The time within the exposure.
     Time = 3,
-    /// Which light to ask at a vertex; the sub-counter is the vertex's number on the path.
+    /// Choice of a light at a vertex; the sub-counter is the vertex's number on the path.
     LightChoice = 4,
     /// The point of that light.
     LightPoint = 5,
-    /// Which part of a material to sample at a vertex.
+    /// Choice of a lobe or component of a material at a vertex.
     BsdfChoice = 6,
-    /// The direction a material scatters to.
+    /// Scattering direction of a material.
     BsdfDirection = 7,
     /// Russian roulette at a vertex.
     Roulette = 8,
-    /// Whether a partly transparent surface lets a ray pass.
+    /// Stochastic opacity: whether a partly transparent surface lets a ray pass.
     Opacity = 9,
-    /// Which part of a mix of materials a path meets at a vertex.
+    /// Choice of a component of a mixed material at a vertex.
     Mix = 10,
-    /// Which paths of a group that shares its tails are followed on.
+    /// Choice of the paths that are continued, in a group of paths that share tails.
     Followed = 11,
-    /// How far light flies in a medium; the sub-counter counts the path's flights.
+    /// Free-flight distance in a medium; the sub-counter counts the path's flights.
     FreeFlight = 12,
-    /// What happens to it there.
+    /// Event at a collision in a medium.
     Collision = 13,
-    /// A step along a ray to a light through an uneven medium.
+    /// Step along a ray to a light through a heterogeneous medium.
     Transmittance = 14,
-    /// Which wavelength's phase function gives the direction, and the direction; the sub-counter is the vertex's.
+    /// Choice of the wavelength whose phase function gives the direction, and the direction; the sub-counter is the vertex's.
     PhaseDirection = 15,
-    /// Where along a ray light of a lamp is looked for, and which lamp.
+    /// Position along a ray at which in-scattered light is sampled, and choice of the lamp.
     InScattering = 16,
-    /// Which way light takes at the interfaces of a drop; sixteen sub-counters a vertex.
+    /// Reflection or refraction at the interfaces of a drop; sixteen sub-counters per vertex.
     DropInterface = 17,
-    /// How far the point spread displaces a sample; at sub-counter 1, by which wavelength and patch of it.
+    /// Displacement of a sample by the point spread; at sub-counter 1, choice of its wavelength and patch.
     PointSpread = 18,
 }
 

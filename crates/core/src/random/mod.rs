@@ -1,14 +1,14 @@
-//! Randomness that is addressed, not consumed.
+//! Random numbers by address, not by sequence.
 //!
-//! Every random number of a simulation is a pure function of an address (seed, camera, frame, capture, pixel,
-//! replicate, sample, draw, sub-counter), so frames, tiles and shards can be made anywhere in any order.
+//! Every random number of a simulation is a pure function of an address (seed, camera, frame, capture, pixel, replicate, sample, draw, sub-counter), so frames,
+//! tiles and shards can be computed anywhere in any order.
 //!
 //! - [`PathStream`] serves light transport: scrambled Sobol points, stratified over the samples of a replicate.
-//! - [`ShiftedLattice`] spreads the wavelengths of a pixel's samples evenly.
-//! - [`GoldenSequence`] does so where nobody knows yet how many samples there will be.
+//! - [`ShiftedLattice`] distributes the wavelengths of a pixel's samples evenly.
+//! - [`GoldenSequence`] does so for an unknown number of samples.
 //! - [`NoiseStream`] serves the sensor: independent words from a counter-based generator.
-//! - [`number_of_name`] serves what belongs to a scene: a number by name alone.
-//! - [`stream_of_name`] serves what is varied from sample to sample of a data set.
+//! - [`number_of_name`] serves properties of a scene: a number from a name alone.
+//! - [`stream_of_name`] serves the variations of the samples of a data set.
 
 mod address;
 mod noise;
@@ -20,14 +20,14 @@ pub use noise::{NoiseDraw, NoiseKey, NoiseStream, number_of_name, stream_of_name
 pub use path::PathStream;
 pub use sequences::{GoldenSequence, ShiftedLattice};
 
-/// A float in [0, 1) from the upper 24 bits of a word.
+/// Returns a float in [0, 1) from the upper 24 bits of a word.
 #[inline]
 #[must_use]
 pub fn unit_f32(word: u32) -> f32 {
     (word >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
-/// A float in [0, 1) from 53 bits of a double word.
+/// Returns a float in [0, 1) from 53 bits of a double word.
 #[inline]
 #[must_use]
 pub fn unit_f64(word: u64) -> f64 {

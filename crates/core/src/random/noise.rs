@@ -7,7 +7,7 @@ use rand_core::TryRng;
 use super::address::{Pixel, mix, philox4x32};
 use super::{unit_f32, unit_f64};
 
-/// What a sensor's number is used for. Append-only: the discriminants are part of the promised bits.
+/// Purpose of a random number of a sensor. Append-only: the discriminants are part of the guaranteed bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum NoiseDraw {
@@ -21,9 +21,9 @@ pub enum NoiseDraw {
     RowRead = 3,
     /// Read noise of a column, at row 0.
     ColumnRead = 4,
-    /// Whether a two-level pixel changes its level.
+    /// Level changes of a two-level (RTS) pixel.
     TelegraphFlip = 5,
-    /// The same of its dark current.
+    /// Level changes of a pixel's dark current (dark-current RTS).
     BlinkingFlip = 6,
     /// Fixed pattern: a pixel's response to light. Patterns are addressed without frame and capture.
     PixelResponse = 7,
@@ -43,30 +43,30 @@ pub enum NoiseDraw {
     RowOffset = 14,
     /// Fixed pattern: a column's offset, at row 0.
     ColumnOffset = 15,
-    /// Fixed pattern: which pixels of a row are hot, and how much; at column 0.
+    /// Fixed pattern: choice and strength of a row's hot pixels; at column 0.
     Hot = 16,
-    /// Fixed pattern: which pixels of a row are dead; at column 0.
+    /// Fixed pattern: choice of a row's dead pixels; at column 0.
     Dead = 17,
-    /// Fixed pattern: which pixels of a row blink, and how much; at column 0.
+    /// Fixed pattern: choice and strength of a row's pixels with dark-current RTS; at column 0.
     Blinking = 18,
-    /// Fixed pattern: which pixels of a row have RTS noise, and how much; at column 0.
+    /// Fixed pattern: choice and strength of a row's pixels with RTS noise; at column 0.
     Telegraph = 19,
-    /// How much later or earlier a frame begins; at pixel (0, 0).
+    /// Trigger jitter of a frame's start; at pixel (0, 0).
     TriggerJitter = 20,
-    /// The paper's pulse noise on a finished picture.
+    /// Pulse noise on a finished image, as in the paper.
     PaperPulse = 64,
-    /// The paper's additive Gaussian noise on a finished picture.
+    /// Additive Gaussian noise on a finished image, as in the paper.
     PaperGaussian = 65,
-    /// The paper's multiplicative uniform noise on a finished picture.
+    /// Multiplicative uniform noise on a finished image, as in the paper.
     PaperUniform = 66,
 }
 
-/// A draw of one (seed, camera, frame, capture), whose pixels' streams are asked for one after another.
+/// Key of one purpose for one (seed, camera, frame, capture); gives the streams of its pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoiseKey([u32; 2]);
 
 impl NoiseKey {
-    /// The key of a draw.
+    /// Returns the key of a purpose.
     #[must_use]
     pub fn new(seed: u64, camera: u32, frame: u32, capture: u32, draw: NoiseDraw) -> Self {
         let key = mix(mix(seed) ^ (u64::from(camera) | u64::from(frame) << 32));
@@ -82,7 +82,7 @@ impl NoiseKey {
     }
 }
 
-/// Independent words for one (seed, camera, frame, capture, pixel, draw): Philox4x32-10, the sub-counter running.
+/// Stream of independent words for one (seed, camera, frame, capture, pixel, draw): Philox4x32-10, the sub-counter running.
 ///
 /// It implements rand's generator trait, so that `rand_distr` can serve as an oracle in tests.
 #[derive(Clone, Debug)]
@@ -94,13 +94,13 @@ pub struct NoiseStream {
 }
 
 impl NoiseStream {
-    /// The stream of one draw of one pixel.
+    /// Returns the stream of one purpose for one pixel.
     #[must_use]
     pub fn new(seed: u64, camera: u32, frame: u32, capture: u32, pixel: Pixel, draw: NoiseDraw) -> Self {
         NoiseKey::new(seed, camera, frame, capture, draw).stream(pixel)
     }
 
-    /// The stream `number` of a key of 64 bits, apart from those of all pixels: pictures have no such row.
+    /// Returns the stream `number` of a 64-bit key, distinct from those of all pixels: no image has such a row.
     fn of_key(key: u64, number: u32) -> Self {
         Self { key: [key as u32, (key >> 32) as u32], counter: [0, 0, number, u32::MAX], words: [0; 4], used: 4 }
     }
@@ -159,19 +159,19 @@ impl TryRng for NoiseStream {
     }
 }
 
-/// FNV-1a of 64 bits (Fowler, Noll, Vo), whose low bits are well spread and whose high ones are not.
+/// FNV-1a of 64 bits (Fowler, Noll, Vo). Its low bits are well distributed; its high ones are not.
 fn hash(name: &str) -> u64 {
     name.bytes()
         .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }
 
-/// A number in [0, 1) that a name has for itself, whatever the seed: for what belongs to the scene and not to its rendering.
+/// Returns a number in [0, 1) that depends on a name alone, whatever the seed: for properties of the scene, not of its rendering.
 #[must_use]
 pub fn number_of_name(name: &str) -> f64 {
     unit_f64(mix(mix(hash(name))))
 }
 
-/// Independent words that a name has for itself, by a seed and a number: for what is drawn time after time, each time alone.
+/// Returns a stream of independent words that depends on a name, a seed and a number: for repeated independent variations.
 #[must_use]
 pub fn stream_of_name(seed: u64, name: &str, number: u32) -> NoiseStream {
     NoiseStream::of_key(mix(mix(seed ^ 0x6a09_e667_f3bc_c908) ^ mix(hash(name))), number)
@@ -198,7 +198,7 @@ mod tests {
         );
         let mut bins = [0_u32; 16];
         (0..16_000).for_each(|i| bins[(number_of_name(&format!("street lamp {i}")) * 16.0) as usize] += 1);
-        // 1 000 a bin, standard deviation 31.
+        // 1 000 per bin, standard deviation 31.
         assert!(bins.iter().all(|bin| bin.abs_diff(1000) < 5 * 31), "{bins:?}");
     }
 

@@ -1,4 +1,4 @@
-//! Numbers for one path: stratified over the samples of a replicate.
+//! Random numbers of one path, stratified over the samples of a replicate.
 
 use glam::Vec2;
 
@@ -6,11 +6,10 @@ use super::address::{Draw, PixelAddress, mix};
 use super::sequences::{scrambled_0, scrambled_pair, shuffle_mirrored};
 use super::unit_f32;
 
-/// The random numbers of one sample: Owen-scrambled Sobol points, padded in pairs.
+/// Random numbers of one sample: Owen-scrambled Sobol points, padded in pairs.
 ///
-/// The samples 0, 1, 2, … of one [`PixelAddress`] form, for each draw, a scrambled (0, 2)-sequence in base 2; different
-/// draws, pixels and replicates are scrambled independently. Variance must therefore come from the means of
-/// replicates: the naive s²/n over the samples of one replicate overstates it.
+/// The samples 0, 1, 2, … of one [`PixelAddress`] form, for each draw, a scrambled (0, 2)-sequence in base 2; different draws, pixels and replicates are
+/// scrambled independently. Variance must therefore come from the means of replicates: the naive s²/n over the samples of one replicate overstates it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathStream {
     key: u64,
@@ -19,35 +18,35 @@ pub struct PathStream {
 }
 
 impl PathStream {
-    /// The numbers of sample `sample` of a pixel's replicate.
+    /// Returns the numbers of sample `sample` of a pixel's replicate.
     #[must_use]
     pub fn new(address: &PixelAddress, sample: u32) -> Self {
         Self { key: address.key(), mirrored: sample.reverse_bits() }
     }
 
-    /// The numbers of another sample of the same pixel and replicate.
+    /// Returns the numbers of another sample of the same pixel and replicate.
     #[inline]
     #[must_use]
     pub fn with_sample(self, sample: u32) -> Self {
         Self { mirrored: sample.reverse_bits(), ..self }
     }
 
-    /// The numbers of one of the equal branches that a sample has from some point on: those that a sample of as many times more
-    /// would have, so that the branches of all samples are spread as evenly as samples are.
+    /// Returns the numbers of one of the `of` equal branches of a sample. They are the numbers of a set with `of` times as many samples, so the branches of all
+    /// samples are as well distributed as samples are.
     #[inline]
     #[must_use]
     pub fn branch(self, branch: u32, of: u32) -> Self {
         self.with_sample(self.sample().wrapping_mul(of).wrapping_add(branch))
     }
 
-    /// Which sample of its pixel and replicate.
+    /// Index of the sample within its pixel and replicate.
     #[inline]
     #[must_use]
     pub fn sample(&self) -> u32 {
         self.mirrored.reverse_bits()
     }
 
-    /// A number in [0, 1) for `draw`; `sub` tells vertices and repetitions apart.
+    /// Returns a number in [0, 1) for `draw`; `sub` distinguishes vertices and repetitions.
     #[inline]
     #[must_use]
     pub fn one(&self, draw: Draw, sub: u32) -> f32 {
@@ -56,8 +55,7 @@ impl PathStream {
         unit_f32(scrambled_0(index, (key >> 32) as u32))
     }
 
-    /// A point of the unit square for `draw`, independent of [`PathStream::one`] of the same draw only in that both
-    /// are never taken: a draw is used in one form.
+    /// Returns a point of the unit square for `draw`. It shares numbers with [`PathStream::one`] of the same draw: each draw uses only one of the two.
     #[inline]
     #[must_use]
     pub fn two(&self, draw: Draw, sub: u32) -> Vec2 {

@@ -1,21 +1,21 @@
-//! Sequences that spread evenly: Sobol's in two dimensions, multiples of the golden ratio, and a shifted lattice.
+//! Low-discrepancy sequences: Sobol's in two dimensions, multiples of the golden ratio, and a shifted lattice.
 //!
 //! The first two dimensions of the Sobol sequence, with Owen scrambling by hashing.
 //!
-//! Laine and Karras 2011 showed that a hash which only carries upwards, between bit reversals, is a nested uniform
-//! (Owen) scramble; Burley 2020 ("Practical hash-based Owen scrambling", JCGT 9(4)) shuffles the index the same way
-//! and pads low dimensions to any number. The constants of the hash are Vegdahl's (2021), which scramble better.
+//! Laine and Karras 2011 showed that a hash which only carries upwards, between bit reversals, is a nested uniform (Owen) scramble; Burley 2020 ("Practical
+//! hash-based Owen scrambling", JCGT 9(4)) shuffles the index the same way and pads low dimensions to any number. The constants of the hash are Vegdahl's
+//! (2021), which scramble better.
 
 use super::address::{PixelAddress, mix};
 use super::unit_f64;
 
-/// Dimension 0 (the van der Corput sequence) at `index`, Owen-scrambled by `seed`; fixed point, 2³² is one.
+/// Dimension 0 (the van der Corput sequence) at `index`, Owen-scrambled by `seed`; fixed point with 2³² = 1.
 #[inline]
 pub(super) fn scrambled_0(index: u32, seed: u32) -> u32 {
     upward_hash(index, seed).reverse_bits()
 }
 
-/// Dimensions 0 and 1 at `index`, Owen-scrambled by a seed each; fixed point, 2³² is one. Both are reversed at once.
+/// Dimensions 0 and 1 at `index`, Owen-scrambled by a seed each; fixed point with 2³² = 1. Both are reversed at once.
 #[inline]
 pub(super) fn scrambled_pair(index: u32, seed_0: u32, seed_1: u32) -> (u32, u32) {
     let (low, high) = (upward_hash(mirrored_1(index), seed_1), upward_hash(index, seed_0));
@@ -23,15 +23,13 @@ pub(super) fn scrambled_pair(index: u32, seed_0: u32, seed_1: u32) -> (u32, u32)
     (both as u32, (both >> 32) as u32)
 }
 
-/// A shuffle of indices that keeps every aligned power-of-two block together, so prefixes stay well distributed. The
-/// index is given with its bits reversed.
+/// Shuffles indices and keeps every aligned power-of-two block together, so prefixes stay well distributed. The index has its bits reversed.
 #[inline]
 pub(super) fn shuffle_mirrored(mirrored: u32, seed: u32) -> u32 {
     upward_hash(mirrored, seed).reverse_bits()
 }
 
-/// Dimension 1 with its bits reversed: its matrix is Pascal's triangle modulo 2, the Kronecker power of a triangle of
-/// ones, and so applied by doubling steps.
+/// Dimension 1 with its bits reversed. Its matrix is Pascal's triangle modulo 2, the Kronecker power of a triangle of ones; it is applied by doubling steps.
 #[inline]
 fn mirrored_1(index: u32) -> u32 {
     let mut x = index;
@@ -51,13 +49,13 @@ fn upward_hash(mut x: u32, seed: u32) -> u32 {
     x ^ x.wrapping_mul(0x53a2_2864)
 }
 
-/// Tells the key of these numbers from those of a path's and of a lattice's.
+/// Distinguishes the key of these numbers from those of a path and of a lattice.
 const GOLDEN: u64 = 0x9e6c_63d0_876a_3f6b;
-/// The golden ratio less 1.
+/// Golden ratio minus 1.
 const STEP: f64 = 0.618_033_988_749_894_9;
 
-/// The additive recurrence of the golden ratio with a random shift: of any first n numbers in [0, 1) neighbours are at most
-/// 2.6/n apart (three-distance theorem, Sós 1958). Each number alone is uniform. For samples whose number is not known before.
+/// The additive recurrence of the golden ratio with a random shift: neighbours among the first n numbers in [0, 1) are at most 2.6/n apart (three-distance
+/// theorem, Sós 1958). Each number alone is uniform. For a number of samples that is not known in advance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GoldenSequence {
     shift: f64,
@@ -78,37 +76,37 @@ impl GoldenSequence {
     }
 }
 
-/// Tells the key of these numbers from those of a path's.
+/// Distinguishes the key of these numbers from that of a path.
 const LATTICE: u64 = 0x5bd1_e995_94d0_49bb;
 
-/// As many numbers in [0, 1) as there are samples, at equal distances: a lattice of rank 1 with a random shift (Cranley and
-/// Patterson 1976), taken in a random order so that it says nothing of a sample's other numbers. Each alone is uniform.
+/// One number in [0, 1) per sample, at equal distances: a lattice of rank 1 with a random shift (Cranley and Patterson 1976). The order is random, so the
+/// number is independent of a sample's other numbers. Each alone is uniform.
 ///
 /// An interval of length a holds ⌊n a⌋ or ⌈n a⌉ of n numbers. No power of two is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShiftedLattice {
     key: u64,
     count: u32,
-    /// Of one step, in [0, 1).
+    /// Fraction of one step, in [0, 1).
     shift: f64,
 }
 
 impl ShiftedLattice {
-    /// `count` numbers (at least 1) of an address; different addresses have independent shifts and orders.
+    /// Returns the lattice of `count` numbers (at least 1) of an address; different addresses have independent shifts and orders.
     #[must_use]
     pub fn new(address: &PixelAddress, count: u32) -> Self {
         let key = mix(address.key() ^ LATTICE);
         Self { key, count: count.max(1), shift: unit_f64(mix(key)) }
     }
 
-    /// The number of a sample, below the count.
+    /// Returns the number of a sample, below the count.
     #[inline]
     #[must_use]
     pub fn at(&self, sample: u32) -> f64 {
         (f64::from(self.shuffled(sample)) + self.shift) / f64::from(self.count)
     }
 
-    /// A permutation of 0 … count − 1: one of the next power of two, walked until it falls below the count.
+    /// Permutation of 0 … count − 1: one of the next power of two, repeated until the value falls below the count (cycle walking).
     #[inline]
     fn shuffled(&self, sample: u32) -> u32 {
         let mask = self.count.next_power_of_two() - 1;
@@ -121,7 +119,7 @@ impl ShiftedLattice {
         }
     }
 
-    /// A bijection of the numbers of `mask`: each step is one (an odd product, a sum, a shift to the right folded in).
+    /// Bijection of the numbers of `mask`: each step is a bijection (an odd product, a sum, a shift to the right folded in).
     #[inline]
     fn scattered(&self, i: u32, mask: u32) -> u32 {
         let bits = mask.count_ones();
@@ -199,7 +197,7 @@ mod tests {
         let n = 4000;
         let mut bins = [0_u32; 20];
         (0..n).for_each(|x| bins[(sequence(x).at(11) * 20.0) as usize] += 1);
-        // 200 a bin, standard deviation 13.8.
+        // 200 per bin, standard deviation 13.8.
         assert!(bins.iter().all(|b| (f64::from(*b) - 200.0).abs() < 5.0 * 13.8), "{bins:?}");
     }
 
@@ -230,9 +228,9 @@ mod tests {
             bins[(u[5] * 24.0) as usize] += 1;
             product += (u[0] - 0.5) * (u[1] - 0.5);
         }
-        // 166.7 a bin, standard deviation 12.6.
+        // 166.7 per bin, standard deviation 12.6.
         assert!(bins.iter().all(|b| (f64::from(*b) - 166.7).abs() < 5.0 * 12.6), "{bins:?}");
-        // Two different places of twelve: −1/12 of the variance of one, 1/12; standard deviation 0.0013.
+        // Two different places of twelve: covariance −1/12 of the variance of one, 1/12; standard deviation 0.0013.
         assert!((product / f64::from(n) + 1.0 / 144.0).abs() < 0.0066, "{product}");
     }
 }

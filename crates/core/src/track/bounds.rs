@@ -1,8 +1,8 @@
-//! What holds a moving thing during an interval.
+//! Bounds of a moving object during an interval.
 //!
-//! Every span that the interval has a part of is cut into sixteen (one where it moves along straight lines without turning).
-//! The box of a part is that of the corners at its two ends, enlarged by how far their paths stray from the chords between
-//! ([`Span::each_box`]): at each moment the transform is affine, so that the moved box is the convex hull of its moved corners.
+//! Every span that overlaps the interval is cut into sixteen parts (one for straight motion without rotation). The box of a part is that of the corners at its
+//! two ends, enlarged by the maximum deviation of their paths from the chords between ([`Span::each_box`]): at each moment the transform is affine, so that the
+//! moved box is the convex hull of its moved corners.
 
 use core::f64::consts::PI;
 
@@ -11,14 +11,14 @@ use glam::{BVec3, DAffine3, DMat3, DVec3};
 use super::{Keyed, Kind, Track, span::Span};
 use crate::TimeInterval;
 
-/// Room for rounding, relative to what is added up: some thirty operations of 1.1e-16 each, at most.
+/// Tolerance for rounding, relative to the sum: at most some thirty operations of 1.1e-16 each.
 const ROUNDING: f64 = 1e-14;
-/// Least scale of a moving thing, relative to its greatest along the same axis: what is smaller counts as flattened.
+/// Smallest scale of a moving object, relative to its largest along the same axis. Smaller scales count as flattened.
 const FLAT: f64 = 1e-12;
 
 impl Track {
-    /// Least and greatest coordinates of a box that holds the box from `low` to `high` (of the moved frame) at every moment of
-    /// an interval, by the arithmetic of [`Track::at`] too.
+    /// Returns the minimum and maximum coordinates of a box that holds the box from `low` to `high` (of the moved frame) at every moment of an interval,
+    /// including the rounding of [`Track::at`].
     #[must_use]
     pub fn bounds_over(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> (DVec3, DVec3) {
         let corner = |i: u32| DVec3::select(BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), low, high);
@@ -26,7 +26,7 @@ impl Track {
         self.bounds_of_points(interval, &corners)
     }
 
-    /// As [`Track::bounds_over`], of a ball.
+    /// Returns the same for a ball.
     #[must_use]
     pub fn bounds_of_ball(&self, interval: TimeInterval, centre: DVec3, radius: f64) -> (DVec3, DVec3) {
         let (low, high) = self.bounds_of_points(interval, &[centre]);
@@ -34,8 +34,8 @@ impl Track {
         (low - reach, high + reach)
     }
 
-    /// A box that holds the ball of a radius about the moved frame's origin during an interval: looser than
-    /// [`Track::bounds_of_ball`] where something is applied before or scales change, and quick for long intervals.
+    /// Returns a box that holds a ball of the given radius about the moved frame's origin during an interval: looser than [`Track::bounds_of_ball`] if a
+    /// transform is applied before the track's own or scales change, and fast for long intervals.
     #[must_use]
     pub fn rough_bounds(&self, interval: TimeInterval, radius: f64) -> (DVec3, DVec3) {
         let (first, (low, high)) = match &self.0 {
@@ -52,8 +52,8 @@ impl Track {
         (low - reach - room, high + reach + room)
     }
 
-    /// Bounds, during an interval, of the least and the greatest factor by which lengths change; exact where each scale is the
-    /// same along all axes and nothing is applied before.
+    /// Returns bounds, during an interval, of the smallest and the largest factor by which lengths change; exact if each scale is the same along all axes and
+    /// no transform is applied before.
     #[must_use]
     pub fn stretch_over(&self, interval: TimeInterval) -> (f64, f64) {
         let of_matrix = |m: &DMat3| (1.0 / most_stretch(&m.inverse()), most_stretch(m));
@@ -67,8 +67,7 @@ impl Track {
         }
     }
 
-    /// A bound, during an interval, of the greatest coordinate in the moved frame of what lies in the box from `low` to `high`
-    /// of the frame that it moves in.
+    /// Returns a bound, during an interval, of the largest coordinate in the moved frame of points in the box from `low` to `high` of the parent frame.
     #[must_use]
     pub fn local_reach(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> f64 {
         let ((origin_low, origin_high), least) = match &self.0 {
@@ -88,8 +87,7 @@ impl Track {
         }
     }
 
-    /// A bound of the angle, rad, by which normals turn during an interval from where they are at its start; π where scales
-    /// change.
+    /// Returns a bound of the angle, rad, by which normals turn during an interval from their directions at its start; π if scales change.
     #[must_use]
     pub fn turning_over(&self, interval: TimeInterval) -> f64 {
         let of_span = |(span, (u0, u1)): (&Span, (f64, f64))| {
@@ -101,7 +99,7 @@ impl Track {
         }
     }
 
-    /// Whether the scale along every axis is one at all times.
+    /// Returns true if the scale along every axis is 1 at all times.
     #[must_use]
     pub fn keeps_scale(&self) -> bool {
         match &self.0 {
@@ -110,8 +108,7 @@ impl Track {
         }
     }
 
-    /// Whether the transform has an inverse at every time. No scale of a moving one passes through zero or is less than 1e-12 of
-    /// its greatest.
+    /// Returns true if the transform has an inverse at every time. No scale of a moving track passes through zero or is less than 1e-12 of its largest.
     #[must_use]
     pub fn is_invertible(&self) -> bool {
         match &self.0 {
@@ -156,7 +153,7 @@ impl Keyed {
         (low - room * ROUNDING, high + room * ROUNDING)
     }
 
-    /// Least and greatest coordinates of the keyed position during an interval.
+    /// Minimum and maximum coordinates of the keyed position during an interval.
     fn origin_over(&self, interval: TimeInterval) -> (DVec3, DVec3) {
         let ranges = self.during(interval).map(|(span, (u0, u1))| span.position.range(u0, u1));
         ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_else(|| {
@@ -165,7 +162,7 @@ impl Keyed {
         })
     }
 
-    /// Bounds of the scales' magnitudes by axis during an interval.
+    /// Bounds of the magnitudes of the scales, by axis, during an interval.
     fn scales_over(&self, interval: TimeInterval) -> (DVec3, DVec3) {
         let ranges = self.during(interval).map(|(span, (u0, u1))| span.scale.range(u0, u1));
         let (low, high) = ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_else(|| {
@@ -186,7 +183,7 @@ impl Keyed {
     }
 }
 
-/// Least and greatest magnitude of numbers from `low` to `high`, by axis.
+/// Minimum and maximum magnitude of numbers from `low` to `high`, by axis.
 fn magnitudes(low: DVec3, high: DVec3) -> (DVec3, DVec3) {
     (low.max(-high).max(DVec3::ZERO), high.max(-low))
 }
@@ -195,7 +192,7 @@ fn has_inverse(transform: &DAffine3) -> bool {
     transform.is_finite() && transform.matrix3.determinant() != 0.0 && transform.inverse().is_finite()
 }
 
-/// A bound of the greatest factor by which a matrix changes lengths: the lesser of two norms that are no less than it.
+/// Bound of the largest factor by which a matrix changes lengths: the smaller of two upper norms.
 pub(super) fn most_stretch(m: &DMat3) -> f64 {
     let sums =
         |m: &DMat3| [m.x_axis, m.y_axis, m.z_axis].map(|c| c.abs().element_sum()).into_iter().fold(0.0, f64::max);
@@ -208,7 +205,7 @@ fn row_lengths(m: &DMat3) -> DVec3 {
     DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length())
 }
 
-/// Bounds of what is added up when `points` are transformed, by axis.
+/// Bounds, by axis, of the terms that are summed when `points` are transformed.
 fn most_of(transform: &DAffine3, points: &[DVec3]) -> DVec3 {
     let most = points.iter().fold(DVec3::ZERO, |most, point| most.max(point.abs()));
     let m = &transform.matrix3;

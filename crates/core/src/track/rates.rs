@@ -1,26 +1,26 @@
-//! How fast a track's transform changes: exactly at a moment, and at most during a time that no key lies within.
+//! Rates of change of a track's transform: exact at a moment, and bounded over a time without keys.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::{Keyed, Kind, Track, bounds::most_stretch, span::Span};
 
-/// A transform and its derivative by time.
+/// Transform and its time derivative.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moving {
     pub(crate) at: DAffine3,
-    /// Of the matrix, 1/s.
+    /// Derivative of the matrix, 1/s.
     pub(crate) turning: DMat3,
-    /// Of the translation, m/s.
+    /// Derivative of the translation, m/s.
     pub(crate) velocity: DVec3,
 }
 
 impl Moving {
-    /// A transform that does not change.
+    /// Returns a constant transform.
     pub(crate) fn still(at: DAffine3) -> Self {
         Self { at, turning: DMat3::ZERO, velocity: DVec3::ZERO }
     }
 
-    /// Of what moves by `inner` in a frame that moves by this: the product rule.
+    /// Returns the derivative of a motion by `inner` in a frame moved by `self`: the product rule.
     pub(crate) fn carrying(&self, inner: &Self) -> Self {
         Self {
             at: self.at * inner.at,
@@ -40,8 +40,8 @@ pub(crate) struct Bend {
 }
 
 impl Bend {
-    /// The same seen through a transform whose matrix has at most the norms `matrix` and whose translation at most the lengths
-    /// `place`: of themselves, of their first derivative and of their second. The product rule.
+    /// Returns the bounds seen through a transform, by the product rule. `matrix` bounds the norms of its matrix and of its first and second derivative;
+    /// `place` does the same for its translation.
     fn through(&self, matrix: [f64; 3], place: [f64; 3]) -> Self {
         Self {
             distance: matrix[0] * self.distance + place[0],
@@ -59,7 +59,7 @@ impl Bend {
 }
 
 impl Track {
-    /// The times of its keys, s; none where it does not change.
+    /// Times of the keys, s; none if the track is constant.
     pub(crate) fn times_s(&self) -> &[f64] {
         match &self.0 {
             Kind::Still(_) => &[],
@@ -67,7 +67,7 @@ impl Track {
         }
     }
 
-    /// The transform at `time_s` and how it changes there, by the motion that it has at `within_s`: at a key velocities may jump.
+    /// Returns the transform at `time_s` and its rate of change there, for the span that contains `within_s`: velocities may jump at a key.
     pub(crate) fn moving_at(&self, time_s: f64, within_s: f64) -> Moving {
         match &self.0 {
             Kind::Still(transform) => Moving::still(*transform),
@@ -78,8 +78,7 @@ impl Track {
         }
     }
 
-    /// Bounds, from `start_s` to `end_s` between which no key lies, for a point whose motion in the moved frame has the bounds
-    /// `inner`.
+    /// Returns bounds from `start_s` to `end_s`, without a key between them, for a point whose motion in the moved frame has the bounds `inner`.
     pub(crate) fn bend(&self, start_s: f64, end_s: f64, inner: &Bend) -> Bend {
         match &self.0 {
             Kind::Still(transform) => inner.moved(transform),
@@ -93,7 +92,7 @@ impl Track {
         }
     }
 
-    /// A bound of the rate, rad/s, by which it turns from `start_s` to `end_s`, between which no key lies.
+    /// Returns a bound of the rotation rate, rad/s, from `start_s` to `end_s`, without a key between them.
     pub(crate) fn turning_rate(&self, start_s: f64, end_s: f64) -> f64 {
         let Kind::Moving(keyed) = &self.0 else { return 0.0 };
         keyed
@@ -103,13 +102,13 @@ impl Track {
 }
 
 impl Keyed {
-    /// The span that a time lies in.
+    /// Returns the span that contains a time.
     fn span_at(&self, time_s: f64) -> Option<usize> {
         let passed = self.times_s.partition_point(|key_s| *key_s <= time_s);
         (passed > 0 && passed < self.times_s.len()).then(|| passed - 1)
     }
 
-    /// The span between whose keys two times lie, the parts of it that have passed, and its length, s.
+    /// Returns the span that contains two times, the fractions of it elapsed at them, and its length, s.
     fn part_of(&self, start_s: f64, end_s: f64) -> Option<(&Span, (f64, f64), f64)> {
         let span = self.span_at(start_s + 0.5 * (end_s - start_s))?;
         let length_s = self.times_s[span + 1] - self.times_s[span];
@@ -154,7 +153,7 @@ impl Span {
     }
 }
 
-/// The matrix that takes v to ω × v.
+/// Matrix that maps v to ω × v.
 fn cross(omega: DVec3) -> DMat3 {
     DMat3::from_cols(omega.cross(DVec3::X), omega.cross(DVec3::Y), omega.cross(DVec3::Z))
 }

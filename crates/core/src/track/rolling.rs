@@ -1,10 +1,10 @@
-//! Wheels: what turns by the way that it goes.
+//! Rolling wheels.
 //!
-//! A wheel of radius r that rolls without slipping turns about its axle (y) by φ(t) = (1/r) ∫ v·x̂ dt, with the velocity v of its
-//! middle in the world and the unit direction x̂ in which its hub points forward. Between two moments without a key of any
-//! track that carries the hub the integrand is analytic; it is integrated by Gauss's rule of five points, and φ is kept as
-//! cubic Hermite polynomials with the exact rate at both ends. Their number is doubled until φ is met to 1e-6 rad at the quarters
-//! of each, beyond 4096 only where it is not yet; along straight lines at an even speed one is exact.
+//! A wheel of radius r that rolls without slipping turns about its axle (y) by φ(t) = (1/r) ∫ v·x̂ dt, with the velocity v of its centre in the world and the
+//! unit direction x̂ in which its hub points forward. Between two moments without a key of any track that carries the hub the integrand is analytic; it is
+//! integrated by five-point Gaussian quadrature, and φ is kept as cubic Hermite polynomials with the exact rate at both ends. Their number is doubled until the
+//! error of φ is below 1e-6 rad at the quarters of each. Beyond 4096 only those that miss it are halved. A single one is exact along straight lines at constant
+//! speed.
 
 use std::sync::Arc;
 
@@ -14,36 +14,35 @@ use super::span::{Cubic, Pose, Span};
 use super::turn::{Turn, rolled};
 use super::{Keyed, Kind, Track};
 
-/// The greatest error of φ at the quarters of a polynomial, rad.
+/// Maximum error of φ at the quarters of a polynomial, rad.
 const TOLERANCE_RAD: f64 = 1e-6;
-/// Polynomials of one length between two keys at most; halves of these are made where it takes more.
+/// Maximum number of polynomials of equal length between two keys; beyond it they are halved where needed.
 const MOST: u32 = 4096;
-/// The greatest angle that is followed, rad: the tolerance takes ten thousands of polynomials there, and where an angle of 1e16 rad is rounded by 1 rad, none would
-/// ever meet it.
+/// Largest angle that can be followed, rad. The tolerance requires ten thousands of polynomials there. At an angle of 1e16 rad rounding is 1 rad, and no number
+/// of polynomials would meet the tolerance.
 const MAX_TURN_RAD: f64 = 1e12;
-/// Polynomials between two keys that are made at all: what takes more turns to and fro beyond the greatest angle.
+/// Maximum number of polynomials between two keys. A motion that needs more turns to and fro beyond the largest angle.
 const MAX_PIECES: usize = 1 << 20;
 
-/// Why a wheel is refused.
+/// Reason for which a wheel is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RollingError {
-    /// Its hub never moves.
+    /// The hub never moves.
     #[error("nothing moves the wheel; give its hub keys, or put it in a frame that moves")]
     Still,
-    /// It turns by more than can be followed.
+    /// The wheel turns by more than can be followed.
     #[error(
         "the wheel would turn by {turned_rad:.3e} rad, but at most 1e12 can be traced; give it a larger radius or a shorter way"
     )]
     TooFar {
-        /// The angle between two keys, rad, as far as it is known.
+        /// Angle between two keys, rad, as far as it was computed.
         turned_rad: f64,
     },
 }
 
 impl Track {
-    /// The rotation about y of a wheel: 0 until the first of `times_s`, which increase, and from there on the integral of
-    /// `rate_rad_s`, which is asked for the rate at a time and, after it, a time between the same two of `times_s`: at these
-    /// themselves the rate may jump.
+    /// Returns the rotation about y of a wheel: 0 until the first of `times_s`, which increase, then the integral of `rate_rad_s`. The arguments of
+    /// `rate_rad_s` are a time, and a time strictly between the same two of `times_s`: at these themselves the rate may jump.
     pub(crate) fn rolling(times_s: &[f64], rate_rad_s: impl Fn(f64, f64) -> f64) -> Result<Self, RollingError> {
         let (mut knots_s, mut spans, mut angle) = (Vec::new(), Vec::new(), 0.0);
         for pair in times_s.windows(2) {
@@ -64,7 +63,7 @@ impl Track {
     }
 }
 
-/// Refuses an angle that is too large, or none, as that of a rate beyond all numbers.
+/// Refuses an angle that is too large or not finite.
 fn check_turn(turned_rad: f64) -> Result<(), RollingError> {
     match turned_rad.abs() <= MAX_TURN_RAD {
         true => Ok(()),
@@ -72,7 +71,7 @@ fn check_turn(turned_rad: f64) -> Result<(), RollingError> {
     }
 }
 
-/// The same of the angles of pieces, to and fro.
+/// Refuses pieces whose summed angles, to and fro, are too large.
 fn check_pieces(pieces: &[Piece]) -> Result<(), RollingError> {
     check_turn(pieces.iter().map(|piece| piece.turns.abs()).sum())
 }
@@ -82,14 +81,14 @@ fn turning(angle: [f64; 4]) -> Span {
     Span { position: still(DVec3::ZERO), scale: still(DVec3::ONE), turn: Turn::Rolling { angle } }
 }
 
-/// What is turned from a time on.
+/// Rotation during a time.
 struct Piece {
     start_s: f64,
-    /// By how much in all, rad.
+    /// Total angle, rad.
     turns: f64,
-    /// At both ends, rad per length of the piece.
+    /// Rates at both ends, rad per length of the piece.
     rates: [f64; 2],
-    /// At the quarters, rad.
+    /// Angles at the quarters, rad.
     quarters: [f64; 2],
 }
 
@@ -104,10 +103,10 @@ impl Piece {
         Self { start_s, turns, rates, quarters: [first, third] }
     }
 
-    /// The coefficients of the Hermite polynomial that begins at `angle`.
+    /// Coefficients of the Hermite polynomial that begins at `angle`.
     fn cubic(&self, angle: f64) -> [f64; 4] {
         let [leaves, arrives] = self.rates;
-        // Rounding gives even turning no curvature.
+        // Rounding gives no curvature to a constant rate.
         if (leaves - arrives).abs().max((leaves - self.turns).abs()) <= 1e-13 * leaves.abs() {
             return [angle, self.turns, 0.0, 0.0];
         }
@@ -121,7 +120,7 @@ impl Piece {
     }
 }
 
-/// As few pieces of one length as meet the tolerance; of more than are reasonable, those halved that do not.
+/// Returns the smallest number of pieces of equal length that meets the tolerance. If that is too large, only the pieces that miss it are halved.
 fn pieces(start_s: f64, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<Piece>, RollingError> {
     let mut made = vec![Piece::new(start_s, end_s, rate_rad_s)];
     check_pieces(&made)?;
@@ -138,7 +137,7 @@ fn pieces(start_s: f64, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<
     Ok(made)
 }
 
-/// The same with pieces halved that do not meet the tolerance, as long as times between their ends can be told apart.
+/// Halves the pieces that miss the tolerance, as long as the times of their ends can be distinguished.
 fn halved(pieces: Vec<Piece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<Piece>, RollingError> {
     let mut ends_s: Vec<f64> = pieces.iter().skip(1).map(|piece| piece.start_s).chain([end_s]).collect();
     ends_s.reverse();
@@ -160,7 +159,7 @@ fn halved(pieces: Vec<Piece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> R
     Ok(made)
 }
 
-/// The integral from `a` to `b` by five points: exact for polynomials of degree nine.
+/// Integral from `a` to `b` by five points: exact for polynomials of degree nine.
 fn gauss(a: f64, b: f64, f: &impl Fn(f64) -> f64) -> f64 {
     const NODES: [f64; 2] = [0.538_469_310_105_683_1, 0.906_179_845_938_664];
     const WEIGHTS: [f64; 3] = [0.568_888_888_888_888_9, 0.478_628_670_499_366_47, 0.236_926_885_056_189_08];
@@ -173,8 +172,8 @@ fn gauss(a: f64, b: f64, f: &impl Fn(f64) -> f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// φ = A (1 − cos ωt): a cubic over h misses it at its quarters by 9/6144 A ω⁴ h⁴ times the cosine, which with A = 10¹⁰ rad and ω = π/s takes
-    /// 6 100 pieces a second where that is 1, and fewer than 4 096 where it is below 0.2.
+    /// φ = A (1 − cos ωt): a cubic over h misses it at its quarters by 9/6144 A ω⁴ h⁴ times the cosine, which with A = 10¹⁰ rad and ω = π/s requires 6 100
+    /// pieces per second where that is 1, and fewer than 4 096 where it is below 0.2.
     #[test]
     fn a_wheel_of_very_many_turns_is_met_wherever_one_looks() {
         let amplitude = 1e10;
@@ -193,7 +192,7 @@ mod tests {
         assert!((turned - 2.0 * amplitude).abs() < 1.5e-2, "{turned}");
     }
 
-    /// Where angles are rounded by more than the tolerance no number of polynomials meets it: halving would go on to the ends of the numbers of time.
+    /// No number of polynomials meets the tolerance where angles are rounded by more than it: halving would continue to the resolution of time.
     #[test]
     fn a_wheel_that_turns_by_more_than_can_be_followed_is_refused() {
         let turn = |amplitude: f64| pieces(0.0, 1.0, &|time_s| amplitude * time_s * (1.0 - time_s));
@@ -201,7 +200,7 @@ mod tests {
         for amplitude in [1e14, 1e30, 1e300, f64::INFINITY, f64::NAN] {
             assert!(matches!(turn(amplitude), Err(RollingError::TooFar { .. })), "{amplitude}");
         }
-        // To and fro, an angle of nothing in all.
+        // To and fro, with a total angle of zero.
         let fro = |amplitude: f64| pieces(0.0, 1.0, &|time_s| amplitude * crate::maths::f64::sin(40.0 * time_s));
         assert!(fro(1e10).is_ok() && fro(1e30).is_err());
     }

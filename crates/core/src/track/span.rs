@@ -6,8 +6,7 @@ use glam::{DAffine3, DQuat, DVec3};
 
 use super::turn::Turn;
 
-/// Parts into which a span is cut for bounds: an even turn by 90° in 16 parts strays from their chords by
-/// (π/32)²/8 = 0.0012 of the radius.
+/// Parts into which a span is cut for bounds: a uniform rotation by 90° in 16 parts deviates from their chords by (π/32)²/8 = 0.0012 of the radius.
 const PARTS: usize = 16;
 
 /// Position, rotation and scale.
@@ -24,7 +23,7 @@ impl Pose {
     }
 }
 
-/// Motion between two keys, by the part u of the time that has passed: 0 at the first, 1 at the second.
+/// Motion between two keys, by the elapsed fraction u of time: 0 at the first, 1 at the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub(super) position: Cubic,
@@ -37,7 +36,7 @@ impl Span {
         Pose { position: self.position.at(u), rotation: self.turn.at(u), scale: self.scale.at(u) }
     }
 
-    /// Whether nothing changes.
+    /// Returns true if nothing changes.
     pub(super) fn is_constant(&self) -> bool {
         self.position.is_constant() && self.scale.is_constant() && self.turn.is_constant()
     }
@@ -46,7 +45,7 @@ impl Span {
         self.position.is_finite() && self.scale.is_finite() && self.turn.is_finite()
     }
 
-    /// Calls `hold` with boxes that hold where `points` come to, together with all between them, from u0 to u1.
+    /// Calls `hold` with boxes that together hold the images of `points` from u0 to u1.
     pub(super) fn each_box(&self, points: &[DVec3], u0: f64, u1: f64, mut hold: impl FnMut(DVec3, DVec3)) {
         let moves_straight = self.position.is_straight() && self.scale.is_straight() && self.turn.is_constant();
         let parts = if moves_straight || u0 == u1 { 1 } else { PARTS };
@@ -64,15 +63,15 @@ impl Span {
         }
     }
 
-    /// Bounds of what is added up for the places of points with coordinates up to `most`, by axis.
+    /// Bounds, by axis, of the terms that are summed for the images of points with coordinates up to `most`.
     pub(super) fn magnitude(&self, most: DVec3) -> DVec3 {
         self.position.magnitude() + DVec3::splat((self.scale.magnitude() * most).length())
     }
 
-    /// How far a point's path strays at most from the chord between its places at u0 and u1, by axis: a component strays from
-    /// linear interpolation over a step h by h²/8 · max|p̈| at most (the error of interpolation by a polynomial of degree one).
+    /// Maximum deviation, by axis, of a point's path from the chord between its places at u0 and u1. A component deviates from linear interpolation over a step
+    /// h by at most h²/8 · max|p̈| (the error of interpolation by a polynomial of degree one).
     ///
-    /// The point is p = T + R y with y = S q: |p̈| ≤ |T̈| + |R̈ y| + 2 |Ṙ ẏ| + |ÿ|. Of an even turn about the axis n by ω per u,
+    /// The point is p = T + R y with y = S q: |p̈| ≤ |T̈| + |R̈ y| + 2 |Ṙ ẏ| + |ÿ|. For a uniform rotation about the axis n by ω per u,
     /// |Ṙ y| = ω |n × y| and |R̈ y| = ω² |n × y|, and as y is linear in u there, |n × y| is greatest at an end.
     fn stray(&self, q: DVec3, u0: f64, u1: f64) -> DVec3 {
         let bend = match self.turn {
@@ -100,12 +99,12 @@ impl Span {
 pub(super) struct Cubic([DVec3; 4]);
 
 impl Cubic {
-    /// Straight from `start` to `end`.
+    /// Returns the straight line from `start` to `end`.
     pub(super) fn straight(start: DVec3, end: DVec3) -> Self {
         Self([start, end - start, DVec3::ZERO, DVec3::ZERO])
     }
 
-    /// From `start` to `end` with the derivatives `leaves` at u = 0 and `arrives` at u = 1 (Hermite).
+    /// Returns the Hermite curve from `start` to `end` with the derivatives `leaves` at u = 0 and `arrives` at u = 1.
     pub(super) fn hermite(start: DVec3, end: DVec3, leaves: DVec3, arrives: DVec3) -> Self {
         let way = end - start;
         if leaves == way && arrives == way {
@@ -130,7 +129,7 @@ impl Cubic {
         c * 2.0 + d * (6.0 * u)
     }
 
-    /// Whether it does not change.
+    /// Returns true if it is constant.
     pub(super) fn is_constant(&self) -> bool {
         self.0[1..].iter().all(|c| *c == DVec3::ZERO)
     }
@@ -143,17 +142,17 @@ impl Cubic {
         self.0.iter().all(|c| c.is_finite())
     }
 
-    /// The greatest magnitudes of the second derivative within [u0, u1], by axis: it is linear.
+    /// Maximum magnitude of the second derivative within [u0, u1], by axis: it is linear.
     pub(super) fn most_curvature(&self, u0: f64, u1: f64) -> DVec3 {
         self.second(u0).abs().max(self.second(u1).abs())
     }
 
-    /// Bounds of the first derivative's magnitudes, by axis: no place is farther than half the length from an end.
+    /// Bounds of the magnitude of the first derivative, by axis: no place is farther than half the length from an end.
     pub(super) fn most_slope(&self, u0: f64, u1: f64) -> DVec3 {
         self.slope(u0).abs().max(self.slope(u1).abs()) + self.most_curvature(u0, u1) * (0.5 * (u1 - u0))
     }
 
-    /// Least and greatest values within [u0, u1], by axis: at an end or where the derivative is zero.
+    /// Minimum and maximum values within [u0, u1], by axis: at an end or at a zero of the derivative.
     pub(super) fn range(&self, u0: f64, u1: f64) -> (DVec3, DVec3) {
         let (start, end) = (self.at(u0), self.at(u1));
         let (mut low, mut high) = (start.min(end), start.max(end));
@@ -168,13 +167,13 @@ impl Cubic {
         (low, high)
     }
 
-    /// A bound of what is added up for a value, to which its rounding is relative.
+    /// Bound of the summed terms of a value, to which its rounding is relative.
     pub(super) fn magnitude(&self) -> DVec3 {
         self.0.iter().map(|c| c.abs()).sum()
     }
 }
 
-/// The real roots of a u² + b u + c, without cancellation; what is no root is infinite or NaN.
+/// Real roots of a u² + b u + c, without cancellation; a missing root is infinite or NaN.
 fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
     let q = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b));
     [q / a, c / q]
@@ -195,7 +194,7 @@ mod tests {
 
     #[test]
     fn the_range_holds_the_turning_points() {
-        // By axis: u(1 − u), a greatest value of 1/4 at 1/2; u³ − u, least −2/(3√3) at 1/√3; straight.
+        // By axis: u(1 − u), with the maximum 1/4 at 1/2; u³ − u, with the minimum −2/(3√3) at 1/√3; straight.
         let cubic =
             Cubic([DVec3::ZERO, DVec3::new(1.0, -1.0, 2.0), DVec3::new(-1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0)]);
         let (low, high) = cubic.range(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! Tracks: interpolation against closed forms, bounds against many moments.
+//! Tests of tracks: interpolation against closed forms, bounds against many moments.
 
 mod bounds;
 mod interpolation;
@@ -30,7 +30,7 @@ impl Random {
         DQuat::from_xyzw(v.x, v.y, v.z, self.between(-1.0, 1.0)).normalize()
     }
 
-    /// A track of two to six keys at uneven times from 0 on.
+    /// Returns a track of two to six keys at irregular times from 0 on.
     fn track(&mut self) -> (Track, Vec<Key>) {
         let mut time_s = 0.0;
         let count = 2 + (self.unit() * 5.0) as usize;
@@ -50,7 +50,7 @@ fn key(time_s: f64, position_m: DVec3, rotation: DQuat) -> Key {
     Key { time_s, position_m, rotation, scale: DVec3::ONE }
 }
 
-/// A rotation about z by an angle in rad.
+/// Rotation about z by an angle in rad.
 fn about_z(angle: f64) -> DQuat {
     let (sin, cos) = crate::maths::f64::sin_cos(0.5 * angle);
     DQuat::from_xyzw(0.0, 0.0, sin, cos)

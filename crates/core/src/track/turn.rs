@@ -7,9 +7,9 @@ use crate::maths;
 /// A rotation over a parameter u from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Turn {
-    /// About one axis at an even rate (slerp, Shoemake 1985): start · exp(u · vector).
+    /// About one axis at constant rate (slerp, Shoemake 1985): start · exp(u · vector).
     Even {
-        /// At u = 0.
+        /// Rotation at u = 0.
         start: DQuat,
         /// Axis times angle, rad, in the turning frame.
         vector: DVec3,
@@ -18,7 +18,7 @@ pub(super) enum Turn {
     /// quaternion curves with simple high order derivatives", SIGGRAPH, section 5.2): start · Π exp(βᵢ(u) · vectorᵢ) with the
     /// cumulative Bernstein polynomials β₁ = 1 − (1 − u)³, β₂ = 3u² − 2u³, β₃ = u³.
     Smooth {
-        /// At u = 0.
+        /// Rotation at u = 0.
         start: DQuat,
         /// Axes times angles, rad.
         vectors: [DVec3; 3],
@@ -31,12 +31,12 @@ pub(super) enum Turn {
 }
 
 impl Turn {
-    /// From `start` to `end` the short way at an even rate.
+    /// Returns the rotation from `start` to `end` along the shorter arc at constant rate.
     pub(super) fn even(start: DQuat, end: DQuat) -> Self {
         Self::Even { start, vector: vector_between(start, end) }
     }
 
-    /// From `start` to `end` with the angular velocities `leaves` and `arrives`, rad per unit of u in the turning frame.
+    /// Returns the rotation from `start` to `end` with the angular velocities `leaves` and `arrives`, rad per unit of u in the turning frame.
     pub(super) fn smooth(start: DQuat, end: DQuat, leaves: DVec3, arrives: DVec3) -> Self {
         let way = vector_between(start, end);
         if leaves == way && arrives == way {
@@ -59,8 +59,7 @@ impl Turn {
         }
     }
 
-    /// The angular velocity, rad per unit of u, in the turning frame. With R = R₀ A₁ A₂ A₃ the part of Aᵢ is turned back by those
-    /// behind it.
+    /// The angular velocity, rad per unit of u, in the turning frame. With R = R₀ A₁ A₂ A₃ the part of Aᵢ is rotated back by those after it.
     pub(super) fn velocity(&self, u: f64) -> DVec3 {
         match self {
             Self::Even { vector, .. } => *vector,
@@ -74,7 +73,7 @@ impl Turn {
         }
     }
 
-    /// Whether it does not change.
+    /// Returns true if it is constant.
     pub(super) fn is_constant(&self) -> bool {
         match self {
             Self::Even { vector, .. } => *vector == DVec3::ZERO,
@@ -91,10 +90,10 @@ impl Turn {
         }
     }
 
-    /// Bounds, within [u0, u1], of |Ṙ y| and |R̈ y| for vectors y of length 1.
+    /// Returns bounds, within [u0, u1], of |Ṙ y| and |R̈ y| for vectors y of length 1.
     ///
-    /// With R = R₀ A₁ A₂ A₃, Aᵢ = exp(βᵢ (ωᵢ×)): Ȧᵢ = β̇ᵢ Aᵢ (ωᵢ×) has the norm aᵢ = |β̇ᵢ| |ωᵢ|, and Äᵢ one of at most
-    /// aᵢ² + |β̈ᵢ| |ωᵢ|. The product rule gives |Ṙ| ≤ Σ aᵢ and |R̈| ≤ (Σ aᵢ)² + Σ |β̈ᵢ| |ωᵢ|.
+    /// With R = R₀ A₁ A₂ A₃, Aᵢ = exp(βᵢ (ωᵢ×)): Ȧᵢ = β̇ᵢ Aᵢ (ωᵢ×) has the norm aᵢ = |β̇ᵢ| |ωᵢ|, and Äᵢ one of at most aᵢ² + |β̈ᵢ| |ωᵢ|. The product rule gives
+    /// |Ṙ| ≤ Σ aᵢ and |R̈| ≤ (Σ aᵢ)² + Σ |β̈ᵢ| |ωᵢ|.
     pub(super) fn most_rates(&self, u0: f64, u1: f64) -> (f64, f64) {
         match self {
             Self::Even { vector, .. } => (vector.length(), vector.length_squared()),
@@ -129,7 +128,7 @@ pub(super) fn rolled(angle: f64) -> DQuat {
     DQuat::from_xyzw(0.0, sin, 0.0, cos)
 }
 
-/// Axis times angle, rad, of the short way from one rotation to another, in the frame of the first.
+/// Axis times angle, rad, of the shorter rotation from one rotation to another, in the frame of the first.
 pub(super) fn vector_between(start: DQuat, end: DQuat) -> DVec3 {
     if start == end { DVec3::ZERO } else { log(start.conjugate() * end) }
 }

@@ -1,8 +1,8 @@
-//! Levels along straight lines from moment to moment, with jumps between them: once, or again and again.
+//! Piecewise-linear levels over time, with jumps: once, or repeated.
 
 use crate::TimeInterval;
 
-/// A part of the way: `length_s` long, from one level to another along a straight line.
+/// Segment of `length_s` from one level to another along a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
     pub(super) length_s: f64,
@@ -11,13 +11,13 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// At a time since its beginning, within it.
+    /// Returns the level at a time since the segment's beginning, within it.
     fn at(&self, time_s: f64) -> f64 {
-        // Even ones are exact.
+        // Constant levels are exact.
         if self.from == self.to { self.from } else { self.from + (self.to - self.from) * (time_s / self.length_s) }
     }
 
-    /// From one time since its beginning to another.
+    /// Returns the integral from one time since the beginning to another.
     fn integral(&self, from_s: f64, to_s: f64) -> f64 {
         0.5 * (self.at(from_s) + self.at(to_s)) * (to_s - from_s)
     }
@@ -27,28 +27,28 @@ impl Piece {
     }
 }
 
-/// Pieces one after the other.
+/// Consecutive segments.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Levels {
-    /// When the first begins, s; it recurs a period later where there is one.
+    /// Start of the first segment, s; with a period it repeats.
     start_s: f64,
-    /// Without such of no length; of what is told once the last one holds for ever. Never empty.
+    /// Segments without those of zero length. Without a period the last one holds for ever. Never empty.
     pieces: Vec<Piece>,
-    /// When each begins, s, counted from `start_s`.
+    /// Start of each segment, s, counted from `start_s`.
     starts_s: Vec<f64>,
-    /// Level × time of all before each, s.
+    /// Level × time of all segments before each, s.
     sums_s: Vec<f64>,
-    /// `None` where it is told once.
+    /// `None` if the levels are not repeated.
     period_s: Option<f64>,
 }
 
 impl Levels {
-    /// Pieces that make up a period, from `start_s` on.
+    /// Returns the segments of a period, from `start_s` on, repeated.
     pub(super) fn recurring(start_s: f64, pieces: &[Piece], period_s: f64) -> Self {
         Self::new(start_s, pieces, Some(period_s))
     }
 
-    /// Pieces from `start_s` on; before them the first one's level holds, after them the level `last`.
+    /// Returns segments from `start_s` on, once: the first one's level holds before them, the level `last` after them.
     pub(super) fn once(start_s: f64, pieces: &[Piece], last: f64) -> Self {
         let held = Piece { length_s: f64::INFINITY, from: last, to: last };
         Self::new(start_s, &[pieces, &[held]].concat(), None)
@@ -67,13 +67,13 @@ impl Levels {
         Self { start_s, pieces, starts_s, sums_s, period_s }
     }
 
-    /// The piece of a time since the start, and the time since its beginning; before the start the first one's beginning.
+    /// Returns the segment at a time since the start, and the time since the segment's beginning; before the start the first one's beginning.
     fn find(&self, time_s: f64) -> (usize, f64) {
         let index = self.starts_s.partition_point(|start_s| *start_s <= time_s).saturating_sub(1);
         (index, (time_s - self.starts_s[index]).clamp(0.0, self.pieces[index].length_s))
     }
 
-    /// Since the start, reduced to a period where there is one.
+    /// Time since the start, reduced to a period if there is one.
     fn local(&self, time_s: f64) -> f64 {
         let local_s = time_s - self.start_s;
         // `rem_euclid` may round up to the period.
@@ -102,9 +102,9 @@ impl Levels {
         (self.integral(from_s, period_s) + between + self.integral(0.0, rest_s)) / length_s
     }
 
-    /// Level × time between two times since the start, s; not over the end of a period.
+    /// Level × time between two times since the start, s; must not cross the end of a period.
     fn integral(&self, from_s: f64, to_s: f64) -> f64 {
-        // Only what is told once is asked for times before its start.
+        // Times before the start occur only without a period.
         let early_s = (to_s.min(0.0) - from_s.min(0.0)).max(0.0);
         early_s * self.pieces[0].from + self.integral_inside(from_s.max(0.0), to_s.max(0.0))
     }

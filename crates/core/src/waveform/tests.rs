@@ -3,18 +3,18 @@ use core::f64::consts::PI;
 use super::*;
 use crate::maths::f64::sin;
 
-// Means of waveforms against closed forms, against sums over moments, and far from the time 0.
+// Means of waveforms compared with closed forms and with sums over moments, also far from the time 0.
 
 fn over(start_s: f64, length_s: f64) -> TimeInterval {
     TimeInterval::new(start_s, start_s + length_s).expect("in order")
 }
 
-/// Of mean 1, with edges at once.
+/// Pulses of mean 1, without edge time.
 fn pwm(frequency_hz: f64, duty: f64) -> Waveform {
     Waveform::pulses(&Pulses { frequency_hz, duty, edges_s: [0.0; 2], peak: 1.0 / duty }).expect("legal")
 }
 
-/// (greatest − least) / (greatest + least) of exposures of all phases.
+/// (max − min)/(max + min) over exposures of all phases.
 fn flicker_index(waveform: &Waveform, period_s: f64, exposure_s: f64) -> f64 {
     let means = (0..20_000).map(|i| waveform.mean(over(0.3 + period_s * f64::from(i) / 20_000.0, exposure_s)));
     let (low, high) = means.fold((f64::INFINITY, 0.0_f64), |(low, high), mean| (low.min(mean), high.max(mean)));
@@ -35,7 +35,7 @@ fn the_flicker_of_pulses_is_that_of_the_closed_form() {
         (100.0, 0.5, 10e-3, 0.0),
     ] {
         let found = flicker_index(&pwm(frequency_hz, duty), 1.0 / frequency_hz, exposure_s);
-        // The extremes lie between 20 000 phases: a twenty-thousandth of the duty, in both.
+        // The extremes lie between 20 000 phases: the error is 1/20 000 of the duty, in both.
         assert!((found - expected).abs() < 1e-3, "{frequency_hz} Hz, {duty}, {exposure_s} s: {found} {expected}");
     }
 }
@@ -52,7 +52,7 @@ fn an_exposure_damps_mains_light_by_the_sinc() {
     }
 }
 
-/// Numbers of a linear congruence, in [0, 1).
+/// Linear congruential generator of numbers in [0, 1).
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     move || {
@@ -61,7 +61,7 @@ fn numbers(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// One of each kind, with random parameters and delay.
+/// Returns one waveform of each kind, with random parameters and delay.
 fn random_waveforms(seed: u64) -> Vec<Waveform> {
     let mut next = numbers(seed);
     let count = 2 + (next() * 7.0) as usize;
@@ -94,7 +94,7 @@ fn random_waveforms(seed: u64) -> Vec<Waveform> {
     all.into_iter().map(|waveform| waveform.expect("legal").later(later())).collect()
 }
 
-/// By Gauss–Legendre of two points in each of many steps: right but where a step holds a kink or a jump.
+/// Two-point Gauss–Legendre quadrature in each of many steps: accurate except where a step contains a kink or a jump.
 fn summed(waveform: &Waveform, over: TimeInterval, steps: u32) -> f64 {
     let step = over.length_s() / f64::from(steps);
     let middle = |i: u32| over.start_s() + step * (f64::from(i) + 0.5);
@@ -112,7 +112,7 @@ fn means_and_greatest_levels_are_those_of_the_moments() {
                 let length_s = [0.003, 0.2, 3.0][(next() * 3.0) as usize] * (0.1 + next());
                 let over = over(8.0 * next() - 4.0, length_s);
                 let steps = 20_000;
-                // At most some 100 jumps of 3 in an interval of 3.3 s, each a step's length amiss.
+                // At most some 100 jumps of 3 in an interval of 3.3 s, each displaced by up to a step's length.
                 let allowed = 3.0 * (2.0 + 30.0 * length_s) / f64::from(steps);
                 let (mean, sum) = (waveform.mean(over), summed(&waveform, over, steps));
                 assert!((mean - sum).abs() <= allowed, "{mean} {sum}: {waveform:?} {over:?}");
@@ -120,7 +120,7 @@ fn means_and_greatest_levels_are_those_of_the_moments() {
                 let greatest = (0..=steps).map(|i| waveform.at(moment(i))).fold(0.0, f64::max);
                 let told = waveform.greatest(over);
                 assert!(told >= greatest * (1.0 - 1e-12) && told <= waveform.greatest_level() * (1.0 + 1e-15));
-                // The steepest straight line falls from its top by 60 levels in 0.01 s, edges of pulses by 2 in as little as is drawn.
+                // The steepest straight line falls from its top by 60 levels in 0.01 s. Edges of pulses fall by 2 in as short a time as is sampled.
                 let is_reached = told <= greatest + 6000.0 * length_s / f64::from(steps) + 1e-9;
                 assert!(is_reached, "{told} {greatest}: {waveform:?} {over:?}");
             }
@@ -155,7 +155,7 @@ fn the_phase_is_right_a_million_seconds_later() {
         let near = over(1e-4 * f64::from(i), 1e-5);
         let far = near.later(1e6);
         assert!((mains.mean(far) - mains.mean(near)).abs() < 2.0 * PI * 100.0 * 2.4e-10 + 1e-12);
-        // 1e-5 s, of which the ends are told to 2.4e-10 s, at a level of 4 at most.
+        // 1e-5 s, whose ends are resolved to 2.4e-10 s, at a level of 4 at most.
         assert!((pulses.mean(far) - pulses.mean(near)).abs() < 4.0 * 4.8e-5, "{i}");
     }
     // The period of 1/200 s is rounded by 1e-16, in 1e6 s by 1e-10 s.

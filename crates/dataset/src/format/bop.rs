@@ -1,14 +1,16 @@
 //! BOP (Hodaň et al. 2018): poses of objects, depth and masks, `bop/SPLIT/SCENE`.
 //!
-//! A scene is a camera of a sample: sample × cameras + the camera's place in the job; its pictures are numbered by frames. Objects are those of the ground truth that have a class, with their identities as `obj_id`.
+//! A scene is one camera of one sample, with the number sample × cameras + index of the camera in the job; its images are numbered by frames. Objects are those
+//! of the ground truth that have a class, with their identities as `obj_id`.
 //!
-//! - A model's frame is that of the object (x forward, y left, z up, whatever axes its file has), its origin in the middle of the object's box; lengths are mm. `models/models_info.json` has that box; its `diameter` is the box's
-//!   diagonal, which the greatest distance of two points of the mesh does not exceed. Models themselves are left out.
-//! - `depth` is the distance along the axis, 0 where there is none or it is beyond 65 535 units of `bop_depth_unit_mm` (`depth_scale`).
-//! - `mask` holds the pixels that would show the object were it alone, `mask_visib` those that do, 255; files are numbered by the place in `scene_gt.json`.
-//! - `px_count_all` and `visib_fract` are of the pixels within the picture, where BOP's own tools also count what lies beyond it: an object that the picture's edge cuts and nothing
-//!   hides has the fraction 1 here.
-//! - `cam_K` counts pixel centres as whole numbers, as OpenCV does.
+//! - A model's frame is that of the object (x forward, y left, z up, whatever axes its file has), its origin at the centre of the object's box; lengths are in
+//!   mm. `models/models_info.json` holds that box; its `diameter` is the box's diagonal, an upper bound of the largest distance of two points of the mesh. The
+//!   models themselves are not written.
+//! - `depth` is the distance along the axis, 0 if there is none or it exceeds 65 535 units of `bop_depth_unit_mm` (`depth_scale`).
+//! - `mask` holds the pixels of the object without occlusion, `mask_visib` its visible pixels, 255; files are numbered by the index in `scene_gt.json`.
+//! - `px_count_all` and `visib_fract` count the pixels within the image. BOP's own tools also count those outside it: an unoccluded object cut by the image
+//!   border has the fraction 1 here.
+//! - `cam_K` has pixel centres at whole numbers, as OpenCV does.
 
 use std::{cell::RefCell, collections::BTreeMap};
 
@@ -24,18 +26,18 @@ use crate::{draw::Split, picture::Picture, set::Set};
 
 pub(super) struct Bop {
     depth_unit_mm: f64,
-    /// Of the sample that is being made: `scene_gt_info` by camera and frame.
+    /// `scene_gt_info` of the current sample, by camera and frame.
     counted: RefCell<BTreeMap<(String, u32), Vec<Value>>>,
-    /// Of the samples that are whole and of those made since; `None` before the first of a run is made.
+    /// Models of the complete samples and of those rendered since; `None` before the first of a run.
     models: RefCell<Option<Models>>,
 }
 
-/// Names and sizes of objects, mm, by their identities.
+/// Names and sizes of objects, mm, by identity.
 #[derive(Default)]
 struct Models(BTreeMap<u32, (String, DVec3)>);
 
 impl Models {
-    /// Of all records but one, which is made anew.
+    /// Models of all records except one, whose sample is rendered again.
     fn of(records: &Records, without: Option<u32>) -> Result<Self, Error> {
         let mut models = Self::default();
         for record in records.each() {
@@ -47,7 +49,7 @@ impl Models {
         Ok(models)
     }
 
-    /// A model of BOP keeps its size.
+    /// Adds the objects of a record; a model of BOP has a fixed size.
     fn add(&mut self, record: &SampleRecord) -> Result<(), Error> {
         for object in record.pictures.iter().flat_map(objects) {
             let size_mm = 1000.0 * DVec3::from_array(object.box_3d.size_m);
@@ -80,7 +82,7 @@ fn scene(set: &Set, sample: u32, split: Split, camera: &str) -> String {
     format!("bop/{}/{:06}", split.name(), sample as usize * set.cameras.len() + place)
 }
 
-/// What BOP knows of a picture.
+/// Objects of an image that BOP includes.
 fn objects(picture: &PictureRecord) -> impl Iterator<Item = &ObjectRecord> {
     picture.objects.iter().filter(|object| object.class.is_some())
 }
@@ -114,7 +116,7 @@ impl Writer for Bop {
 
     fn sample(&self, set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
         let counted = self.counted.take();
-        // Before the sample has a record, so that one of another size is never among those that are whole.
+        // Checked before the sample has a record, so that one with another size never counts as complete.
         let mut models = self.models.borrow_mut();
         if models.is_none() {
             let records = Records::in_folder(folder.path())?;

@@ -1,8 +1,10 @@
-//! Cityscapes (Cordts et al. 2016): `cityscapes/leftImg8bit/SPLIT/CAMERA` with pictures, and `cityscapes/gtFine/SPLIT/CAMERA` with `labelIds` (8 bits) and `instanceIds` (16 bits).
+//! Cityscapes (Cordts et al. 2016): `cityscapes/leftImg8bit/SPLIT/CAMERA` with images, and `cityscapes/gtFine/SPLIT/CAMERA` with `labelIds` (8 bits) and
+//! `instanceIds` (16 bits).
 //!
-//! A camera is a city ("_" in its name is "-"), a sample a sequence, and the file's last number the frame. The label of a pixel is that of its class's name; sky is 23, a pixel without a ray
-//! 3 (out of roi), what has no class or one that Cityscapes does not have 0 (unlabeled). Objects of labels that have instances are label × 1000 + their place among those of the label in the picture, in the order
-//! of their identities; from the 1001st on, as a group, they have the label alone.
+//! A camera is a city ("_" in its name becomes "-"), a sample a sequence, and the file's last number the frame. The label of a pixel follows from its class's
+//! name. Sky is 23, a pixel without a ray 3 (out of roi), an object without a class or with one unknown to Cityscapes 0 (unlabeled). Objects of labels that
+//! have instances are label × 1000 + their index among those of the label in the image, in the order of their identities; from the 1001st on they have only the
+//! label, like a group.
 
 use std::collections::BTreeMap;
 
@@ -13,11 +15,11 @@ use crate::records::{Records, Writer, write};
 use crate::{picture::Picture, record::PictureRecord, set::Set};
 
 pub(super) struct Cityscapes {
-    /// Of the ids of classes.
+    /// Labels by class id.
     labels: BTreeMap<u32, Label>,
 }
 
-/// A label of Cityscapes: its id, its name, and whether objects are told apart.
+/// Label of Cityscapes: its id, its name, and whether instances are distinguished.
 #[derive(Clone, Copy)]
 struct Label {
     id: u8,
@@ -64,13 +66,13 @@ const NAMES: [&str; 34] = [
     "motorcycle",
     "bicycle",
 ];
-/// The first of those that have instances: they are the last.
+/// First label with instances; all later ones have them too.
 const FIRST_WITH_INSTANCES: usize = 24;
 const MAX_INSTANCES: u16 = 1000;
 
 impl Cityscapes {
     /// # Errors
-    /// Where `cityscapes_labels` names a class that the scene does not have, or a label that Cityscapes does not; where two cameras would be one city.
+    /// If `cityscapes_labels` names a class that the scene does not have, or a label that Cityscapes does not; where two cameras would be one city.
     pub(super) fn of(set: &Set) -> Result<Self, Error> {
         let stated = set.variations.as_ref().map_or(&[][..], |variations| &variations.cityscapes_labels);
         for (_, label) in stated {

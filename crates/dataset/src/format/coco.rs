@@ -1,14 +1,15 @@
 //! Boxes for detectors: COCO and YOLO.
 //!
-//! COCO (Lin et al. 2014): pictures, and a JSON file of each split with boxes and masks.
+//! COCO (Lin et al. 2014): images, and a JSON file per split with boxes and masks.
 //!
-//! `coco/SPLIT/NNNNNN_CAMERA_FFFF.png`, `coco/annotations/instances_SPLIT.json`. An annotation is an object that has a class and is seen in a pixel; `bbox` is about the pixels that show it (left, top,
-//! width, height; px), `area` their number, `segmentation` its mask. Categories are the scene's classes with their ids.
+//! `coco/SPLIT/NNNNNN_CAMERA_FFFF.png`, `coco/annotations/instances_SPLIT.json`. An annotation is an object that has a class and at least one visible pixel;
+//! `bbox` bounds its visible pixels (left, top, width, height; px), `area` is their number, `segmentation` its mask. Categories are the scene's classes with
+//! their ids.
 //!
 //! YOLO as Ultralytics reads it: `yolo/data.yaml`, `yolo/images/SPLIT` and, with the same names, `yolo/labels/SPLIT`.
 //!
-//! A line is an object that has a class and is seen in a pixel: the place of its class among the scene's classes (from 0, in the order of their ids), and centre, width and height of the box about the pixels that
-//! show it, in parts of the picture's width and height. A picture without objects has an empty file.
+//! A line is an object that has a class and at least one visible pixel: the index of its class among the scene's classes (from 0, in the order of their ids),
+//! and centre, width and height of the box of its visible pixels, as fractions of the image's width and height. An image without objects has an empty file.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -42,7 +43,7 @@ fn file_name(picture: &PictureRecord, sample: u32) -> String {
     format!("{}.{}", picture.stem(sample), picture.extension)
 }
 
-/// The pictures of a split with their ids, from 1 in the order of samples.
+/// Images of a split with their ids, from 1 in the order of samples.
 fn pictures(records: &Records, split: Split) -> impl Iterator<Item = io::Result<(u32, PictureRecord)>> + '_ {
     let of_split =
         move |record: &io::Result<SampleRecord>| record.as_ref().map_or(true, |record| record.split == split);
@@ -52,7 +53,7 @@ fn pictures(records: &Records, split: Split) -> impl Iterator<Item = io::Result<
     })
 }
 
-/// The entries one after the other, so that none but one is in memory.
+/// Writes the entries one by one, so that only one is in memory.
 fn write_split(set: &Set, records: &Records, split: Split, file: &mut impl Write) -> io::Result<()> {
     let info = json!({ "description": "rendered by Étendue", "version": env!("CARGO_PKG_VERSION") });
     write!(file, "{{\"info\":{info},\n\"images\":[")?;
@@ -141,7 +142,7 @@ fn lines(set: &Set, picture: &PictureRecord) -> String {
     text
 }
 
-/// Folders are said from that of the file, as readers take them where no `path` is stated. Both splits must be named: where a set has one of them, it serves as the other as well.
+/// Paths are relative to the file, as readers expect if no `path` is stated. Both splits must be named: if a set has only one, it also serves as the other.
 fn data(set: &Set, has: [bool; 2]) -> String {
     let folder = |split: Split| {
         let named = if has[split as usize] || !has.contains(&true) { split } else { Split::ALL[1 - split as usize] };
@@ -149,7 +150,7 @@ fn data(set: &Set, has: [bool; 2]) -> String {
     };
     let mut text = format!("train: {}\nval: {}\nnames:\n", folder(Split::Train), folder(Split::Val));
     for (place, (name, _)) in set.classes.iter().enumerate() {
-        // Names in quotes of JSON are names in quotes of YAML.
+        // JSON string quotes are valid in YAML.
         let _ = writeln!(text, "  {place}: {}", serde_json::Value::from(name.as_str()));
     }
     text

@@ -1,7 +1,7 @@
-//! Cryptomatte (Psyop's specification 1.2.0): `cryptomatte/SPLIT/NAME.exr`, and with the same name the picture.
+//! Cryptomatte (Psyop's specification 1.2.0): `cryptomatte/SPLIT/NAME.exr`, and the image with the same name.
 //!
-//! The layers `CryptoObject` and `CryptoMaterial` hold, for each pixel, the objects and the materials that cover most of it, through the lens and over the exposure
-//! ([`etendue_io::exr::cryptomatte_image`]); names are those of the scene. Unlike masks, which say what the pixel's centre shows, they have soft edges.
+//! The layers `CryptoObject` and `CryptoMaterial` hold, for each pixel, the objects and the materials with the largest coverage, through the lens and over the
+//! exposure ([`etendue_io::exr::cryptomatte_image`]); names are those of the scene. Unlike masks, which sample the pixel's centre, they have antialiased edges.
 
 use etendue::{Error, OutputFolder};
 

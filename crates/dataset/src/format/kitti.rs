@@ -1,19 +1,19 @@
-//! KITTI's object benchmark (Geiger, Lenz, Urtasun 2012), a folder for each camera: `kitti/CAMERA/training` with `image_2`, `calib` and `label_2`, and the splits in
-//! `kitti/CAMERA/ImageSets`. Where the camera is the left one of a rectified pair (`disparity_to`), `image_3` has the right one's pictures.
+//! KITTI's object benchmark (Geiger, Lenz, Urtasun 2012), one folder per camera: `kitti/CAMERA/training` with `image_2`, `calib` and `label_2`, and the splits
+//! in `kitti/CAMERA/ImageSets`. If the camera is the left one of a rectified pair (`disparity_to`), `image_3` holds the right one's images.
 //!
-//! Frames are numbered through all samples: sample × frames of a sample + place of the frame. Coordinates of pixels are KITTI's, whose pixel centres are whole numbers: half a pixel less than
-//! the raster's. A label is an object that is seen in a pixel and whose class has a type of KITTI.
+//! Frames are numbered over all samples: sample × frames per sample + index of the frame. Pixel coordinates are KITTI's, with pixel centres at whole numbers:
+//! half a pixel less than the raster's. A label is an object with at least one visible pixel whose class has a type of KITTI.
 //!
 //! | column | is |
 //! | --- | --- |
-//! | type | by the class's name, or as `kitti_types` says |
-//! | truncated | the part of the amodal box outside the picture; 1 where parts of the object have no image |
-//! | occluded | 0: 95 % of what is in the picture is seen, 1: half, 2: less |
+//! | type | from the class's name, or from `kitti_types` |
+//! | truncated | fraction of the amodal box outside the image; 1 if parts of the object have no image |
+//! | occluded | 0: at least 95 % of the part in the image is visible, 1: at least half, 2: less |
 //! | alpha | `rotation_y` less the direction of the object's centre, rad |
-//! | bbox | about the part of the whole object within the picture, cut to pixel centres |
-//! | dimensions, location, rotation_y | the least box about the object's box in space whose height is along the camera's y: height, width, length (m), the middle of its bottom (m), and the turn of the object's x axis about y, rad |
+//! | bbox | box of the whole object within the image, clipped to pixel centres |
+//! | dimensions, location, rotation_y | smallest box about the object's 3D box with its height along the camera's y: height, width, length (m), bottom centre (m), and rotation of the object's x axis about y, rad |
 //!
-//! Left out: a laser scanner and an inertial sensor. `Tr_velo_to_cam` places a scanner at the camera, x forward, y left, z up; no scans are written.
+//! Not written: a laser scanner and an inertial sensor. `Tr_velo_to_cam` places a scanner at the camera, x forward, y left, z up; no scans are written.
 
 use core::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
@@ -28,7 +28,7 @@ use crate::{draw::Split, picture::Picture, set::Set};
 
 pub(super) struct Kitti;
 
-/// Types by the names of classes, in lower case.
+/// Types by the lower-case names of classes.
 const TYPES: [(&str, &str); 10] = [
     ("car", "Car"),
     ("van", "Van"),
@@ -87,12 +87,12 @@ fn number(set: &Set, sample: u32, frame: u32) -> String {
     format!("{:06}", u64::from(sample) * set.frame_count() + u64::from(frame - set.frames.start))
 }
 
-/// The folder of a camera.
+/// Folder of a camera.
 fn root(camera: &str) -> String {
     format!("kitti/{camera}/training")
 }
 
-/// The lines of a calibration: the cameras 0 and 2 of KITTI are this one, 1 and 3 the right one of its pair, or this one where it has none.
+/// Lines of a calibration: the cameras 0 and 2 of KITTI are this one, 1 and 3 the right one of its pair, or this one if it has none.
 fn calibration(picture: &PictureRecord, right: Option<&PictureRecord>) -> String {
     let of = [projection(picture, picture), projection(right.unwrap_or(picture), picture)];
     let mut text = String::new();
@@ -107,7 +107,7 @@ fn calibration(picture: &PictureRecord, right: Option<&PictureRecord>) -> String
     text
 }
 
-/// From points in the frame of the camera `from` to pixels of a camera that is turned as it is.
+/// Projection from points in the frame of the camera `from` to pixels of a camera of the same orientation.
 fn projection(picture: &PictureRecord, from: &PictureRecord) -> [f64; 12] {
     let [fx, skew, cx, fy, cy] = picture.camera_matrix_px.expect("checked for all cameras of the format");
     let [w, x, y, z] = from.pose.rotation_wxyz;
@@ -130,7 +130,7 @@ fn labels(set: &Set, picture: &PictureRecord) -> String {
     text
 }
 
-/// The type of a class; `None` where KITTI has none.
+/// Type of a class; `None` if KITTI has none.
 fn kind(set: &Set, class: Option<&str>) -> Option<String> {
     let class = class?;
     let stated = set.variations.as_ref().map_or(&[][..], |variations| &variations.kitti_types);
@@ -167,29 +167,29 @@ fn label(kind: &str, object: &ObjectRecord, picture: &PictureRecord) -> String {
     )
 }
 
-/// An angle from −π to π.
+/// Angle wrapped to −π to π.
 fn wrapped(angle_rad: f64) -> f64 {
     (angle_rad + PI).rem_euclid(TAU) - PI
 }
 
-/// A box whose height is along the camera's y.
+/// Box with its height along the camera's y.
 struct Upright {
     height_m: f64,
     width_m: f64,
     length_m: f64,
-    /// The middle of its bottom in the camera's frame.
+    /// Bottom centre in the camera's frame.
     bottom_m: DVec3,
     rotation_y_rad: f64,
 }
 
 impl Upright {
-    /// The least one about a box that is turned about the camera's y as the box's x axis is; where that is upright, as its y axis.
+    /// Returns the smallest such box about a 3D box, rotated about the camera's y like the box's x axis; if that is vertical, like its y axis.
     fn about(solid: &SolidRecord) -> Self {
         let [w, x, y, z] = solid.camera.rotation_wxyz;
         let rotation = DQuat::from_xyzw(x, y, z, w);
         let ahead = [DVec3::X, DVec3::Y].map(|axis| rotation * axis);
         let level = |axis: DVec3| DVec3::new(axis.x, 0.0, axis.z).try_normalize();
-        // Within a millionth of the upright, rounding decides where an axis points.
+        // Within a millionth of the vertical, rounding decides the direction of an axis.
         let is_level = DVec3::new(ahead[0].x, 0.0, ahead[0].z).length() > 1e-6;
         let along = level(ahead[usize::from(!is_level)]).unwrap_or(DVec3::X);
         let across = DVec3::new(-along.z, 0.0, along.x);
@@ -215,7 +215,7 @@ mod tests {
     use super::*;
     use crate::record::Stance;
 
-    /// A box of 4 m × 2 m × 1 m whose axes are turned so in the camera's frame.
+    /// Box of 4 m × 2 m × 1 m with this rotation in the camera's frame.
     fn upright(rotation: DQuat) -> Upright {
         let [x, y, z, w] = rotation.to_array();
         let stance = Stance { centre_m: [1.0, 0.5, 10.0], rotation_wxyz: [w, x, y, z] };
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn a_level_box_keeps_its_size_and_its_turn() {
-        // z up is −y of the camera; then turned about the camera's y.
+        // z up is −y of the camera; then rotated about the camera's y.
         let level = DQuat::from_rotation_x(PI / 2.0);
         for turn in [-3.0, -1.0, 0.0, 0.4, 2.5] {
             let found = upright(DQuat::from_rotation_y(turn) * level);

@@ -1,15 +1,15 @@
-//! MCAP (Foxglove, the format's specification): `mcap/SPLIT/NNNNNN.mcap`, messages of ROS 2, a file a sample.
+//! MCAP (Foxglove, the format's specification): `mcap/SPLIT/NNNNNN.mcap`, messages of ROS 2, one file per sample.
 //!
 //! | topic | message | of each frame |
 //! | --- | --- | --- |
-//! | `/CAMERA/image/compressed` | `sensor_msgs/msg/CompressedImage` | the picture, as it is encoded |
-//! | `/CAMERA/depth` | `sensor_msgs/msg/Image`, 32FC1 | depth along the axis, m; +∞ and NaN as REP 118 has them |
-//! | `/CAMERA/points` | `sensor_msgs/msg/PointCloud2` | the same as points in the camera's frame (x right, y down, z forward), m, with the picture's colours; 16 bytes a pixel; no number where nothing is |
-//! | `/CAMERA/camera_info` | `sensor_msgs/msg/CameraInfo` | camera matrix; pixel centres are whole numbers |
+//! | `/CAMERA/image/compressed` | `sensor_msgs/msg/CompressedImage` | the encoded image |
+//! | `/CAMERA/depth` | `sensor_msgs/msg/Image`, 32FC1 | depth along the axis, m; +∞ and NaN as in REP 118 |
+//! | `/CAMERA/points` | `sensor_msgs/msg/PointCloud2` | the same as points in the camera's frame (x right, y down, z forward), m, with the image's colours; 16 bytes per pixel; NaN where there is no surface |
+//! | `/CAMERA/camera_info` | `sensor_msgs/msg/CameraInfo` | camera matrix; pixel centres at whole numbers |
 //! | `/tf` | `tf2_msgs/msg/TFMessage` | `world` to the camera, whose frame has its name (x right, y down, z forward) |
 //!
-//! Times are the simulated ones, half-way through the exposure, from 0 on (as with `use_sim_time`); earlier ones are 0. Messages are in the order of their times, uncompressed and in no chunks; the summary has schemas,
-//! channels and statistics.
+//! Times are simulated times at the middle of the exposure, from 0 on (as with `use_sim_time`); earlier ones are 0. Messages are in order of time, uncompressed
+//! and without chunks; the summary holds schemas, channels and statistics.
 
 use std::{cell::RefCell, collections::BTreeMap};
 
@@ -21,7 +21,7 @@ use crate::set::{Set, topic_name};
 use crate::{picture::Picture, record::SampleRecord};
 
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
-/// The last second of a ROS time stamp, which has 32 bits: 19 January 2038, counted from 1970.
+/// Last second of a ROS time stamp, which has 32 bits: 19 January 2038, counted from 1970.
 const LAST_S: i64 = i32::MAX as i64;
 
 /// A message of a topic.
@@ -32,7 +32,7 @@ struct Message {
     data: Vec<u8>,
 }
 
-/// Messages of the sample that is being made.
+/// Messages of the current sample.
 #[derive(Default)]
 pub(super) struct Mcap(RefCell<Vec<Message>>);
 
@@ -70,7 +70,7 @@ impl Writer for Mcap {
 
     fn sample(&self, _set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
         let mut messages = self.0.take();
-        // Those of one time stay in the order of cameras.
+        // Messages of the same time stay in the order of cameras.
         messages.sort_by_key(|message| message.time_ns);
         write(folder, &format!("mcap/{}/{:06}.mcap", record.split.name(), record.sample), &file(&messages))
     }
@@ -80,7 +80,7 @@ impl Writer for Mcap {
     }
 }
 
-/// Opcodes of the records that are written.
+/// Opcodes of the written records.
 mod opcode {
     pub(super) const HEADER: u8 = 0x01;
     pub(super) const FOOTER: u8 = 0x02;
@@ -91,7 +91,7 @@ mod opcode {
     pub(super) const DATA_END: u8 = 0x0f;
 }
 
-/// The bytes of a file of messages.
+/// Bytes of a file of messages.
 fn file(messages: &[Message]) -> Vec<u8> {
     let mut schemas: BTreeMap<&str, u16> = BTreeMap::new();
     let mut channels: BTreeMap<&str, (u16, u16)> = BTreeMap::new();
@@ -118,7 +118,7 @@ fn file(messages: &[Message]) -> Vec<u8> {
         record(&mut bytes, opcode::MESSAGE, &message_record(channel, *count as u32, message));
         *count += 1;
     }
-    // No check sum: 0 says so.
+    // A check sum of 0 means none.
     record(&mut bytes, opcode::DATA_END, &0_u32.to_le_bytes());
     let summary_start = bytes.len() as u64;
     bytes.extend_from_slice(&described);
@@ -135,7 +135,7 @@ fn record(bytes: &mut Vec<u8>, opcode: u8, content: &[u8]) {
     bytes.extend_from_slice(content);
 }
 
-/// Texts and maps have their length in bytes before them.
+/// Texts and maps are preceded by their length in bytes.
 fn text(text: &str) -> Vec<u8> {
     [&(text.len() as u32).to_le_bytes(), text.as_bytes()].concat()
 }
@@ -160,7 +160,7 @@ fn statistics(messages: &[Message], schemas: usize, channels: usize, counts: &BT
     let mut bytes = (messages.len() as u64).to_le_bytes().to_vec();
     bytes.extend_from_slice(&(schemas as u16).to_le_bytes());
     bytes.extend_from_slice(&(channels as u32).to_le_bytes());
-    // Attachments, metadata and chunks.
+    // No attachments, metadata or chunks.
     bytes.extend_from_slice(&[none, none, none].concat());
     bytes.extend_from_slice(&[time(messages.first()), time(messages.last())].concat());
     bytes.extend_from_slice(&(counts.len() as u32 * 10).to_le_bytes());

@@ -1,4 +1,4 @@
-//! The formats: the closed list, one file each.
+//! Formats: the closed list, one file each.
 
 mod bop;
 mod cityscapes;

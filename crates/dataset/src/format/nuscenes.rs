@@ -1,16 +1,16 @@
-//! nuScenes (Caesar et al. 2020): pictures in `nuscenes/samples/CAMERA`, and the tables of its schema in `nuscenes/v1.0-SPLIT`, which the nuScenes devkit reads.
+//! nuScenes (Caesar et al. 2020): images in `nuscenes/samples/CAMERA`, and the tables of its schema in `nuscenes/v1.0-SPLIT`, which the nuScenes devkit reads.
 //!
 //! | table | is |
 //! | --- | --- |
-//! | `scene` | a sample of the set; what was drawn is its description |
+//! | `scene` | a sample of the set; its changes are the description |
 //! | `sample` | a frame, of all cameras |
-//! | `sample_data` | a picture; all are key frames |
-//! | `ego_pose`, `calibrated_sensor` | the frame that carries the camera in the world, and the camera in it; a camera that none carries, or that moves in it, is its own vehicle |
-//! | `instance`, `sample_annotation` | objects that have a class and are seen in a pixel of some camera of the frame: their boxes in the world, with the best visibility of all cameras |
+//! | `sample_data` | an image; all are key frames |
+//! | `ego_pose`, `calibrated_sensor` | the frame that carries the camera in the world, and the camera in it; a camera without such a frame, or moving in it, is its own vehicle |
+//! | `instance`, `sample_annotation` | objects that have a class and a visible pixel in some camera of the frame: their boxes in the world, with the best visibility of all cameras |
 //! | `category` | the scene's classes |
 //!
-//! Times are µs from the beginning of the simulated world. Left out: lidar and radar (`num_lidar_pts` and `num_radar_pts` are 0), attributes, velocities but for those that follow from positions, and maps: `map` names a
-//! picture of one pixel, as readers ask for one.
+//! Times are µs from the beginning of the simulated world. Not written: lidar and radar (`num_lidar_pts` and `num_radar_pts` are 0), attributes, velocities
+//! (except those that follow from positions), and maps: `map` names an image of one pixel, as readers require one.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -26,7 +26,7 @@ use crate::{draw::Split, picture::Picture, set::Set};
 
 pub(super) struct NuScenes;
 
-/// The rows of a table that a sample has.
+/// Rows of a table from a sample.
 type RowsOf = fn(&Set, &SampleRecord) -> Vec<Value>;
 
 const TABLES: [(&str, RowsOf); 7] = [
@@ -78,7 +78,7 @@ fn write_rows(set: &Set, records: &Records, split: Split, rows_of: RowsOf, file:
     file.write_all(b"]\n")
 }
 
-/// What a token is of: its first digits.
+/// Kind of object that a token identifies: its first digits.
 #[derive(Clone, Copy)]
 enum Kind {
     Category = 1,
@@ -93,13 +93,13 @@ enum Kind {
     Annotation,
 }
 
-/// 32 digits that nothing else of the set has.
+/// Token: 32 digits, unique in the set.
 fn token(kind: Kind, numbers: [u32; 3]) -> String {
     let [a, b, c] = numbers;
     format!("{:08x}{a:08x}{b:08x}{c:08x}", kind as u32)
 }
 
-/// The tables that are the same for all samples.
+/// Tables that are the same for all samples.
 fn of_all(set: &Set) -> Vec<(&'static str, Value)> {
     let categories = set
         .classes
@@ -146,7 +146,7 @@ fn data_token(set: &Set, record: &SampleRecord, picture: &PictureRecord) -> Stri
     token(Kind::Data, [record.sample, picture.frame, place(set, picture)])
 }
 
-/// The token of the one before or after in a list; empty at its end.
+/// Token of the previous or next element of a list; empty at its end.
 fn neighbour(frames: &[u32], at: Option<usize>, token: impl Fn(u32) -> String) -> String {
     at.and_then(|at| frames.get(at)).map_or_else(String::new, |frame| token(*frame))
 }
@@ -204,7 +204,7 @@ fn sample_data(set: &Set, record: &SampleRecord) -> Vec<Value> {
 fn ego_poses(set: &Set, record: &SampleRecord) -> Vec<Value> {
     let row = |picture: &PictureRecord| {
         let (place_m, rotation) = parts(&picture.pose);
-        // The camera's frame to the world, less the camera's to that of what carries it.
+        // Pose of the carrying frame: the inverse of camera-to-frame, then camera-to-world.
         let (place_m, rotation) = picture.mount.as_ref().map(parts).map_or((place_m, rotation), |(mount_m, mount)| {
             let rotation = rotation * mount.inverse();
             (place_m - rotation * mount_m, rotation)
@@ -246,14 +246,14 @@ fn wxyz(rotation: DQuat) -> [f64; 4] {
     [w, x, y, z]
 }
 
-/// An object in a frame: what the first camera that sees it says, and the best visibility.
+/// Object in a frame: record of the first camera that sees it, and the best visibility.
 struct Seen<'a> {
     object: &'a ObjectRecord,
     class: u32,
     visible_fraction: f64,
 }
 
-/// By object, the frames in which it is seen.
+/// Frames in which each object is visible.
 fn seen<'a>(set: &Set, record: &'a SampleRecord) -> BTreeMap<u32, BTreeMap<u32, Seen<'a>>> {
     let mut found: BTreeMap<u32, BTreeMap<u32, Seen<'_>>> = BTreeMap::new();
     for picture in &record.pictures {
@@ -311,7 +311,7 @@ fn annotations(set: &Set, record: &SampleRecord) -> Vec<Value> {
     rows
 }
 
-/// The row of `visibility`.
+/// Row of `visibility`.
 fn visibility(fraction: f64) -> &'static str {
     match fraction {
         less if less < 0.4 => "1",

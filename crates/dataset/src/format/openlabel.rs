@@ -1,11 +1,11 @@
-//! ASAM OpenLABEL 1.0.0: `openlabel/SPLIT/NNNNNN.json`, a file a sample, and its pictures in `openlabel/SPLIT/images`.
+//! ASAM OpenLABEL 1.0.0: `openlabel/SPLIT/NNNNNN.json`, one file per sample, and its images in `openlabel/SPLIT/images`.
 //!
-//! - A camera is a stream and a coordinate system of type `sensor_cs` (x right, y down, z forward), whose pose in `world` (`scene_cs`: x forward, y left, z up) each frame states. A camera that distorts has no
-//!   intrinsic parameters.
-//! - Objects are those with a class that some pixel shows in some picture, by their identities; `type` is the class.
-//! - `bbox` is about the pixels that show the object, centre and size, px in raster coordinates, in the coordinate system of its camera; `cuboid` is the object's box in the world, centre, quaternion (x, y, z, w)
-//!   and size, m. `num` is the share of the object that is seen.
-//! - Left out: masks, relations, actions and events, ontologies.
+//! - A camera is a stream and a coordinate system of type `sensor_cs` (x right, y down, z forward), whose pose in `world` (`scene_cs`: x forward, y left, z up)
+//!   each frame states. A camera that distorts has no intrinsic parameters.
+//! - Objects are those with a class and a visible pixel in some image, by identity; `type` is the class.
+//! - `bbox` bounds the visible pixels of the object: centre and size, px in raster coordinates, in the coordinate system of its camera; `cuboid` is the
+//!   object's box in the world, centre, quaternion (x, y, z, w) and size, m. `num` is the visible fraction of the object.
+//! - Not written: masks, relations, actions and events, ontologies.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,7 +19,7 @@ use crate::{picture::Picture, set::Set};
 
 pub(super) struct OpenLabel;
 
-/// The coordinate system of the scene.
+/// Coordinate system of the scene.
 const WORLD: &str = "world";
 
 impl Writer for OpenLabel {
@@ -77,7 +77,7 @@ fn content(set: &Set, record: &SampleRecord) -> Value {
     })
 }
 
-/// Those with a class that some pixel shows.
+/// Objects with a class and a visible pixel.
 fn labelled(picture: &PictureRecord) -> impl Iterator<Item = &ObjectRecord> {
     picture.visible().map(|(object, ..)| object).filter(|object| object.class.is_some())
 }
@@ -91,7 +91,7 @@ fn stream(picture: &PictureRecord) -> Value {
     json!({ "type": "camera", "stream_properties": { "intrinsics_pinhole": intrinsics } })
 }
 
-/// Runs of numbers that follow each other.
+/// Runs of consecutive numbers.
 fn intervals(frames: &BTreeSet<u32>) -> Vec<Value> {
     let mut runs: Vec<(u32, u32)> = Vec::new();
     for frame in frames {
@@ -139,7 +139,7 @@ fn frame(sample: u32, pictures: &[&PictureRecord]) -> Value {
     })
 }
 
-/// Row by row, camera to world.
+/// Matrix from camera to world, row by row.
 fn matrix(pose: &Pose) -> [f64; 16] {
     let [w, x, y, z] = pose.rotation_wxyz;
     let place = DVec3::from_array(pose.position_m);

@@ -1,19 +1,22 @@
-//! ASAM OSI 3.8.0: `osi/SPLIT/TIME_gt_380_6302_FRAMES_NNNNNN.osi`, a trace a sample: for each frame a `GroundTruth` behind its length (four bytes, little-endian).
+//! ASAM OSI 3.8.0: `osi/SPLIT/TIME_gt_380_6302_FRAMES_NNNNNN.osi`, one trace per sample: for each frame a `GroundTruth` after its length (four bytes,
+//! little-endian).
 //!
-//! - Names follow OSI's convention: the time of the first frame, counted from 1970 as the messages' own, so that no clock is in them; the version of the messages; 6.30.2, the
-//!   version of protobuf that osi-python 3.8.0 is made with and asks for; how many frames; and the sample's number as the name of the trace.
-//! - Objects are all of the world with a class, seen or not, by their identities: those that a class or their motion makes movers as `moving_object`, others as `stationary_object`, by the lists below;
-//!   `source_reference` has their names. Surfaces (road, terrain …) and the sky have no box.
-//! - The frame of the ground truth is the scene's (x forward, y left, z up, m); position is the middle of the object's box, whose length, width and height are along the object's own x, y and z; orientation turns
-//!   about z (yaw), then y (pitch), then x (roll), rad.
-//! - The time is half-way through the exposure of the first camera that the job lists.
-//! - Left out: the host vehicle, accelerations and rates of turning, lanes and markings, what signs and lights mean (they are stationary objects of type other), occupants, environment.
+//! - Names follow OSI's convention: the time of the first frame, counted from 1970 like those of the messages, so that no clock time is in them; the version of
+//!   the messages; 6.30.2, the version of protobuf that osi-python 3.8.0 is built with and requires; the number of frames; and the sample's number as the name
+//!   of the trace.
+//! - Objects are all of the world with a class, visible or not, by identity: those that move by class or by motion as `moving_object`, others as
+//!   `stationary_object`, by the lists below; `source_reference` holds their names. Surfaces (road, terrain …) and the sky have no box.
+//! - The frame of the ground truth is the scene's (x forward, y left, z up, m); position is the centre of the object's box, whose length, width and height are
+//!   along the object's own x, y and z; orientation is a rotation about z (yaw), then y (pitch), then x (roll), rad.
+//! - The time is the middle of the exposure of the first camera that the job lists.
+//! - Not written: the host vehicle, accelerations and angular rates, lanes and markings, the meaning of signs and lights (they are stationary objects of type
+//!   other), occupants, environment.
 //!
 //! Names of traces: `<time>_<type>_<OSI version>_<protobuf version>_<number of frames>_<name>.osi`.
 //!
 //! Source: ASAM OSI 3.8.0, "OSI trace file naming conventions".
 //!
-//! Protocol buffers on the wire (Google, encoding of proto2): fields of a message one after the other, each with its number and how long it is.
+//! Protocol buffers on the wire (Google, encoding of proto2): fields of a message one after the other, each with its number and length.
 
 #[cfg(test)]
 mod tests;
@@ -30,7 +33,7 @@ use crate::{picture::Picture, record::SampleRecord, set::Set};
 /// Version of the messages.
 const VERSION: [u64; 3] = [3, 8, 0];
 
-/// The messages of the frames of the sample that is being made.
+/// Messages of the frames of the current sample.
 #[derive(Default)]
 pub(super) struct Osi(RefCell<BTreeMap<u32, (ExactTime, Message)>>);
 
@@ -78,7 +81,7 @@ fn ground_truth(time: ExactTime, objects: &[WorldObject]) -> Message {
     })
 }
 
-/// `Timestamp`: whole seconds, and what is left in ns, not below 0.
+/// `Timestamp`: whole seconds, and the remainder in ns, not below 0.
 fn timestamp(time: ExactTime) -> Message {
     let ns = time.nanoseconds();
     let (whole, rest) = (ns.div_euclid(1_000_000_000), ns.rem_euclid(1_000_000_000));
@@ -107,7 +110,7 @@ fn moving(object: &WorldObject, kind: Kind) -> Message {
     message.message(10, &source(object))
 }
 
-/// What `BaseMoving` and `BaseStationary` have in common: dimension, position, orientation.
+/// Common part of `BaseMoving` and `BaseStationary`: dimension, position, orientation.
 fn base(object: &WorldObject) -> Message {
     let [yaw, pitch, roll] = yaw_pitch_roll(&DMat3::from_quat(object.stance.rotation));
     Message::default()
@@ -130,7 +133,7 @@ fn source(object: &WorldObject) -> Message {
     Message::default().text(1, "scene").text(2, "etendue").text(3, &object.name)
 }
 
-/// Angles, rad, of a rotation that turns about z, then about the new y, then about the new x; straight up or down roll is 0.
+/// Angles, rad, of a rotation about z, then about the new y, then about the new x; roll is 0 when pointing straight up or down.
 fn yaw_pitch_roll(m: &DMat3) -> [f64; 3] {
     const UPRIGHT: f64 = 1e-9;
     let level = (m.x_axis.x * m.x_axis.x + m.x_axis.y * m.x_axis.y).sqrt();
@@ -147,18 +150,18 @@ const VEHICLE: u64 = 2;
 const PEDESTRIAN: u64 = 3;
 const ANIMAL: u64 = 4;
 
-/// An object by its class.
+/// Kind of an object, from its class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// A vehicle, and its `VehicleClassification.Type`.
     Vehicle(u64),
-    /// Of another `MovingObject.Type`.
+    /// `MovingObject.Type` other than a vehicle.
     Mover(u64),
-    /// Of a `StationaryObject.Classification.Type`.
+    /// `StationaryObject.Classification.Type`.
     Stationary(u64),
 }
 
-/// Vehicles by the names of classes.
+/// Vehicles by class name.
 const VEHICLES: [(&str, u64); 19] = [
     ("car", 4),
     ("van", 6),
@@ -181,7 +184,7 @@ const VEHICLES: [(&str, u64); 19] = [
     ("vehicle", OTHER),
 ];
 
-/// Other things that move by themselves.
+/// Other objects that move by themselves.
 const MOVERS: [(&str, u64); 7] = [
     ("person", PEDESTRIAN),
     ("pedestrian", PEDESTRIAN),
@@ -192,7 +195,7 @@ const MOVERS: [(&str, u64); 7] = [
     ("horse", ANIMAL),
 ];
 
-/// Things that stand.
+/// Stationary objects.
 const STATIONARY: [(&str, u64); 15] = [
     ("bridge", 2),
     ("building", 3),
@@ -211,7 +214,7 @@ const STATIONARY: [(&str, u64); 15] = [
     ("wall", 11),
 ];
 
-/// Surfaces that things stand on, and the sky: OSI has lanes and markings for them, and no boxes.
+/// Surfaces that objects stand on, and the sky: OSI describes them by lanes and markings, without boxes.
 const SURFACES: [&str; 12] = [
     "road",
     "sidewalk",
@@ -228,7 +231,7 @@ const SURFACES: [&str; 12] = [
 ];
 
 impl Kind {
-    /// Of the name of a class ("-" and "_" are blanks); what no list has is another moving or another stationary object. `None` of surfaces.
+    /// Kind for a class name ("-" and "_" are blanks); a class in no list is another moving or another stationary object. `None` for surfaces.
     fn of(class: &str, moves: bool) -> Option<Self> {
         let name = class.to_lowercase().replace(['-', '_'], " ");
         let number = |list: &[(&str, u64)]| list.iter().find(|(known, _)| *known == name).map(|(_, number)| *number);
@@ -245,7 +248,7 @@ impl Kind {
         (!is_surface).then(|| Self::Stationary(number(&STATIONARY).unwrap_or(OTHER)))
     }
 
-    /// Its `MovingObject.Type`; `None` of what stands.
+    /// `MovingObject.Type`; `None` for stationary objects.
     fn moving_type(self) -> Option<u64> {
         match self {
             Self::Vehicle(_) => Some(VEHICLE),
@@ -261,13 +264,13 @@ const SECONDS_PER_DAY: i64 = 86_400;
 /// The last second of the year 9999.
 const LAST_S: f64 = 253_402_300_799.0;
 
-/// The name of a trace of `GroundTruth` that begins at a time, s from 1970.
+/// Name of a trace of `GroundTruth` that begins at a time, s from 1970.
 fn of(time_s: f64, version: [u64; 3], frames: usize, sample: u32) -> String {
     let digits = |version: [u64; 3]| version.map(|number| number.to_string()).concat();
     format!("{}_gt_{}_{}_{frames}_{sample:06}.osi", stamp(time_s), digits(version), digits(PROTOBUF))
 }
 
-/// A time, s from 1970, as ISO 8601 has it in UTC, `yyyymmddThhmmssZ`; whole seconds, those of the years 1 to 9999.
+/// A time, s from 1970, as ISO 8601 in UTC, `yyyymmddThhmmssZ`; whole seconds, of the years 1 to 9999.
 fn stamp(time_s: f64) -> String {
     let whole = time_s.floor().clamp(-62_135_596_800.0, LAST_S) as i64;
     let (days, second) = (whole.div_euclid(SECONDS_PER_DAY), whole.rem_euclid(SECONDS_PER_DAY));
@@ -279,7 +282,7 @@ fn stamp(time_s: f64) -> String {
 ///
 /// Source: Richards in Urban and Seidelmann (eds.), Explanatory Supplement to the Astronomical Almanac, 3rd edition, 2013, section 15.11.3.
 fn date(days: i64) -> [i64; 3] {
-    // The number of the Julian day at noon.
+    // Number of the Julian day at noon.
     let julian = days + 2_440_588;
     let f = julian + 1401 + (4 * julian + 274_277) / 146_097 * 3 / 4 - 38;
     let e = 4 * f + 3;
@@ -288,14 +291,14 @@ fn date(days: i64) -> [i64; 3] {
     [e / 1461 - 4716 + (14 - month) / 12, month, day]
 }
 
-/// How a field's bytes are counted.
+/// Encoding of a field's bytes.
 mod wire_type {
     pub(super) const VARINT: u64 = 0;
     pub(super) const FIXED_64: u64 = 1;
     pub(super) const LENGTH: u64 = 2;
 }
 
-/// A message that grows field by field.
+/// Message under construction, field by field.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Message(Vec<u8>);
 
@@ -305,26 +308,26 @@ impl Message {
         &self.0
     }
 
-    /// A number without a sign, or an enumeration; also a signed one, as its two's complement.
+    /// Adds an unsigned number, or an enumeration; also a signed one, as its two's complement.
     fn varint(mut self, field: u64, value: u64) -> Self {
         self.key(field, wire_type::VARINT);
         self.push(value);
         self
     }
 
-    /// A `double`.
+    /// Adds a `double`.
     fn double(mut self, field: u64, value: f64) -> Self {
         self.key(field, wire_type::FIXED_64);
         self.0.extend_from_slice(&value.to_le_bytes());
         self
     }
 
-    /// A text.
+    /// Adds a text.
     fn text(self, field: u64, text: &str) -> Self {
         self.counted(field, text.as_bytes())
     }
 
-    /// A message within the message.
+    /// Adds a nested message.
     fn message(self, field: u64, message: &Self) -> Self {
         self.counted(field, &message.0)
     }
@@ -340,7 +343,7 @@ impl Message {
         self.push(field << 3 | wire_type);
     }
 
-    /// Seven bits a byte, the lowest first; the eighth says that more follow.
+    /// Appends seven bits per byte, the lowest first; the eighth is set if more follow.
     fn push(&mut self, mut value: u64) {
         while value >= 0x80 {
             self.0.push(value as u8 | 0x80);

@@ -1,6 +1,6 @@
 //! Messages of ROS 2 in CDR (OMG, little-endian), and their definitions.
 //!
-//! Numbers are aligned to their own size, counted from behind the four bytes that say the encoding.
+//! Numbers are aligned to their own size, counted from after the four bytes that state the encoding.
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Display, Length};
@@ -15,16 +15,16 @@ pub(super) const TF_MESSAGE: &str = "tf2_msgs/msg/TFMessage";
 
 const NS: u64 = 1_000_000_000;
 
-/// When, ns, and in which frame.
+/// Time, ns, and coordinate frame of a message.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct At<'a> {
     /// Time, ns.
     pub(super) time_ns: u64,
-    /// Name of the frame of coordinates.
+    /// Name of the coordinate frame.
     pub(super) frame: &'a str,
 }
 
-/// The fields of the messages, and of those that these are made of.
+/// Fields of the messages, and of the types that they contain.
 const DEFINITIONS: [(&str, &str, &[&str]); 13] = [
     (COMPRESSED_IMAGE, "std_msgs/Header header\nstring format\nuint8[] data\n", &[HEADER, TIME]),
     (
@@ -67,7 +67,7 @@ const TRANSFORM: &str = "geometry_msgs/Transform";
 const VECTOR: &str = "geometry_msgs/Vector3";
 const QUATERNION: &str = "geometry_msgs/Quaternion";
 
-/// The definition of a message with those that it is made of, as files of ROS 2 have it.
+/// Definition of a message and of the types that it contains, in the form of ROS 2 files.
 pub(super) fn definition(name: &str) -> String {
     let of = |name: &str| DEFINITIONS.iter().find(|(known, ..)| *known == name).expect("a message that is written");
     let (_, fields, parts) = of(name);
@@ -78,11 +78,11 @@ pub(super) fn definition(name: &str) -> String {
     text
 }
 
-/// A message that grows.
+/// Message under construction.
 struct Cdr(Vec<u8>);
 
 impl Cdr {
-    /// One that begins with a header.
+    /// Starts a message with a header.
     fn with_header(at: At<'_>) -> Self {
         let mut cdr = Self(vec![0, 1, 0, 0]);
         cdr.header(at);
@@ -110,7 +110,7 @@ impl Cdr {
         values.iter().for_each(|value| self.0.extend_from_slice(&value.to_le_bytes()));
     }
 
-    /// With its length, which counts the zero at its end.
+    /// Writes a text with its length, which includes the terminating zero.
     fn text(&mut self, text: &str) {
         self.u32(text.len() as u32 + 1);
         self.0.extend_from_slice(text.as_bytes());
@@ -123,7 +123,7 @@ impl Cdr {
     }
 }
 
-/// A picture as it is encoded, by the extension of its files.
+/// Encoded image, by the extension of its file.
 pub(super) fn compressed_image(at: At<'_>, extension: &str, picture: &[u8]) -> Vec<u8> {
     let mut cdr = Cdr::with_header(at);
     cdr.text(if extension == "jpg" { "jpeg" } else { extension });
@@ -145,13 +145,13 @@ pub(super) fn depth_image(at: At<'_>, depth: &Plane<Length>) -> Vec<u8> {
     cdr.0
 }
 
-/// Bytes of a point: three coordinates and a colour.
+/// Bytes per point: three coordinates and a colour.
 const POINT_BYTES: usize = 16;
-/// The number of 32-bit floats among the types of fields.
+/// Type code of 32-bit floats.
 const FLOAT32: u8 = 7;
 
-/// The points that a camera without distortion (fx, skew, cx, fy, cy in raster coordinates) sees through the middles of its pixels, in its frame, m, row by row with their
-/// colours (red, green, blue from 0 to 1, as a display shows them); where there is no depth, no number.
+/// Points that a camera without distortion (fx, skew, cx, fy, cy in raster coordinates) sees through its pixel centres, in its frame, m, row by row with their
+/// colours (red, green, blue from 0 to 1, display-referred); NaN where there is no depth.
 pub(super) fn point_cloud(
     at: At<'_>,
     depth: &Plane<Length>,
@@ -179,7 +179,7 @@ pub(super) fn point_cloud(
         let x = (u - cx - skew * y) / fx;
         let point = if z.is_finite() { [x, y, 1.0].map(|n| (n * f64::from(*z)) as f32) } else { [f32::NAN; 3] };
         point.iter().for_each(|n| points.extend_from_slice(&n.to_le_bytes()));
-        // As the Point Cloud Library packs it: blue in the lowest byte.
+        // Packed as in the Point Cloud Library: blue in the lowest byte.
         let [red, green, blue] = colour.map(|c| (255.0 * c.clamp(0.0, 1.0)).round() as u8);
         points.extend_from_slice(&[blue, green, red, 0]);
     }
@@ -188,9 +188,9 @@ pub(super) fn point_cloud(
     cdr.0
 }
 
-/// A camera without distortion, of this size, px, and fx, skew, cx, fy, cy in raster coordinates.
+/// Camera without distortion, of this size, px, and fx, skew, cx, fy, cy in raster coordinates.
 pub(super) fn camera_info(at: At<'_>, width: usize, height: usize, [fx, skew, cx, fy, cy]: [f64; 5]) -> Vec<u8> {
-    // ROS counts pixel centres as whole numbers.
+    // ROS has pixel centres at whole numbers.
     let (cx, cy) = (cx - 0.5, cy - 0.5);
     let mut cdr = Cdr::with_header(at);
     cdr.u32(height as u32);
@@ -201,13 +201,13 @@ pub(super) fn camera_info(at: At<'_>, width: usize, height: usize, [fx, skew, cx
     cdr.f64s(&[fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]);
     cdr.f64s(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
     cdr.f64s(&[fx, skew, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]);
-    // Binning, and a region of interest, that are not there.
+    // No binning and no region of interest.
     (0..6).for_each(|_| cdr.u32(0));
     cdr.0.push(0);
     cdr.0
 }
 
-/// From the world to a camera.
+/// Transform from the world to a camera.
 pub(super) fn transform(camera: At<'_>, pose: &Pose) -> Vec<u8> {
     let [w, x, y, z] = pose.rotation_wxyz;
     let mut cdr = Cdr(vec![0, 1, 0, 0]);

@@ -1,7 +1,8 @@
-//! WebDataset (Aizman et al. 2019): shards in tar, `webdataset/SPLIT-NNNNNN.tar`, of `shard_samples` samples each by their numbers.
+//! WebDataset (Aizman et al. 2019): shards in tar, `webdataset/SPLIT-NNNNNN.tar`, of `shard_samples` samples each, in order.
 //!
-//! Of each picture four members with one stem: the picture, `.json` (its record: camera, pose, boxes, masks), `.instance.png` (identities of the ground truth, 16 bits), `.depth.npy` (32-bit floats, m; +∞ the sky, NaN where there is
-//! none). A sample is first a part in `webdataset/parts`; shards that are complete take their parts' place, others keep them for a run that goes on.
+//! Each image has four members with one stem: the image, `.json` (its record: camera, pose, boxes, masks), `.instance.png` (identities of the ground truth, 16
+//! bits), `.depth.npy` (32-bit floats, m; +∞ for sky, NaN where there is none). A sample is first a part in `webdataset/parts`; a complete shard replaces its
+//! parts, others keep them for a resumed run.
 //!
 //! Archives of files in memory: POSIX ustar (IEEE 1003.1-1988), without owners and times, so that the same files give the same bytes.
 
@@ -20,28 +21,28 @@ use crate::{draw::Split, picture::Picture, record::SampleRecord, set::Set};
 
 pub(super) struct WebDataset {
     shard_samples: u32,
-    /// The files of the sample that is being made.
+    /// Files of the current sample.
     part: RefCell<Vec<u8>>,
-    /// Of the shard that was asked for last.
+    /// Layout of the last requested shard.
     layout: RefCell<Option<ShardLayout>>,
 }
 
-/// Where the parts of samples are in the files of a shard, by their records.
+/// Places of the samples' parts in a shard, from their records.
 struct ShardLayout {
     shard: u32,
-    /// By sample.
+    /// Offset by sample.
     starts: BTreeMap<u32, u64>,
     /// Bytes of all parts.
     lengths: BTreeMap<Split, u64>,
 }
 
-/// Samples of a shard that have parts, by split and the shard's number.
+/// Samples of a shard with parts, by split and the shard's number.
 type Shards = BTreeMap<(Split, u32), Vec<u32>>;
 
 impl WebDataset {
     pub(super) fn of(set: &Set) -> Self {
         let stated = set.variations.as_ref().and_then(|variations| variations.shard_samples.as_ref());
-        // A million at most.
+        // At most a million.
         Self {
             shard_samples: stated.map_or(1000, |count| count.value as u32),
             part: RefCell::default(),
@@ -58,7 +59,7 @@ impl WebDataset {
         Ok(shards)
     }
 
-    /// A shard whose records cannot be read has parts nowhere.
+    /// A shard with unreadable records has no parts.
     fn shard_layout(&self, records: &Records, shard: u32) -> ShardLayout {
         let (mut starts, mut lengths) = (BTreeMap::new(), BTreeMap::new());
         for sample in records.numbers().iter().filter(|sample| **sample / self.shard_samples == shard) {
@@ -70,7 +71,7 @@ impl WebDataset {
         ShardLayout { shard, starts, lengths }
     }
 
-    /// Whether all samples of a shard's numbers are there.
+    /// Returns true if all samples of a shard are present.
     fn is_complete(&self, records: &Records, shard: u32) -> bool {
         let count = records.numbers().iter().filter(|sample| **sample / self.shard_samples == shard).count();
         count == self.shard_samples as usize
@@ -86,7 +87,7 @@ fn parts(folder: &OutputFolder, samples: &[u32]) -> Vec<PathBuf> {
 }
 
 impl Writer for WebDataset {
-    /// A shard that is complete has no parts: its samples are made anew together.
+    /// A complete shard has no parts: its samples must be rendered again together.
     fn check_replaced(&self, records: &Records, samples: &Range<u32>, folder: &OutputFolder) -> Result<(), Error> {
         let shard = |sample: u32| sample / self.shard_samples;
         let lost = |sample: &&u32| !samples.contains(sample) && !folder.path().join(part(**sample)).exists();
@@ -105,7 +106,7 @@ impl Writer for WebDataset {
         ).with_code(ErrorCode::OtherRun))
     }
 
-    /// A part is a piece of the shard that has taken its place.
+    /// A part is a section of the shard that has replaced it.
     fn holds(&self, name: &str, record: &SampleRecord, records: &Records, root: &Path) -> bool {
         let Some(digest) = record.files.get(name).filter(|_| name == part(record.sample)) else { return false };
         let shard = record.sample / self.shard_samples;
@@ -152,7 +153,7 @@ impl Writer for WebDataset {
     fn finish(&self, _set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
         for ((split, shard), samples) in self.shards(records)? {
             let parts = parts(folder, &samples);
-            // A shard that was complete has taken its parts' place.
+            // A complete shard has replaced its parts.
             let name = format!("webdataset/{}-{shard:06}.tar", split.name());
             let is_made = self.is_complete(records, shard) && parts.iter().all(|part| !part.exists());
             if is_made && folder.path().join(&name).exists() {
@@ -188,7 +189,7 @@ fn identities(ids: &Plane<Identity>) -> Result<Vec<u8>, String> {
     encode_grey16(ids.width(), ids.height(), &narrow).map_err(|error| error.to_string())
 }
 
-/// NumPy's format 1.0: a head that ends at a multiple of 64 bytes, and the numbers in little-endian order, row by row.
+/// NumPy's format 1.0: a header that ends at a multiple of 64 bytes, and the numbers in little-endian order, row by row.
 fn npy(plane: &Plane<Length>) -> Vec<u8> {
     let (height, width) = (plane.height(), plane.width());
     let facts = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({height}, {width}), }}");
@@ -200,9 +201,9 @@ fn npy(plane: &Plane<Length>) -> Vec<u8> {
     bytes
 }
 
-/// Bytes of a block.
+/// Bytes per block.
 const BLOCK: usize = 512;
-/// What an archive ends with: two empty blocks.
+/// End of an archive: two empty blocks.
 const END: [u8; 2 * BLOCK] = [0; 2 * BLOCK];
 /// Longest name, bytes.
 const MAX_NAME: usize = 100;
@@ -210,7 +211,7 @@ const MAX_NAME: usize = 100;
 /// Adds a file; an archive is files and [`END`].
 ///
 /// # Panics
-/// Where the name is longer than 100 bytes.
+/// If the name is longer than 100 bytes.
 pub(crate) fn add(archive: &mut Vec<u8>, name: &str, bytes: &[u8]) {
     assert!(name.len() <= MAX_NAME, "a name of at most {MAX_NAME} bytes: {name}");
     let mut head = [0; BLOCK];
@@ -220,7 +221,7 @@ pub(crate) fn add(archive: &mut Vec<u8>, name: &str, bytes: &[u8]) {
     put(&mut head, 116, b"0000000\0");
     put(&mut head, 124, format!("{:011o}\0", bytes.len()).as_bytes());
     put(&mut head, 136, b"00000000000\0");
-    // The checksum is that of the head with blanks in its place.
+    // The checksum is that of the header with blanks in its place.
     put(&mut head, 148, b"        ");
     put(&mut head, 156, b"0");
     put(&mut head, 257, b"ustar\x0000");

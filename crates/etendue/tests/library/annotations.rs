@@ -8,7 +8,7 @@ use std::path::Path;
 const CAMERA: &str = "lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 8 }\n\
                       sensor = { width_px = 32, height_px = 24, pixel_pitch_um = 100 }\n";
 
-/// Two cameras side by side that go to the left at 3 m/s, before a wall in 10 m.
+/// Two cameras side by side that move to the left at 3 m/s, in front of a wall at 10 m.
 fn job(left: &str, sequence: &str) -> String {
     let camera = |name: &str, y: f64, more: &str| {
         let key =
@@ -52,7 +52,7 @@ fn everything_that_is_asked_for_is_written_and_right() {
     let named = job.file_names(&(0..2));
     assert!(named.iter().all(|name| folder.path().join(name).is_file()), "{named:?}");
     let at = |file: &str| folder.path().join("left").join(file);
-    // f v T / z = 60 px · 0.3 m / 10 m; positions are kept to 32 bits.
+    // f v T / z = 60 px · 0.3 m / 10 m; positions are stored in 32 bits.
     let flo = std::fs::read(at("flow_forward.0000.flo")).expect("flow");
     let flow = decode_flo(Path::new("flow"), &flo).expect(".flo");
     assert!(flow.samples().iter().all(|[u, v]| (u - 1.8).abs() < 1e-5 && v.abs() < 1e-5), "{:?}", flow.at(3, 3));

@@ -1,4 +1,4 @@
-//! The keys by which a plan says that its effects are left out: each is tried on the jobs that ship.
+//! Tests the keys that a plan names for disabling an effect: each is tried on the supplied jobs.
 
 use etendue_io::{Sandbox, TextureMemory, complete_assets};
 use etendue_pipeline::report::effects::PlannedEffect;
@@ -9,11 +9,11 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Jobs that are others at another hour or in other weather.
+/// Jobs that equal others except for time of day or weather.
 const LIKE_OTHERS: [&str; 9] =
     ["sunset", "wet-night", "light-rain", "snow", "puddles", "night-fog", "spray", "streaks", "pupil"];
 
-/// The jobs of the repository, each of its own kind.
+/// Jobs of the repository, one of each kind.
 fn jobs() -> Vec<PathBuf> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let within = |folder: PathBuf| std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("readable").path());
@@ -28,7 +28,7 @@ fn jobs() -> Vec<PathBuf> {
     jobs
 }
 
-/// The plan of a job under changes; the assets that it needs are added to those that are known.
+/// Plan of a job under changes; the assets that it needs are added to the known ones.
 fn plan(job: &Path, set: &[String], assets: &mut Assets) -> Result<Plan, String> {
     let told = |errors: Vec<String>| errors.join("\n");
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
@@ -40,24 +40,24 @@ fn plan(job: &Path, set: &[String], assets: &mut Assets) -> Result<Plan, String>
         .map_err(|faults| told(faults.iter().map(ToString::to_string).collect()))
 }
 
-/// What the plan of a job says of an effect after leaving it out.
+/// Status of an effect in the plan of a job after disabling it.
 fn status(plan: &Plan, camera: usize, name: &str) -> PlannedEffect {
     let effects = plan.effects(&plan.cameras[camera]);
     effects.into_iter().find(|effect| effect.name == name).expect("every plan lists all effects")
 }
 
-/// One trial: a camera of a job and an effect of it with the changes that leave it out.
+/// Trial: a camera of a job and an effect of it with the changes that disable it.
 struct Trial<'j> {
     job: &'j Path,
     camera: usize,
     name: &'static str,
     set: Vec<String>,
-    /// Triangles that are stored: what a trial takes.
+    /// Stored triangles: the cost of a trial.
     weight: usize,
 }
 
 impl Trial<'_> {
-    /// What is tried: the effect, and the keys without cameras and values.
+    /// Kind of the trial: the effect, and the keys without cameras and values.
     fn kind(&self) -> (&'static str, Vec<String>) {
         let key = |set: &String| {
             let key = set.split_once('=').map_or(set.as_str(), |(key, _)| key);
@@ -67,7 +67,7 @@ impl Trial<'_> {
         (self.name, self.set.iter().map(key).collect())
     }
 
-    /// Why it failed; nothing where the effect is skipped.
+    /// Reason of a failure; `None` if the effect is skipped.
     fn failure(&self) -> Option<String> {
         let told = |why: &str| format!("{}: {} by {:?}: {why}", self.job.display(), self.name, self.set);
         match plan(self.job, &self.set, &mut Assets::default()) {
@@ -90,7 +90,7 @@ fn trials(job: &Path) -> Vec<Trial<'_>> {
     whole.cameras.iter().enumerate().flat_map(of).collect()
 }
 
-/// Each kind of a change once, in the job that takes least.
+/// Each kind of change once, in the cheapest job.
 #[test]
 fn an_effect_that_is_dropped_by_its_keys_is_skipped() {
     let jobs = jobs();

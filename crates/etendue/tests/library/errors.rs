@@ -1,4 +1,5 @@
-//! Errors of jobs and runs: their place, and a panic on a worker thread, here of the caller's observer: no file is half-written, what is whole is told and kept, and a run that resumes ends as if nothing had been.
+//! Errors of jobs and runs: their place, and a panic on a worker thread, here of the caller's observer: no file is incomplete, complete ones are reported and
+//! kept, and a resumed run ends as an uninterrupted one.
 
 use etendue::{
     Error, Existing, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions, Unobserved,
@@ -8,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Mutex;
 
-/// A ball that moves, seen in frames of four tiles.
+/// Moving ball, in frames of four tiles.
 const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 10\n\
     [[cameras]]\nname = \"front\"\nposition_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\n\
     lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 4 }\nsensor = { width_px = 32, height_px = 32, pixel_pitch_um = 100 }\n\
@@ -18,7 +19,7 @@ const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 10\n\
     [[scene.objects]]\nname = \"ball\"\nmaterial = \"grey\"\nshape = { type = \"sphere\", radius_m = 0.5 }\n\
     keys = [{ time_s = 0, position_m = [3, 0, 0] }, { time_s = 1, position_m = [3, 1, 0] }]\n";
 
-/// Panics when this many tiles are done, and remembers what it was told.
+/// Panics when this many tiles are done, and records its messages.
 struct Faulty {
     tiles: usize,
     told: Mutex<Vec<String>>,
@@ -46,7 +47,7 @@ fn options() -> RenderOptions {
     RenderOptions { frames: 0..3, ..RenderOptions::default() }
 }
 
-/// Files of a folder and of folders in it.
+/// Files of a folder and its subfolders.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -64,7 +65,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// Renders until the observer panics at a tile; what was told.
+/// Renders until the observer panics at a tile; returns its messages.
 fn panicked(job: &Job, folder: &Path, tiles: usize) -> String {
     let observer = Faulty { tiles, told: Mutex::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
@@ -80,7 +81,7 @@ fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
     let whole = place.path().join("whole");
     job(false).save(&options(), &whole, Existing::Refuse, &Unobserved).expect("rendered");
     let expected = files(&whole);
-    // In the first frame: nothing is left, not even the folder.
+    // In the first frame: nothing remains, not even the folder.
     let out = place.path().join("out");
     let told = panicked(&job(false), &out, 2);
     assert!(told.ends_with("nothing of this run was kept") && !out.exists(), "{told}");
@@ -105,7 +106,7 @@ fn a_panic_between_passes_leaves_the_light_of_the_last() {
     assert!(files(&out) == files(&whole));
 }
 
-/// The folder is free again, also within the process.
+/// The folder is unlocked again, also within the process.
 #[test]
 fn jobs_of_one_process_take_turns_in_a_folder() {
     let place = tempfile::tempdir().expect("a folder");
@@ -132,7 +133,7 @@ fn a_missing_file_is_a_fault_of_the_key_that_names_it() {
     assert_eq!(fault.key.as_deref(), Some("scene.meshes.m.file"));
 }
 
-/// The program calls it `--time` (`crates/cli/tests/binary/progressive.rs`), Python `time_s`.
+/// The program names it `--time` (`crates/cli/tests/binary/progressive.rs`), Python `time_s`.
 #[test]
 fn a_time_that_is_too_short_is_told_by_its_field() {
     let Err(Error::Input(faults)) = JobRequest { time_s: Some(3.0), ..JobRequest::new("job.toml") }.open() else {

@@ -1,4 +1,4 @@
-//! The examples run, and give what their heads promise.
+//! Runs the examples and checks their documented results.
 
 #[path = "../../examples/another_lens.rs"]
 #[allow(dead_code)]
@@ -38,7 +38,7 @@ fn another_lens_photographs_stored_radiance() {
 #[test]
 fn electrons_grow_with_the_area_of_pixels() {
     let electrons = own_camera::run(&[4.0, 8.0]).unwrap_or_else(|error| panic!("{error}"));
-    // Even light: four times the area; 64 samples of a furnace leave well under a percent.
+    // Uniform illumination: four times the area; 64 samples of a furnace have an error well below a percent.
     let ratio = electrons[1] / electrons[0];
     assert!((ratio / 4.0 - 1.0).abs() < 0.01, "{electrons:?}");
 }
@@ -60,7 +60,7 @@ fn a_chart_gives_the_distortion_that_the_camera_declares() {
 fn a_sheet_from_arrays_has_the_depth_of_its_folds() {
     let depth = scene_from_arrays::run().unwrap_or_else(|error| panic!("{error}"));
     let seen: Vec<f32> = depth.into_iter().filter(|d| d.is_finite()).collect();
-    // 5 m less 0 … 0.2 m: vertices lie on feet and ridges, so facets are exact but for roundings of f32.
+    // 5 m minus 0 … 0.2 m: vertices lie on lower edges and ridges, so facets are exact except for roundings of f32.
     assert!(seen.iter().all(|d| (4.799..=5.001).contains(d)), "{seen:?}");
     assert!(seen.iter().any(|d| *d < 4.81) && seen.iter().any(|d| *d > 4.99), "{seen:?}");
 }

@@ -1,4 +1,4 @@
-//! Jobs that begin far from the time 0: they have the same light as near it, and keep all digits of every time.
+//! Jobs that begin far from the time 0: they have the same light as near it, and keep the full precision of every time.
 
 use etendue::{Existing, JobRequest, MemoryFiles, RenderOptions, Unobserved};
 use etendue_io::exr::read_exr;

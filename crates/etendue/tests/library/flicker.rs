@@ -1,10 +1,10 @@
-//! Flicker of frames that stand beside their side-car: times need not be said again.
+//! Flicker of frames with a side-car: timing need not be stated again.
 
 use etendue::measure::{FlickerRequest, flicker};
 use etendue::{Existing, JobRequest, MemoryFiles, RenderOptions, Unobserved};
 use std::path::{Path, PathBuf};
 
-/// A lamp on mains of 50 Hz fills the picture; rows of 250 µs, 25 frames a second.
+/// A lamp on mains of 50 Hz fills the image; rows of 250 µs, 25 frames per second.
 const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 25\n\
     [[cameras]]\nname = \"eye\"\nposition_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\n\
     lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 4 }\n\
@@ -37,7 +37,7 @@ fn times_are_those_of_the_side_car() {
     let folder = tempfile::tempdir().expect("a folder");
     let frames = frames(folder.path(), &[0, 1, 2, 3]);
     let (frequency_hz, depth, notes) = told(&FlickerRequest::new(frames.clone()));
-    // Shot noise of ten thousand electrons a pixel, 24 pixels a row, 480 rows: far below.
+    // Shot noise of ten thousand electrons per pixel, 24 pixels per row, 480 rows: far below.
     assert!((frequency_hz - 100.0).abs() < 0.1 && (depth - 0.6).abs() < 0.01, "{frequency_hz} Hz, {depth}");
     let taken = "row time 250 µs, frame rate 25 Hz, exposure 2000 µs";
     assert!(notes.iter().any(|note| note.contains("camera.json") && note.contains(taken)), "{notes:?}");

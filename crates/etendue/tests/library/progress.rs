@@ -1,9 +1,9 @@
-//! Progress is that of the whole run.
+//! Tests that progress covers the whole run.
 
 use etendue::{Existing, JobRequest, MemoryFiles, Observer, Progress, RenderOptions};
 use std::sync::Mutex;
 
-/// Two cameras of different sizes before a ball that moves, of which one sees four tiles and the other one.
+/// Two cameras of different sizes in front of a moving ball: one has four tiles, the other one.
 const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 10\n\
     [[cameras]]\nname = \"wide\"\nposition_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\n\
     lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 4 }\nsensor = { width_px = 32, height_px = 32, pixel_pitch_um = 100 }\n\
@@ -15,7 +15,7 @@ const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 10\n\
     [[scene.objects]]\nname = \"ball\"\nmaterial = \"grey\"\nshape = { type = \"sphere\", radius_m = 0.5 }\n\
     keys = [{ time_s = 0, position_m = [3, 0, 0] }, { time_s = 1, position_m = [3, 1, 0] }]\n";
 
-/// Heading, the frame's number, place and count, what is done and of how much.
+/// Heading, the frame's number, place and count, number done and total.
 type Told = (String, Option<(u32, u32, u32)>, usize, usize);
 
 #[derive(Default)]
@@ -42,7 +42,7 @@ fn watched(existing: Existing, folder: &std::path::Path) -> Vec<Told> {
 fn tiles_of_all_cameras_and_frames_are_counted_together() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut told = watched(Existing::Refuse, folder.path());
-    // Threads may tell in another order than they count.
+    // Threads may report in another order than they count.
     told.sort_by_key(|(_, _, done, _)| *done);
     let done: Vec<usize> = told.iter().map(|(_, _, done, _)| *done).collect();
     assert_eq!(done, (1..=15).collect::<Vec<_>>(), "3 frames of 4 and of 1 tiles");

@@ -1,4 +1,4 @@
-//! Calibration files of a rig, read by formulas of their own and held against the program's projection.
+//! Calibration files of a rig, read by independent formulas and compared with the program's projection.
 
 use etendue::{Existing, Job, Unobserved};
 use etendue_core::maths::f64::{atan2, cos, sin};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Coordinates of some thousand m and px in f64: the world's rounding of 1e-12 m is 1e-10 px.
 const TOLERANCE_PX: f64 = 1e-6;
 
-/// Where the car is at 0 s: its place, m, and its yaw, degrees.
+/// Pose of the car at 0 s: position, m, and yaw, degrees.
 const CAR_M: [f64; 3] = [1000.0, -2000.0, 3.0];
 const CAR_YAW_DEG: f64 = 30.0;
 
@@ -27,14 +27,14 @@ fn written(job: &Job, folder: &Path) -> impl Fn(&str) -> String {
     move |name| std::fs::read_to_string(root.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Points of the world before a camera at 0 s, by its own axes.
+/// Points of the world in front of a camera at 0 s, by its own axes.
 fn points(job: &Job, name: &str) -> Vec<DVec3> {
     let pose = job.plan().camera(name).expect("a camera").path.at(0.0);
     let places = [[0.0, 0.0, 5.0], [1.2, -0.8, 4.0], [-1.5, 0.9, 6.0], [2.0, 1.5, 9.0], [-0.3, -1.1, 3.0]];
     places.into_iter().map(|place| pose.position_m + pose.rotation * DVec3::from_array(place)).collect()
 }
 
-/// Where the program sees a point of the world, raster px.
+/// Reference: the program's image of a point of the world, raster px.
 fn truth(job: &Job, name: &str, time_s: f64, point_m: DVec3) -> DVec2 {
     let camera = job.plan().camera(name).expect("a camera");
     let seen = camera.body.lens.project(camera.path.at(time_s).point_to_camera(point_m)).expect("in the field");
@@ -52,7 +52,7 @@ fn list(text: &str, word: &str) -> Vec<f64> {
         .collect()
 }
 
-/// OpenCV's image of a point of the camera frame, by a matrix of its own pixel centres at whole numbers.
+/// OpenCV's image of a point of the camera frame, with a matrix whose pixel centres are at whole numbers.
 fn seen([fx, fy, cx, cy]: [f64; 4], model: &str, k: &[f64], point: DVec3) -> DVec2 {
     let at = |i: usize| k.get(i).copied().unwrap_or(0.0);
     let (x, y) = (point.x / point.z, point.y / point.z);
@@ -104,7 +104,7 @@ fn assert_near(found: DVec2, expected: DVec2, told: &str) {
     assert!((found - expected).length() < TOLERANCE_PX, "{told}: {found} for {expected}");
 }
 
-/// From the car's frame to the camera's, of `static_transforms.yaml`: the inverse of its rotation and translation.
+/// Transforms a point from the car's frame to the camera's, by `static_transforms.yaml`: the inverse of its rotation and translation.
 fn into_camera(transforms: &str, name: &str, point_m: DVec3) -> DVec3 {
     let entry = &transforms[transforms.find(&format!("\"{name}_optical_frame\"")).expect("the camera")..];
     let number = |part: &str, key: &str| -> f64 {
@@ -117,7 +117,7 @@ fn into_camera(transforms: &str, name: &str, point_m: DVec3) -> DVec3 {
     turn.transpose() * (point_m - place)
 }
 
-/// A point of the world in the car's frame at 0 s.
+/// Transforms a point of the world to the car's frame at 0 s.
 fn in_car(point_m: DVec3) -> DVec3 {
     let (sin, cos) = (sin(CAR_YAW_DEG.to_radians()), cos(CAR_YAW_DEG.to_radians()));
     let [x, y, z] = (point_m - DVec3::from_array(CAR_M)).to_array();
@@ -168,7 +168,7 @@ fn the_projection_matrix_of_a_pair_holds_its_base() {
     }
 }
 
-/// Points go from camera to camera by T_cn_cnm1, and from the car by T_cam_imu.
+/// Points are transformed from camera to camera by T_cn_cnm1, and from the car by T_cam_imu.
 #[test]
 fn a_chain_takes_points_from_camera_to_camera() {
     let (job, folder) = (job(), tempfile::tempdir().expect("a folder"));
@@ -200,7 +200,7 @@ fn a_chain_takes_points_from_camera_to_camera() {
             }
         }
     }
-    // Five coefficients are one too many; a camera that moves in the world is fixed to nothing.
+    // Five coefficients are one too many; a camera that moves in the world is rigidly connected to nothing.
     assert!(chain.contains("# left out: camera five: Kalibr has no perspective model of as many"), "{chain}");
     assert!(chain.contains("camera globe: Kalibr has no model for its projection"), "{chain}");
     assert!(!folder.path().join("calibration/kalibr/camchain-walker.yaml").exists());
@@ -230,7 +230,7 @@ fn colmap_s_model_sees_what_the_program_sees_in_every_frame() {
         assert!(numbers[0] >= 0.0, "w of the quaternion");
         let turn = rotation([numbers[0], numbers[1], numbers[2], numbers[3]]);
         let shift = DVec3::new(numbers[4], numbers[5], numbers[6]);
-        // OpenCV has k3 behind the tangential terms.
+        // OpenCV has k3 after the tangential terms.
         let [fx, fy, cx, cy, ref k @ ..] = parameters[..] else { panic!("{parameters:?}") };
         for point in points(&job, name) {
             let expected = truth(&job, name, 0.1 * frame as f64, point);
@@ -250,7 +250,7 @@ fn table(value: &Value) -> Vec<(DVec3, DVec2)> {
     pairs.map(|(p, px)| (DVec3::from_slice(&numbers(&p)), DVec2::from_slice(&numbers(&px)))).collect()
 }
 
-/// A point of the car's frame at 0 s in the world.
+/// Transforms a point of the car's frame at 0 s to the world.
 fn of_car(point_m: DVec3) -> DVec3 {
     let (sin, cos) = (sin(CAR_YAW_DEG.to_radians()), cos(CAR_YAW_DEG.to_radians()));
     DVec3::new(cos * point_m.x - sin * point_m.y, sin * point_m.x + cos * point_m.y, point_m.z)

@@ -1,11 +1,11 @@
-//! Parameters of an element, by name.
+//! Access to the parameters of an element by name.
 
 use etendue_io::Error;
 use glam::DVec3;
 
 use crate::syntax::mitsuba::MitsubaElement;
 
-/// Numbers between commas and spaces.
+/// Numbers separated by commas and spaces.
 pub(super) fn numbers_of(text: &str) -> Result<Vec<f64>, String> {
     let words = text.split(|c: char| c == ',' || c.is_ascii_whitespace()).filter(|word| !word.is_empty());
     words.map(number_of).collect()
@@ -21,13 +21,13 @@ pub(super) fn number_of(word: &str) -> Result<f64, String> {
     }
 }
 
-/// The number of an attribute, or `default`.
+/// Number of an attribute, or `default`.
 pub(super) fn attribute_number(element: &MitsubaElement, name: &str, default: f64) -> Result<f64, Error> {
     let number = element.attribute(name).map(number_of).transpose().map_err(|told| element.fault(told))?;
     Ok(number.unwrap_or(default))
 }
 
-/// What an element says by x, y and z, of which each may be left out, or by one value of three numbers or one.
+/// Three numbers of an element: attributes x, y and z, each optional, or one value of three numbers or one.
 pub(super) fn triple_of(element: &MitsubaElement, default: f64) -> Result<DVec3, Error> {
     let Some(value) = element.attribute("value") else {
         let [x, y, z] = ["x", "y", "z"].map(|name| attribute_number(element, name, default));
@@ -47,7 +47,7 @@ pub(super) fn find<'a>(element: &'a MitsubaElement, name: &str) -> Option<&'a Mi
     Some(found)
 }
 
-/// Its value as a text.
+/// Value of a parameter as text.
 fn value<'a>(parameter: &'a MitsubaElement, tags: &[&str]) -> Result<&'a str, Error> {
     match parameter.attribute("value") {
         Some(value) if tags.contains(&parameter.tag) => Ok(value),
@@ -58,7 +58,7 @@ fn value<'a>(parameter: &'a MitsubaElement, tags: &[&str]) -> Result<&'a str, Er
     }
 }
 
-/// The number of a parameter; `None` where it is not there.
+/// Number of a parameter; `None` if it is absent.
 pub(super) fn stated(element: &MitsubaElement, name: &str) -> Result<Option<f64>, Error> {
     let Some(parameter) = find(element, name) else { return Ok(None) };
     let text = value(parameter, &["float", "integer"])?;
@@ -75,7 +75,7 @@ pub(super) fn text<'a>(element: &'a MitsubaElement, name: &str) -> Result<Option
     find(element, name).map(|parameter| value(parameter, &["string"])).transpose()
 }
 
-/// The truth of a parameter, or `default`.
+/// Boolean of a parameter, or `default`.
 pub(super) fn flag(element: &MitsubaElement, name: &str, default: bool) -> Result<bool, Error> {
     let Some(parameter) = find(element, name) else { return Ok(default) };
     match value(parameter, &["boolean"])?.to_ascii_lowercase().as_str() {
@@ -94,7 +94,7 @@ pub(super) fn vector(element: &MitsubaElement, name: &str, default: DVec3) -> Re
     }
 }
 
-/// The elements of one kind within another.
+/// Child elements of one kind.
 pub(super) fn all<'a>(element: &'a MitsubaElement, tag: &'static str) -> impl Iterator<Item = &'a MitsubaElement> {
     element.children.iter().filter(move |child| child.tag == tag).inspect(|child| child.used.set(true))
 }

@@ -1,4 +1,4 @@
-//! Surfaces, Disney's principled one (approximately) among them.
+//! Surfaces, including an approximation of Disney's principled one.
 
 use std::rc::Rc;
 
@@ -15,9 +15,9 @@ use super::{access::text, transform::Use, value::Value};
 use crate::scenery::{INTERFACE, KnownTexture, grey, plain};
 use crate::syntax::mitsuba::MitsubaElement;
 
-/// What a surface of the file becomes.
+/// Result of the conversion of a surface.
 pub(super) struct Made {
-    /// `None` of one that is not seen.
+    /// `None` for an invisible surface.
     pub(super) surface: Option<Surface>,
     pub(super) opacity: Option<Factor>,
     pub(super) normal_map: Option<NormalMap>,
@@ -30,7 +30,7 @@ impl From<Surface> for Made {
 }
 
 impl<'a> Importer<'a> {
-    /// The material of ours that a `<bsdf>` is; its name.
+    /// Converts a `<bsdf>` to one of our materials; returns its name.
     pub(super) fn bsdf(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Rc<str>, Error> {
         if let Some(known) = self.surfaces.get(&element.number) {
             return Ok(known.clone());
@@ -71,7 +71,7 @@ impl<'a> Importer<'a> {
 
     fn model(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
         let kind = element.kind();
-        // What stands within says it, or both sides are alike.
+        // The nested surface decides it, or both sides are equal.
         if !matches!(
             kind,
             "twosided"
@@ -137,7 +137,7 @@ impl<'a> Importer<'a> {
         })
     }
 
-    /// The one surface within another.
+    /// Converts the only nested surface.
     fn only(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
         match self.within(element, "bsdf")?[..] {
             [inner] => self.made(inner, depth + 1),
@@ -183,7 +183,7 @@ impl<'a> Importer<'a> {
         let [first, second] = [self.part(a, depth)?, self.part(b, depth)?];
         match (first, second, weight) {
             (None, None, _) => Ok(Made { surface: None, opacity: None, normal_map: None }),
-            // A blend with what is not seen is a surface of which a share is there.
+            // A blend with an invisible surface is a partly transparent surface.
             (Some(_), None, Factor::Number(w)) => {
                 Ok(Made { opacity: share(1.0 - w.value), ..self.made(a, depth + 1)? })
             }
@@ -197,7 +197,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// The name of a part of a blend, which has no opacity of its own.
+    /// Name of a part of a blend, which has no opacity of its own.
     fn part(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Option<Rc<str>>, Error> {
         let name = self.bsdf(element, depth + 1)?;
         let materials = &self.scenery.scene.materials;
@@ -215,7 +215,7 @@ impl<'a> Importer<'a> {
         Ok(Some(own.as_str().into()))
     }
 
-    /// α of a surface that is alike in all directions.
+    /// α of an isotropic surface.
     pub(super) fn alpha(&mut self, element: &'a MitsubaElement) -> Result<Factor, Error> {
         let (both, u) = (self.factor(element, "alpha", 0.1)?, self.value(element, "alpha_u")?.is_some());
         if !u {
@@ -232,7 +232,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// Whether facets are distributed after Beckmann, as where nothing is said.
+    /// Returns true for the Beckmann distribution, the default.
     fn is_beckmann(element: &'a MitsubaElement) -> Result<bool, Error> {
         match text(element, "distribution")?.unwrap_or("beckmann") {
             "ggx" => Ok(false),
@@ -241,7 +241,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// Notes slopes that a surface of ours does not have.
+    /// Notes a slope distribution that our surfaces do not support.
     pub(super) fn note_slopes(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
         if Self::is_beckmann(element)? {
             let told =
@@ -273,7 +273,7 @@ impl<'a> Importer<'a> {
         let named = text(element, "material")?;
         let is_mirror = !has_index && named.is_none_or(|name| name == "none");
         if is_mirror && grey(tint) == Some(1.0) {
-            // Fresnel's formula gives 1 − 4·10⁻⁷ and more.
+            // Fresnel's formula gives at least 1 − 4·10⁻⁷.
             return Ok(self.scenery.index_file(|_| 1e-3, |_| 100.0));
         }
         if is_mirror {
@@ -298,14 +298,15 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// The index that reflects as a "specular" of this at normal incidence: 0.5 is 1.5.
+/// Refractive index with the reflectance at normal incidence of this "specular": 0.5 gives 1.5.
 fn index_of(specular: f64) -> f64 {
     let root = (0.08 * specular.clamp(0.0, 1.0)).sqrt();
     (1.0 + root) / (1.0 - root)
 }
 
 impl<'a> Importer<'a> {
-    /// As glTF's surfaces: no metal is coated, a metal has the index that reflects its colour, between is a mix; what lets most light through is glass.
+    /// Converted like glTF's surfaces: dielectrics are coated, a metal has the index that reflects its colour, values between give a mix; surfaces that
+    /// transmit most light are glass.
     fn principled(&mut self, element: &'a MitsubaElement) -> Result<Surface, Error> {
         self.scenery.report.note(
             "a \"principled\" surface is approximate: base colour, roughness, metallic, specular and eta are used",

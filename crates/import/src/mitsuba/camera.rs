@@ -10,9 +10,9 @@ use crate::scenery::{Report, to_ours};
 use crate::syntax::mitsuba::MitsubaElement;
 use crate::written::{ImportedCamera, View, pose_of};
 
-/// A camera as the file has it.
+/// Camera of the file.
 pub(super) struct MitsubaCamera {
-    /// From its axes (x left, y up, z forward) to Mitsuba's world.
+    /// Transform from its axes (x left, y up, z forward) to Mitsuba's world.
     to_world: DAffine3,
     kind: Kind,
     size_px: [u64; 2],
@@ -22,7 +22,7 @@ enum Kind {
     Perspective {
         yfov_rad: f64,
     },
-    /// Radius of the lens and distance of what is sharp.
+    /// Radius of the lens and focus distance.
     Lens {
         yfov_rad: f64,
         lens: [f64; 2],
@@ -30,7 +30,7 @@ enum Kind {
     Orthographic,
 }
 
-/// `None`, and a note, of one that is no camera here.
+/// Reads a sensor. `None`, with a note, if it is no supported camera.
 pub(super) fn read(sensor: &MitsubaElement, report: &mut Report) -> Result<Option<MitsubaCamera>, Error> {
     let kind = sensor.kind();
     if !matches!(kind, "perspective" | "thinlens" | "orthographic") {
@@ -84,7 +84,7 @@ fn film_size(sensor: &MitsubaElement, report: &mut Report) -> Result<[u64; 2], E
     Ok(size)
 }
 
-/// The full vertical angle. A focal length is that over a film of 36 mm by 24 mm, whose diagonal counts.
+/// Full vertical angle. A focal length refers to a film of 36 mm by 24 mm, by its diagonal.
 fn yfov_rad(sensor: &MitsubaElement, [width, height]: [u64; 2]) -> Result<f64, Error> {
     let [w, h] = [width as f64, height as f64];
     let diagonal = (w * w + h * h).sqrt();
@@ -115,13 +115,13 @@ fn yfov_rad(sensor: &MitsubaElement, [width, height]: [u64; 2]) -> Result<f64, E
 }
 
 impl MitsubaCamera {
-    /// Where a file has none.
+    /// Default camera of a file without one.
     pub(super) fn at_origin() -> Self {
         let yfov_rad = 2.0 * maths::atan2(0.5, 1.0);
         Self { to_world: DAffine3::IDENTITY, kind: Kind::Perspective { yfov_rad }, size_px: [768, 576] }
     }
 
-    /// From Mitsuba's world to ours.
+    /// Rotation from Mitsuba's world to ours.
     pub(super) fn to_ours(&self) -> DMat3 {
         let own = self.to_world.matrix3;
         to_ours(DMat3::from_cols(-own.x_axis, own.y_axis, own.z_axis))
@@ -130,7 +130,7 @@ impl MitsubaCamera {
     pub(super) fn imported(self, name: &str, to_ours: DMat3, report: &mut Report) -> ImportedCamera {
         let [width, height] = self.size_px;
         let axis = |v: DVec3| to_ours * (self.to_world.matrix3 * v);
-        // The world is mirrored by the first camera alone.
+        // Only the first camera may mirror the world.
         if axis(DVec3::X).cross(axis(DVec3::Y)).dot(axis(DVec3::Z)) < 0.0 {
             report.note(format!(
                 "the picture of camera \"{name}\" is mirrored in the file, unlike that of the first: not here"

@@ -1,4 +1,4 @@
-//! Lights that are no surfaces, pictures of light from infinity among them, and media.
+//! Lights that are not surfaces, environment maps included, and media.
 
 use std::rc::Rc;
 
@@ -46,7 +46,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// Notes a light; `None` of one that is dark.
+    /// Notes a light; `None` for a dark one.
     fn lit(&mut self, kind: &str, unit: &str, level: f64) -> Option<f64> {
         if level > 0.0 {
             self.scenery.report.note(format!("emitter \"{kind}\": {level} {unit}"));
@@ -111,13 +111,13 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// From the space of a picture of Mitsuba's to that of ours: its middle column is seen along +z and its upper edge is +y.
+/// Rotation from Mitsuba's environment-map space to ours: its middle column is seen along +z and its upper edge is +y.
 fn picture_axes() -> DMat3 {
     DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)
 }
 
 impl<'a> Importer<'a> {
-    /// `None`, and a note, of a picture that is not read, or of one that is dark.
+    /// `None`, with a note, for an unsupported or dark image.
     fn envmap(&mut self, element: &'a MitsubaElement) -> Result<Option<Environment>, Error> {
         let file = text(element, "filename")?.ok_or_else(|| element.fault("an envmap without \"filename\""))?;
         let scale = number(element, "scale", 1.0)?;
@@ -137,7 +137,7 @@ impl<'a> Importer<'a> {
             self.scenery.report.note(told);
             return Ok(None);
         };
-        // From our pictures' space, by Mitsuba's, to our world.
+        // Transform from our environment-map space, by Mitsuba's, to our world.
         let turn = self.scenery.to_ours * to_world * picture_axes().transpose();
         let path = self.path(file);
         let picture = LightPicture { shown: file, path: &path, columns: image.width as usize, pixel: &*pixel };
@@ -147,7 +147,7 @@ impl<'a> Importer<'a> {
 }
 
 impl<'a> Importer<'a> {
-    /// The name of a medium; empty where it is not understood.
+    /// Name of a medium; empty if it is not supported.
     pub(super) fn medium(&mut self, element: &'a MitsubaElement) -> Result<Rc<str>, Error> {
         if let Some(known) = self.media.get(&element.number) {
             return Ok(known.clone());

@@ -1,4 +1,4 @@
-//! Elements to a scene.
+//! Conversion of elements to a scene.
 
 use std::path::{Path, PathBuf};
 use std::{collections::HashMap, rc::Rc};
@@ -12,26 +12,26 @@ use crate::scenery::{Graphics, KnownTexture, Scenery};
 use crate::syntax::mitsuba::{MitsubaElement, MitsubaScene};
 use crate::written::{ImportedCamera, Written, written};
 
-/// References and surfaces within one another.
+/// Maximum depth of nested references and surfaces.
 pub(super) const MAX_DEPTH: usize = 32;
 
-/// The scene as far as it is made, and what the file's elements became.
+/// Scene under construction, and the conversions of the file's elements.
 pub(super) struct Importer<'a> {
     pub(super) scenery: Scenery,
-    /// Elements by what they are called.
+    /// Elements by id.
     ids: HashMap<&'a str, &'a MitsubaElement>,
-    /// Names of ours of surfaces, by the numbers of their elements.
+    /// Our names of surfaces, by the numbers of their elements.
     pub(super) surfaces: HashMap<usize, Rc<str>>,
-    /// Names of ours of surfaces with a normal map, and of the same with its green down where there is one.
+    /// Our names of surfaces with a normal map, with the name of the version whose green points down, if one exists.
     pub(super) normal_mapped: HashMap<Rc<str>, Option<Rc<str>>>,
-    /// What textures became, by the numbers of their elements and what they are for.
+    /// Converted textures, by the numbers of their elements and their use.
     pub(super) textures: HashMap<(usize, Use), KnownTexture>,
-    /// Whether pictures lie on shapes and surfaces, by the numbers of their elements.
+    /// True for shapes and surfaces with images, by the numbers of their elements.
     pub(super) pictured: HashMap<usize, bool>,
-    /// Names of media, by the numbers of their elements; empty for what is not understood.
+    /// Names of media, by the numbers of their elements; empty for unsupported ones.
     pub(super) media: HashMap<usize, Rc<str>>,
     cameras: Vec<ImportedCamera>,
-    /// Where files are sought, in this order.
+    /// Search folders for files, in order.
     folders: &'a [PathBuf],
 }
 
@@ -58,7 +58,7 @@ impl<'a> Importer<'a> {
         Ok(importer)
     }
 
-    /// Notes what stands in an element's place from now on.
+    /// Sets the place for later notes to that of an element.
     pub(super) fn at(&mut self, element: &MitsubaElement) {
         let file = element.place.file.file_name().unwrap_or_default().to_string_lossy();
         self.scenery.report.at(format!("{file}:{}", element.place.line));
@@ -86,7 +86,7 @@ impl<'a> Importer<'a> {
         Ok(())
     }
 
-    /// What an element is or refers to.
+    /// Element, or the target of a reference.
     pub(super) fn resolve(&self, element: &'a MitsubaElement) -> Result<&'a MitsubaElement, Error> {
         if element.tag != "ref" {
             return Ok(element);
@@ -99,7 +99,7 @@ impl<'a> Importer<'a> {
         Ok(found)
     }
 
-    /// Elements of a kind within another, by themselves or by reference, whatever their names.
+    /// Elements of a kind within another, directly or by reference, whatever their names.
     pub(super) fn within(&self, element: &'a MitsubaElement, tag: &str) -> Result<Vec<&'a MitsubaElement>, Error> {
         let mut found = Vec::new();
         for child in element.children.iter().filter(|child| matches!(child.tag, "ref") || child.tag == tag) {
@@ -115,7 +115,7 @@ impl<'a> Importer<'a> {
         Ok(found)
     }
 
-    /// The path of a file that the scene file names.
+    /// Path of a file that the scene file names.
     pub(super) fn file(&self, name: &str) -> PathBuf {
         let found = self.folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
         found.unwrap_or_else(|| self.scenery.source_folder.join(name))
@@ -126,7 +126,7 @@ impl<'a> Importer<'a> {
         self.scenery.way_to(&self.file(name))
     }
 
-    /// Notes what nobody has asked for within an element.
+    /// Notes the unused parameters of an element.
     pub(super) fn note_unused(&mut self, element: &MitsubaElement) {
         self.at(element);
         for child in element.children.iter().filter(|child| !child.used.get()) {
@@ -139,7 +139,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// Cameras come first: the first one says what is up.
+    /// Reads cameras first: the first one defines the up direction.
     fn take_cameras(&mut self, root: &'a MitsubaElement) -> Result<(), Error> {
         let sensors: Vec<&MitsubaElement> = all(root, "sensor").collect();
         let mut read = Vec::new();
@@ -176,7 +176,7 @@ impl<'a> Importer<'a> {
         Ok(())
     }
 
-    /// An element of the scene itself.
+    /// Converts an element at the top level of the scene.
     fn top(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
         self.at(element);
         let kind = element.kind();
@@ -187,16 +187,16 @@ impl<'a> Importer<'a> {
                 let told = format!("{} \"{kind}\" is not used: how light is found is the job's", element.tag);
                 self.scenery.report.note(told);
             }
-            // Cameras are read; what has an id stands here to be referred to.
+            // Cameras are already read; elements with an id are used by reference.
             "sensor" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
             | "rfilter" | "rgb" => {}
-            // Parameters, as <default> of other versions.
+            // Parameters, such as <default> of other versions.
             tag => self.scenery.report.note(format!("<{tag}> of the scene itself is not used")),
         }
         Ok(())
     }
 
-    /// The files of the scene.
+    /// Files of the scene.
     pub(super) fn finish(self, file: &Path) -> Result<Written, Error> {
         let Scenery { scene, mut report, files, .. } = self.scenery;
         report.at(String::new());

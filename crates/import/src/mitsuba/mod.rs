@@ -1,10 +1,10 @@
 //! Scenes of Mitsuba 3.
 //!
-//! Source: the documentation of the program (mitsuba.readthedocs.io) and, where it leaves a rule open, what version 3.9.1 does (docs/import.md lists the
+//! Source: the documentation of the program (mitsuba.readthedocs.io) and, where it leaves a rule open, the behaviour of version 3.9.1 (docs/import.md lists the
 //! rules; tests/oracles/mitsuba_scenes.py).
 //!
-//! Mitsuba's space is right-handed and has no up: ours is the same turned, with the axis upwards that is nearest to the first camera's up. A length of 1
-//! is a metre; a radiance of 1 of white light is 1 cd/m².
+//! Mitsuba's space is right-handed without an up axis: ours is the same, rotated so that the axis nearest to the first camera's up points upwards. A length of
+//! 1 is a metre; a radiance of 1 of white light is 1 cd/m².
 
 mod access;
 mod bsdf;

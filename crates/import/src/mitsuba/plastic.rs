@@ -1,4 +1,4 @@
-//! Coats, and indices of refraction.
+//! Coats, and refractive indices.
 
 use etendue_io::Error;
 use etendue_scene::asset::COAT_INDICES;
@@ -9,7 +9,7 @@ use super::importer::Importer;
 use super::value::{inner_reflectance, linear_base};
 use crate::syntax::mitsuba::MitsubaElement;
 
-/// Substances that Mitsuba knows by name, and their indices of refraction.
+/// Refractive indices of the substances that Mitsuba knows by name.
 const SUBSTANCES: &[(&str, f64)] = &[
     ("vacuum", 1.0),
     ("helium", 1.000_036),
@@ -48,7 +48,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// The index of what is inside against what is outside.
+    /// Interior refractive index relative to the exterior.
     fn ratio(element: &'a MitsubaElement, inside: &str) -> Result<f64, Error> {
         Ok(Self::ior(element, "int_ior", inside)? / Self::ior(element, "ext_ior", "air")?)
     }

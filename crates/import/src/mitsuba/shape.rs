@@ -1,10 +1,10 @@
 //! Shapes.
 //!
-//! Which way green of normal maps points on a mesh.
+//! Direction of green in normal maps on a mesh.
 //!
-//! Mitsuba's points along n × ∂p/∂u, whatever v does: up in a picture that lies as it is, down in one that lies mirrored, as on its rectangle and on PLY
-//! files, whose v points down in pictures, and on meshes whose texture is mirrored. Ours points up in its picture unless it is said to point down
-//! (`normal_map.y`); so a surface with a normal map has a second material of ours for meshes with mirrored pictures.
+//! Mitsuba's points along n × ∂p/∂u, whatever v does: up in an image that is not mirrored, down in a mirrored one, as on its rectangle, on PLY files (whose v
+//! points down in images), and on meshes with a mirrored texture. Ours points up in the image unless stated to point down (`normal_map.y`); so a surface with a
+//! normal map has a second material for meshes with mirrored images.
 
 use std::{f64::consts::TAU, rc::Rc};
 
@@ -20,7 +20,7 @@ use crate::scenery::{AreaLight, Graphics, Triangles};
 use crate::syntax::mitsuba::MitsubaElement;
 
 impl<'a> Importer<'a> {
-    /// A shape in the space of `outer`.
+    /// Converts a shape in the space of `outer`.
     pub(super) fn shape(&mut self, element: &'a MitsubaElement, outer: &Graphics, depth: usize) -> Result<(), Error> {
         if depth >= MAX_DEPTH {
             return Err(
@@ -35,7 +35,7 @@ impl<'a> Importer<'a> {
                 format!("the shape \"{kind}\" within an instance, which Mitsuba does not allow; put its shapes there");
             return Err(element.fault(told));
         }
-        // What is instanced stands where its instances are.
+        // A shape group is placed only by its instances.
         if kind == "shapegroup" && depth == 0 {
             return Ok(());
         }
@@ -91,7 +91,7 @@ impl<'a> Importer<'a> {
                     self.scenery.whole_sphere(radius, &graphics);
                 }
             }
-            // Mitsuba's coordinates are the distance from the middle and the turn; ours point upwards.
+            // Mitsuba's coordinates are the distance from the centre and the azimuth; ours point upwards.
             _ if has_picture => {
                 let disc = Triangles::of_ring([1.0, 0.0], 0.0, TAU, |s, t| [1.0 - t, 1.0 - s]);
                 self.round(disc, &graphics).map_err(told)?;
@@ -103,7 +103,7 @@ impl<'a> Importer<'a> {
         Ok(())
     }
 
-    /// A round shape as one mesh.
+    /// Adds a round shape as one mesh.
     fn round(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
         self.scenery.report.note("spheres and disks that carry a picture are meshes of 256 sides");
         self.scenery.surface(mesh, graphics, 1)
@@ -117,13 +117,13 @@ impl<'a> Importer<'a> {
         groups.into_iter().try_for_each(|group| self.shape(group, graphics, depth + 1))
     }
 
-    /// What holds for a shape: its surface, its light, its medium.
+    /// State of a shape: its surface, its light, its medium.
     fn held(&mut self, element: &'a MitsubaElement, graphics: Graphics) -> Result<Graphics, Error> {
         let mut graphics = graphics;
         graphics.reverse_orientation = flag(element, "flip_normals", false)?;
         match self.within(element, "bsdf")?.first() {
             Some(bsdf) => graphics.material = self.bsdf(bsdf, 0)?,
-            // What shines reflects nothing unless it is told to.
+            // An emitter reflects nothing unless it has a surface.
             None if !self.within(element, "emitter")?.is_empty() => graphics.material = self.scenery.black(),
             None => {}
         }
@@ -160,7 +160,7 @@ impl<'a> Importer<'a> {
         Ok(Some(AreaLight { colour: unit.colour, luminance: unit.luminance, flux: None, two_sided: false }))
     }
 
-    /// Whether a picture lies on a surface; each is looked at once, and what stands in a circle counts as having one.
+    /// Returns true if an image lies on a surface. Each is examined once; circular references count as having one.
     fn has_picture(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<bool, Error> {
         if let Some(known) = self.pictured.get(&element.number) {
             return Ok(*known);
@@ -191,7 +191,7 @@ impl<'a> Importer<'a> {
         let is_obj = element.kind() == "obj";
         let name = text(element, "filename")?.ok_or_else(|| element.fault("a mesh without \"filename\""))?;
         let mut mesh = Triangles::read(&self.file(name)).map_err(|told| element.fault(told))?;
-        // Mitsuba's v points downwards in pictures.
+        // Mitsuba's v points downwards in images.
         if !flag(element, "flip_tex_coords", is_obj)? {
             mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
         }
@@ -200,7 +200,7 @@ impl<'a> Importer<'a> {
         } else if mesh.normals.is_empty() {
             mesh.smooth(graphics.to_world);
         }
-        // Without normals the winding alone says which side is the front, and a mirror turns it.
+        // Without normals the winding alone defines the front, and a mirror reverses it.
         let is_turned = mesh.normals.is_empty() && graphics.to_world.matrix3.determinant() < 0.0;
         let reverse_orientation = graphics.reverse_orientation != is_turned;
         let graphics = Graphics { reverse_orientation, ..graphics };
@@ -209,7 +209,7 @@ impl<'a> Importer<'a> {
 }
 
 impl Importer<'_> {
-    /// A mesh of the material and the light that hold now.
+    /// Adds a mesh with the current material and light.
     pub(super) fn mesh(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
         let mut graphics = graphics.clone();
         if self.normal_mapped.contains_key(&graphics.material) && self.is_mirrored(&mesh, &graphics) {
@@ -218,13 +218,13 @@ impl Importer<'_> {
         self.scenery.mesh(mesh, &graphics)
     }
 
-    /// Whether more of a picture lies mirrored on a mesh than as it is, seen in Mitsuba's world from where normals point.
+    /// Returns true if the mirrored part of the texture on a mesh is the larger one, seen in Mitsuba's world from the direction of the normals.
     fn is_mirrored(&self, mesh: &Triangles, graphics: &Graphics) -> bool {
         if mesh.uvs.len() != mesh.positions.len() {
             return false;
         }
         let placed = mesh.clone().placed(self.scenery.placed(graphics), graphics.reverse_orientation);
-        // Its triangles turn anticlockwise about their normals, as pictures that lie as they are do.
+        // Its triangles turn anticlockwise about their normals, like images that are not mirrored.
         let turn = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|i| DVec2::from_array(placed.uvs[i as usize]));
             (b - a).perp_dot(c - a)
@@ -232,7 +232,7 @@ impl Importer<'_> {
         placed.triangles.iter().map(turn).sum::<f64>() * self.scenery.to_ours.determinant() < 0.0
     }
 
-    /// The name of a material with its green down.
+    /// Name of the version of a material whose green points down.
     fn green_down(&mut self, name: &Rc<str>) -> Rc<str> {
         if let Some(Some(known)) = self.normal_mapped.get(name) {
             return known.clone();
@@ -250,7 +250,7 @@ impl Importer<'_> {
     }
 }
 
-/// Two triangles of every four corners.
+/// Two triangles per four corners.
 fn squares(count: u32) -> Vec<[u32; 3]> {
     (0..count).map(|i| 4 * i).flat_map(|i| [[i, i + 1, i + 2], [i, i + 2, i + 3]]).collect()
 }
@@ -261,13 +261,13 @@ fn rectangle() -> Triangles {
     Triangles {
         positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(),
         normals: vec![[0.0, 0.0, 1.0]; 4],
-        // v is 0 at y = −1, where the first row of a picture lies.
+        // v is 0 at y = −1, the first row of an image.
         uvs: corners.map(|[x, y]| [0.5 * (x + 1.0), 0.5 * (1.0 - y)]).to_vec(),
         triangles: squares(1),
     }
 }
 
-/// The cube −1 … 1. Corners in the order of Mitsuba's.
+/// Cube −1 … 1, with corners in Mitsuba's order.
 pub(super) fn cube() -> Triangles {
     let faces: [([f64; 3], [[f64; 3]; 4]); 6] = [
         ([0., -1., 0.], [[1., -1., -1.], [1., -1., 1.], [-1., -1., 1.], [-1., -1., -1.]]),
@@ -285,7 +285,7 @@ pub(super) fn cube() -> Triangles {
     }
 }
 
-/// The side of a cylinder without its ends; `None` of one without extent.
+/// Lateral surface of a cylinder without its ends; `None` without extent.
 pub(super) fn cylinder([from, to]: [DVec3; 2], radius: f64) -> Option<Triangles> {
     const SIDES: u32 = 128;
     let axis = (to - from).try_normalize().filter(|_| radius > 0.0)?;
@@ -310,7 +310,7 @@ pub(super) fn cylinder([from, to]: [DVec3; 2], radius: f64) -> Option<Triangles>
 mod tests {
     use super::*;
 
-    /// Every triangle faces where its normals point.
+    /// Every triangle faces the direction of its normals.
     #[test]
     fn solids_face_outwards() {
         let tube = cylinder([DVec3::ZERO, DVec3::new(0.0, 2.0, 1.0)], 0.5).expect("a cylinder");

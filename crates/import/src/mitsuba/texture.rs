@@ -16,14 +16,14 @@ use crate::syntax::mitsuba::MitsubaElement;
 
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
 
-/// Where a picture's u, v lies, v upwards as here: factors and what is added.
+/// Texture coordinates u, v of an image, v upwards as here: factors and offsets.
 struct Laid {
     scale: [f64; 2],
     offset: [f64; 2],
 }
 
 impl<'a> Importer<'a> {
-    /// What a texture became.
+    /// Converts a texture.
     pub(super) fn texture(&mut self, element: &'a MitsubaElement, usage: Use) -> Result<KnownTexture, Error> {
         if let Some(known) = self.textures.get(&(element.number, usage)) {
             return Ok(known.clone());
@@ -45,19 +45,19 @@ impl<'a> Importer<'a> {
         Ok(known)
     }
 
-    /// `None` of one that is turned or mirrored.
+    /// `None` for a rotated or mirrored texture.
     fn laid(&mut self, element: &'a MitsubaElement) -> Result<Option<Laid>, Error> {
         let to_uv = transform_of(element, "to_uv")?;
         let (m, t) = (to_uv.matrix3, to_uv.translation);
         // Of files before version 2.
         let own = |name: &str, default: f64| Ok::<f64, Error>(stated(element, name)?.unwrap_or(default));
         let [su, sv] = [m.x_axis.x * own("uscale", 1.0)?, m.y_axis.y * own("vscale", 1.0)?];
-        // There what is added is added before it is scaled.
+        // These files add the offset before scaling.
         let [tu, tv] = [t.x + su * own("uoffset", 0.0)?, t.y + sv * own("voffset", 0.0)?];
         if m.x_axis.y != 0.0 || m.y_axis.x != 0.0 || su <= 0.0 || sv <= 0.0 {
             return Ok(None);
         }
-        // Mitsuba's v points downwards in pictures: 1 − v′ = s·(1 − v) + t.
+        // Mitsuba's v points downwards in images: 1 − v′ = s·(1 − v) + t.
         Ok(Some(Laid { scale: [su, sv], offset: [tu, 1.0 - sv - tv] }))
     }
 
@@ -83,7 +83,7 @@ impl<'a> Importer<'a> {
                 return Err(element.fault(format!("\"wrap_mode\" of \"{other}\"; expected repeat, mirror or clamp")));
             }
         };
-        // All pictures are filtered by their footprint here.
+        // All images are filtered by their footprint here.
         text(element, "filter_type")?;
         let Some(laid) = self.laid(element)? else {
             self.scenery.report.note("a picture that is turned or mirrored by \"to_uv\" is not understood");
@@ -119,7 +119,7 @@ impl<'a> Importer<'a> {
         KnownTexture::Picture { name, scale: 1.0, has_alpha: false }
     }
 
-    /// A picture of four checks.
+    /// Converts a checkerboard to an image of four squares.
     fn checkerboard(&mut self, element: &'a MitsubaElement) -> Result<Option<KnownTexture>, Error> {
         const SIDE: usize = 128;
         let mut colours = [[0.4; 3], [0.2; 3]];
@@ -146,7 +146,7 @@ impl<'a> Importer<'a> {
         Ok(Some(self.picture(element, &path, Encoding::Linear, Wrap::Repeat, &laid)))
     }
 
-    /// The reflectance of a parameter, or `default`; `map` is what becomes of its numbers.
+    /// Reflectance of a parameter, or `default`; `map` transforms its values.
     pub(super) fn reflectance(
         &mut self,
         element: &'a MitsubaElement,
@@ -188,7 +188,7 @@ impl<'a> Importer<'a> {
         })
     }
 
-    /// A table of shares of light after `map`, every 5 nm where that bends what is straight.
+    /// Table of reflectances after `map`, every 5 nm if that makes straight lines curved.
     fn mapped_table(
         &mut self,
         element: &MitsubaElement,
@@ -209,7 +209,7 @@ impl<'a> Importer<'a> {
         Ok(Colour::Spectrum(file.as_str().into()))
     }
 
-    /// The number of a parameter, 0 … 1, or `default`.
+    /// Number of a parameter, 0 … 1, or `default`.
     pub(super) fn factor(&mut self, element: &'a MitsubaElement, name: &str, default: f64) -> Result<Factor, Error> {
         let even = match self.value(element, name)? {
             None => default,
@@ -230,7 +230,7 @@ impl<'a> Importer<'a> {
         Ok(Factor::Number(self.scenery.cut(name, even).into()))
     }
 
-    /// A metal that reflects a share of light of three numbers at normal incidence, as pbrt and glTF have it: n = 1.
+    /// Metal with a reflectance of three numbers at normal incidence, as in pbrt and glTF: n = 1.
     pub(super) fn metal_of_rgb(&mut self, rgb: [f64; 3]) -> Metal {
         let legal = rgb.map(|v| self.scenery.cut("specular_reflectance", v));
         self.scenery.metal_of_rgb(legal)

@@ -1,4 +1,4 @@
-//! Transforms, step by step, and what textures are for.
+//! Transforms, step by step, and uses of textures.
 
 use etendue_core::maths::f64 as maths;
 use etendue_io::Error;
@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat3, DMat4, DVec3};
 use super::access::{attribute_number, find, numbers_of, triple_of};
 use crate::syntax::mitsuba::MitsubaElement;
 
-/// The transform of a parameter; none where it is not there.
+/// Transform of a parameter; the identity if it is absent.
 pub(super) fn transform_of(element: &MitsubaElement, name: &str) -> Result<DAffine3, Error> {
     let Some(parameter) = find(element, name) else { return Ok(DAffine3::IDENTITY) };
     if parameter.tag != "transform" {
@@ -15,7 +15,7 @@ pub(super) fn transform_of(element: &MitsubaElement, name: &str) -> Result<DAffi
     }
     let mut made = DAffine3::IDENTITY;
     for step in &parameter.children {
-        // Each holds in the space that those before it lead to.
+        // Each acts in the space that the previous ones lead to.
         made = step_of(step)? * made;
     }
     if !made.is_finite() || made.matrix3.determinant() == 0.0 {
@@ -51,14 +51,14 @@ fn step_of(step: &MitsubaElement) -> Result<DAffine3, Error> {
     }
 }
 
-/// By Rodrigues' formula about an axis of length 1; degrees.
+/// Rotation by Rodrigues' formula about a unit axis; degrees.
 fn rotation(degrees: f64, axis: DVec3) -> DMat3 {
     let (s, c) = maths::sin_cos(degrees.to_radians());
     let column = |v: DVec3| c * v + s * axis.cross(v) + (1.0 - c) * axis.dot(v) * axis;
     DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
 }
 
-/// x to the left, y upwards, z ahead.
+/// Camera transform: x to the left, y upwards, z forward.
 fn look_at(step: &MitsubaElement) -> Result<DAffine3, Error> {
     let three = |name: &str| {
         let text = step.attribute(name).ok_or_else(|| step.fault(format!("<lookat> without \"{name}\"")))?;
@@ -77,7 +77,7 @@ fn look_at(step: &MitsubaElement) -> Result<DAffine3, Error> {
     Ok(DAffine3::from_mat3_translation(DMat3::from_cols(left, ahead.cross(left), ahead), origin))
 }
 
-/// Row by row.
+/// Matrix, row by row.
 fn matrix(step: &MitsubaElement) -> Result<DAffine3, Error> {
     let text = step.attribute("value").ok_or_else(|| step.fault("<matrix> without \"value\""))?;
     let numbers = numbers_of(text).map_err(|told| step.fault(told))?;
@@ -92,13 +92,13 @@ fn matrix(step: &MitsubaElement) -> Result<DAffine3, Error> {
     }
 }
 
-/// What a texture is for.
+/// Use of a texture.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Use {
     /// Colours.
     Colours,
-    /// A number for each texel, which Mitsuba takes from the colour there.
+    /// One number per texel, which Mitsuba computes from the colour.
     Numbers,
-    /// Numbers as they are stored, as normals.
+    /// Numbers as stored, such as normals.
     Data,
 }

@@ -1,4 +1,4 @@
-//! Values over the wavelength: numbers, colours, tables, and textures.
+//! Values over wavelength: numbers, colours, tables, and textures.
 
 use etendue_io::{Error, read_regular};
 use etendue_scene::limits;
@@ -10,25 +10,25 @@ use super::importer::Importer;
 use crate::scenery::{LightUnit, coefficient_of_rgb, illuminant_of};
 use crate::syntax::mitsuba::MitsubaElement;
 
-/// What a parameter says.
+/// Value of a parameter.
 pub(super) enum Value<'a> {
-    /// A number, which is white where light is meant.
+    /// Number; white for a light.
     Number(f64),
     /// Linear sRGB.
     Rgb([f64; 3]),
-    /// The same at all wavelengths.
+    /// Constant over wavelength.
     Even(f64),
-    /// Wavelengths in nm, rising, and values.
+    /// Wavelengths in nm, increasing, and values.
     Table(Vec<(f64, f64)>),
     /// A black body's radiance at this temperature, K.
     BlackBody(f64),
     /// D65 of this luminance.
     D65(f64),
-    /// A picture.
+    /// An image.
     Texture(&'a MitsubaElement),
 }
 
-/// Numbers that pair wavelengths with values.
+/// Pairs wavelengths with values.
 fn paired(nm: Vec<f64>, values: Vec<f64>) -> Result<Value<'static>, String> {
     let points: Vec<(f64, f64)> = nm.iter().copied().zip(values.iter().copied()).collect();
     match nm.len() == values.len() && nm.len() >= 2 && points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
@@ -51,7 +51,7 @@ fn stated_spectrum(text: &str) -> Result<Value<'static>, String> {
     paired(nm, values)
 }
 
-/// A file of lines of a wavelength and a value; `#` begins a remark.
+/// File with a wavelength and a value per line; `#` begins a comment.
 fn spectrum_of_file(text: &str) -> Result<Value<'static>, String> {
     let lines = text.lines().map(|line| line.split('#').next().unwrap_or_default());
     let (mut nm, mut values) = (Vec::new(), Vec::new());
@@ -67,13 +67,13 @@ fn spectrum_of_file(text: &str) -> Result<Value<'static>, String> {
     paired(nm, values)
 }
 
-/// The luminance of a radiance of 1 W·m⁻²·sr⁻¹·nm⁻¹ and a table, over that of 1 at all wavelengths: what Mitsuba's pictures have as their luminance.
+/// Luminance of a radiance of 1 W·m⁻²·sr⁻¹·nm⁻¹ times a table, over that of the constant 1: the luminance that Mitsuba's images have.
 fn relative_luminance(spectrum: &Spectrum) -> f64 {
     observer::luminance(spectrum) / observer::luminance(&Spectrum::constant(1.0))
 }
 
 impl<'a> Importer<'a> {
-    /// What a parameter says; `None` where it is not there.
+    /// Value of a parameter; `None` if it is absent.
     pub(super) fn value(&self, element: &'a MitsubaElement, name: &str) -> Result<Option<Value<'a>>, Error> {
         find(element, name).map(|parameter| self.value_of(parameter)).transpose()
     }
@@ -106,7 +106,7 @@ impl<'a> Importer<'a> {
         spectrum_of_file(&text).map_err(|told| format!("{name}: {told}"))
     }
 
-    /// What a value that only holds another says; what holds one does not hold a further one, nor itself.
+    /// Value of a wrapper, which holds another value. A wrapper may contain neither another wrapper nor itself.
     fn inner(&self, element: &'a MitsubaElement, name: &str) -> Result<Value<'a>, Error> {
         let told = |what: &str| element.fault(format!("a {} \"{}\" {what} \"{name}\"", element.tag, element.kind()));
         let held = find(element, name).ok_or_else(|| told("without"))?;
@@ -148,7 +148,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// The light of a parameter; white of luminance 1 where it is not there.
+    /// Light of a parameter; white of luminance 1 if it is absent.
     pub(super) fn light(&mut self, element: &'a MitsubaElement, name: &str) -> Result<LightUnit, Error> {
         let white = |luminance: f64| LightUnit { colour: illuminant_of("D65"), luminance };
         let unit = match self.value(element, name)? {
@@ -188,7 +188,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// A share of light, 0 … 1; `None` of a texture.
+    /// Reflectance, 0 … 1; `None` for a texture.
     pub(super) fn share(&mut self, name: &str, value: &Value<'a>) -> Option<Colour> {
         let scenery = &mut self.scenery;
         Some(match value {
@@ -206,7 +206,7 @@ impl<'a> Importer<'a> {
         })
     }
 
-    /// A quantity over the wavelength, 0 or more, and its number where it is the same at all; a texture is `default`.
+    /// Quantity over wavelength, 0 or more, and its number if it is constant; `default` for a texture.
     pub(super) fn coefficient(
         &mut self,
         element: &'a MitsubaElement,
@@ -234,13 +234,13 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// The reflectance of the base under a coat that gives back as much as Mitsuba's base of `a` without "nonlinear", whose inner reflections are those of a base
-/// of 1 (`inner`: the share that the coat reflects inwards): a′/(1 − a′F) = a/(1 − F).
+/// The reflectance of the base under a coat that reflects as much as Mitsuba's base of `a` without "nonlinear", whose inner reflections are those of a base of
+/// 1 (`inner`: the fraction that the coat reflects inwards): a′/(1 − a′F) = a/(1 − F).
 pub(super) fn linear_base(a: f64, inner: f64) -> f64 {
     a / (1.0 - inner + a * inner)
 }
 
-/// The share of diffuse light within a medium of index `n` that its border reflects: 1 − (1 − F)/n², with F that of light from outside.
+/// Fraction of diffuse light within a medium of index `n` that its boundary reflects: 1 − (1 − F)/n², with F for light from outside.
 pub(super) fn inner_reflectance(n: f64) -> f64 {
     const STEPS: usize = 512;
     let outer = |i: usize| {
@@ -258,7 +258,7 @@ pub(super) fn inner_reflectance(n: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Mitsuba's own number of a plastic of 1.49 in air, by a fit that is good to 5e-4.
+    /// Mitsuba's own number for a plastic of 1.49 in air, by a fit with an error of 5e-4.
     #[test]
     fn inner_reflectance_is_mitsubas() {
         assert!((inner_reflectance(1.49 / 1.000277) - 0.590479).abs() < 1e-3, "{}", inner_reflectance(1.49 / 1.000277));

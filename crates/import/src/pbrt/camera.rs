@@ -9,10 +9,10 @@ use super::parameters::Parameters;
 use crate::scenery::{Graphics, Report, to_ours};
 use crate::written::{ImportedCamera, View, pose_of};
 
-/// The field of what stands in for a camera that is not understood, degrees of the shorter side: a normal lens's.
+/// Field of view of the substitute for an unsupported camera, degrees along the shorter side: that of a normal lens.
 const STAND_IN_DEG: f64 = 40.0;
 
-/// The size of the picture.
+/// Image size.
 pub(super) struct Film {
     size_px: [u64; 2],
 }
@@ -33,12 +33,12 @@ impl Film {
     }
 }
 
-/// A camera as the file has it.
+/// Camera of the file.
 pub(super) struct PbrtCamera {
-    /// From its axes (x right, y up, z forward) to pbrt's world.
+    /// Transform from its axes (x right, y up, z forward) to pbrt's world.
     to_world: DAffine3,
     kind: Kind,
-    /// Radius of the lens and distance of what is sharp, both above 0.
+    /// Radius of the lens and focus distance, both above 0.
     lens: Option<[f64; 2]>,
     frame_aspect: Option<f64>,
     window: Option<[f64; 4]>,
@@ -50,14 +50,14 @@ enum Kind {
     Orthographic,
 }
 
-/// A camera, and the medium that it stands in, empty for none.
+/// Camera, and the medium around it; empty for none.
 pub(super) struct Placed {
     pub(super) camera: ImportedCamera,
     pub(super) outside: Rc<str>,
 }
 
 impl PbrtCamera {
-    /// Where a file has none.
+    /// Default camera of a file without one.
     pub(super) fn at_origin() -> Self {
         let (lens, frame_aspect, window) = (None, None, None);
         let kind = Kind::Perspective { fov_deg: 90.0 };
@@ -102,7 +102,7 @@ impl PbrtCamera {
         Ok(Self { to_world: graphics.to_world.inverse(), kind: own, lens, frame_aspect, window, outside })
     }
 
-    /// From pbrt's world to ours.
+    /// Rotation from pbrt's world to ours.
     pub(super) fn to_ours(&self) -> DMat3 {
         to_ours(self.to_world.matrix3)
     }

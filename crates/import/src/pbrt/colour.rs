@@ -12,10 +12,10 @@ pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
     numbers.try_into().map_err(|_| format!("\"{name}\": {found} numbers, where an rgb has three"))
 }
 
-/// How far beyond its ends a spectrum is 0, nm.
+/// Distance beyond its ends at which a spectrum is 0, nm.
 const END_NM: f64 = 1e-3;
 
-/// Wavelengths in nm and values, one after the other.
+/// Alternating wavelengths in nm and values.
 fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
     let pairs: Vec<(f64, f64)> = numbers.as_chunks::<2>().0.iter().map(|[nm, value]| (*nm, *value)).collect();
     let rising = pairs.windows(2).all(|pair| pair[0].0 < pair[1].0);
@@ -25,7 +25,7 @@ fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
     }
 }
 
-/// The same of a light or a share of it, which pbrt takes as 0 outside of the wavelengths given.
+/// The same for a light or a reflectance, which pbrt takes as 0 outside the given wavelengths.
 fn ended_points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
     let pairs = points(name, numbers)?;
     let ends = [pairs[0].0 - END_NM, pairs[pairs.len() - 1].0 + END_NM].map(|nm| (nm, 0.0));
@@ -38,7 +38,7 @@ pub(super) fn table(name: &str, numbers: &[f64], outside: Outside) -> Result<Spe
 }
 
 impl Scenery {
-    /// The light of the parameter `name`; white of luminance 1 where it is not there.
+    /// Light of the parameter `name`; white of luminance 1 if it is absent.
     pub(super) fn light(&mut self, parameters: Parameters<'_>, name: &str) -> Result<LightUnit, String> {
         let Some(parameter) = parameters.find(name) else {
             return Ok(LightUnit { colour: illuminant_of("D65"), luminance: 1.0 });
@@ -80,7 +80,7 @@ impl Scenery {
         LightUnit { colour: illuminant_of(known.as_deref().unwrap_or("D65")), luminance: 1.0 }
     }
 
-    /// A share of light, 0 … 1.
+    /// Reflectance, 0 … 1.
     pub(super) fn share(&mut self, parameter: &PbrtParameter) -> Result<Colour, String> {
         let name = &parameter.name;
         match (&*parameter.kind, &parameter.values) {
@@ -104,8 +104,7 @@ impl Scenery {
         }
     }
 
-    /// A coefficient over the wavelength, 0 or more, at the wavelengths of [`smooth_file`](Self::smooth_file); the second number says whether it is
-    /// the same at all.
+    /// Coefficient over wavelength, 0 or more, at the wavelengths of [`smooth_file`](Self::smooth_file); the second value is the number if it is constant.
     pub(super) fn coefficient(
         &mut self,
         parameters: Parameters<'_>,

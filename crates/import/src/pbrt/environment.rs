@@ -1,8 +1,8 @@
-//! Pictures of light from infinity: from pbrt's equal-area square to our equirectangular ones.
+//! Environment maps: conversion from pbrt's equal-area square to our equirectangular images.
 //!
-//! The equal-area map of the sphere to a square that pbrt's environments are stored in.
+//! pbrt's environments use an equal-area map of the sphere to a square.
 //!
-//! Source: P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", JGT 13(3), 2008, as pbrt-v4 has it.
+//! Source: P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", JGT 13(3), 2008, as in pbrt-v4.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4, PI};
 
@@ -15,8 +15,8 @@ use glam::DVec3;
 use crate::scenery::{Graphics, Scenery, linear_pixels};
 
 impl Scenery {
-    /// The environment of a picture, whose numbers are cd/m² times `scale`, or times what gives a surface that faces the picture's +z `lux`; `None`, and
-    /// a note, where it is of a kind that is not read.
+    /// Environment of an image whose numbers are cd/m² times `scale`, or times the factor that gives `lux` on a surface facing the image's +z; `None`, with a
+    /// note, for an unsupported image.
     pub(super) fn environment(
         &mut self,
         file: &str,
@@ -44,7 +44,7 @@ impl Scenery {
             self.report.note("a light \"infinite\" is dark and left out");
             return Ok(None);
         }
-        // Of the square 4 n² pixels cover the sphere as finely as 2 n × 4 n of ours do at the horizon.
+        // 4 n² pixels of the square sample the sphere as finely as 2 n × 4 n of ours at the horizon.
         let rows = image.height as usize;
         let to_light = graphics.to_world.matrix3.inverse() * self.to_ours.transpose();
         let found = |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
@@ -66,7 +66,7 @@ impl<'a> Texels<'a> {
         Some(Self { size: image.width as usize, pixel: linear_pixels(image)? })
     }
 
-    /// What a surface that faces +z of the picture gets, lx of numbers in cd/m².
+    /// Illuminance of a surface that faces the image's +z, lx for numbers in cd/m².
     fn illuminance(&self) -> f64 {
         let n = self.size;
         let lux = |i: usize| {
@@ -78,7 +78,7 @@ impl<'a> Texels<'a> {
         (0..n * n).map(lux).sum::<f64>() * 4.0 * PI / (n * n) as f64
     }
 
-    /// The texel of whole coordinates, which may lie one outside: there the square goes on mirrored about the middle of its edge.
+    /// Texel at whole coordinates, which may lie one outside: the square continues mirrored about the middle of its edge.
     fn at(&self, x: isize, y: isize) -> [f32; 3] {
         let n = self.size as isize;
         let inside = |v: isize| (0..n).contains(&v);
@@ -102,7 +102,7 @@ impl<'a> Texels<'a> {
     }
 }
 
-/// Where in the unit square a direction of length 1 lies; the second coordinate grows with rows.
+/// Position in the unit square of a unit direction; the second coordinate increases with rows.
 fn square_of(d: DVec3) -> [f64; 2] {
     let [x, y, z] = d.abs().to_array();
     let r = (1.0 - z).max(0.0).sqrt();
@@ -112,10 +112,10 @@ fn square_of(d: DVec3) -> [f64; 2] {
     [0.5 * (u.copysign(d.x) + 1.0), 0.5 * (v.copysign(d.y) + 1.0)]
 }
 
-/// The direction of a point of the unit square: the inverse of [`square_of`].
+/// Direction of a point of the unit square: the inverse of [`square_of`].
 fn direction_of([u, v]: [f64; 2]) -> DVec3 {
     let (u, v) = (2.0 * u - 1.0, 2.0 * v - 1.0);
-    // Of the inner half of the square above the horizon, of its corners below.
+    // Inner half of the square: above the horizon; corners: below.
     let above = 1.0 - (u.abs() + v.abs());
     let r = 1.0 - above.abs();
     let azimuth = if r == 0.0 { 0.0 } else { FRAC_PI_4 * ((v.abs() - u.abs()) / r + 1.0) };
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn an_even_picture_of_1_cd_m2_gives_pi_lx() {
         let texels = |white: fn(usize) -> f32| Texels { size: SIZE, pixel: Box::new(move |i| [white(i); 3]) };
-        // The horizon runs along the diagonals of 2 n of n² texels, whose centres count as dark; their upper halves see it at a mean cosine of 4 / (3 n).
+        // The horizon runs along the diagonals of 2 n of n² texels, whose centres count as dark; their upper halves contribute at a mean cosine of 4 / (3 n).
         // That is (2 n · ½ · 4 / (3 n)) / (n² / 4) = 16 / (3 n²) of the whole at most.
         let even = texels(|_| 1.0).illuminance();
         assert!((even - PI).abs() < 16.0 / (3 * SIZE * SIZE) as f64 * PI, "{even}");
@@ -177,7 +177,7 @@ mod tests {
             sum += weight * values.iter().map(|v| f64::from(*v)).sum::<f64>();
             weights += weight * values.len() as f64;
         }
-        // A third of the texels, of equal areas; the mean of an uneven sample of stripes of one texel is off by some thousandths.
+        // A third of the texels, of equal areas; the mean of an irregular sample of stripes of one texel is off by some thousandths.
         assert!((sum / weights - 1.0 / 3.0).abs() < 5e-3, "{}", sum / weights);
     }
 
@@ -204,7 +204,7 @@ mod tests {
         }
     }
 
-    /// Directions that are spread evenly fall evenly on the square.
+    /// Uniformly distributed directions are uniform on the square.
     #[test]
     fn areas_are_kept() {
         const N: u32 = 400;
@@ -217,7 +217,7 @@ mod tests {
             let [u, v] = square_of(DVec3::new(r * c, r * s, z));
             cells[((u * 4.0) as usize).min(3) + 4 * ((v * 4.0) as usize).min(3)] += 1;
         }
-        // A grid of 160 000 over 16 cells: along their borders it is uneven by a line of 400 in 10 000, a quarter of which is allowed.
+        // A grid of 160 000 over 16 cells: along the boundaries it is irregular by a line of 400 in 10 000; a quarter of that is allowed.
         assert!(cells.iter().all(|n| n.abs_diff(N * N / 16) < N * N / 1600), "{cells:?}");
     }
 }

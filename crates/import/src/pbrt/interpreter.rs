@@ -1,4 +1,4 @@
-//! Directives to a scene: the state that they change, and what they make.
+//! Interpreter of directives: the graphics state, and the objects of the scene.
 
 use std::{collections::HashMap, path::Path, rc::Rc};
 
@@ -11,10 +11,10 @@ use crate::scenery::{Graphics, Scenery};
 use crate::syntax::pbrt::{PbrtDirective, PbrtParameter, PbrtPlace};
 use crate::written::{Written, written};
 
-/// Blocks within one another, and shapes of instances.
+/// Maximum depth of nested blocks and of shapes of instances.
 const MAX_DEPTH: usize = 1 << 10;
 
-/// A shape of an object that is placed later.
+/// Shape of an object that is instanced later.
 #[derive(Clone)]
 struct Stored {
     kind: String,
@@ -30,7 +30,7 @@ pub(super) struct Interpreter {
     camera: Option<PbrtCamera>,
     film: Film,
     in_world: bool,
-    /// Whether transforms are of the start of the exposure.
+    /// True while transforms apply to the start of the exposure.
     at_start: bool,
     objects: HashMap<String, Vec<Stored>>,
     open_object: Option<String>,
@@ -237,7 +237,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// The files of the scene.
+    /// Files of the scene.
     pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
         if !self.in_world {
             return Err("it has no `WorldBegin`: no scene of pbrt-v4 (older ones: pbrt --upgrade)".to_owned());
@@ -262,7 +262,7 @@ impl Interpreter {
     }
 }
 
-/// By Rodrigues' formula; degrees.
+/// Rotation by Rodrigues' formula; degrees.
 fn rotation(degrees: f64, axis: DVec3) -> Result<DMat3, String> {
     let axis = axis.try_normalize().ok_or("`Rotate` about no axis")?;
     let (s, c) = maths::sin_cos(degrees.to_radians());
@@ -270,7 +270,7 @@ fn rotation(degrees: f64, axis: DVec3) -> Result<DMat3, String> {
     Ok(DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)))
 }
 
-/// From a camera (x right, y up, z forward) to the world.
+/// Transform from a camera (x right, y up, z forward) to the world.
 fn look_at(eye: DVec3, look: DVec3, up: DVec3) -> Result<DAffine3, String> {
     let ahead = (look - eye).try_normalize().ok_or("`LookAt` looks at its own place")?;
     let right = up.cross(ahead).try_normalize().ok_or("`LookAt` looks along its up")?;

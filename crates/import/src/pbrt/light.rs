@@ -1,4 +1,4 @@
-//! Lights that are no surfaces, the directive of surfaces that give light, and media.
+//! Lights that are not surfaces, the directive of emissive surfaces, and media.
 
 use std::f64::consts::{PI, TAU};
 
@@ -36,7 +36,7 @@ impl Scenery {
         }
     }
 
-    /// `power`, where the file gives one, lm.
+    /// Value of `power`, lm, if the file states one.
     fn power(parameters: Parameters<'_>) -> Result<Option<f64>, String> {
         Ok(parameters.numbers("power")?.and_then(|n| n.first().copied()).filter(|p| *p > 0.0))
     }
@@ -96,7 +96,7 @@ impl Scenery {
         let environment = match parameters.text("filename")? {
             Some(file) => {
                 if lux.is_some() {
-                    // Its sum over the upper half has 2π in the place of 4π.
+                    // Its sum over the upper half uses 2π instead of 4π.
                     self.report
                         .note("\"illuminance\" of a picture of light is lx; pbrt-v4 itself makes it twice as much");
                 }
@@ -117,7 +117,7 @@ impl Scenery {
         Ok(())
     }
 
-    /// Notes a light; `None` of one that is dark.
+    /// Notes a light; `None` for a dark one.
     fn lit(&mut self, kind: &str, unit: &str, level: f64) -> Option<f64> {
         if level > 0.0 && level.is_finite() {
             self.report.note(format!("light \"{kind}\": {level} {unit}"));
@@ -129,7 +129,7 @@ impl Scenery {
 }
 
 impl Scenery {
-    /// `None` of one that is dark.
+    /// `None` for a dark light.
     pub(super) fn area_light(&mut self, kind: &str, parameters: Parameters<'_>) -> Result<Option<AreaLight>, String> {
         if kind != "diffuse" {
             self.report.note(format!("the area light \"{kind}\" is not understood and left out"));
@@ -182,7 +182,7 @@ impl Scenery {
         Ok(())
     }
 
-    /// The medium that the camera stands in.
+    /// Fills the world with the medium around the camera.
     pub(super) fn fill_air(&mut self, name: &str) {
         if !name.is_empty() {
             self.report.note(format!(

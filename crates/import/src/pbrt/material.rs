@@ -12,7 +12,7 @@ use super::{colour::table, parameters::Parameters};
 use crate::scenery::{INTERFACE, KnownTexture, Scenery, plain};
 use crate::syntax::pbrt::PbrtValues;
 
-/// pbrt's α of a roughness.
+/// pbrt's α for a roughness.
 fn remapped(roughness: f64) -> f64 {
     roughness.max(0.0).sqrt()
 }
@@ -22,7 +22,7 @@ fn kept(roughness: f64) -> f64 {
 }
 
 impl Scenery {
-    /// Makes a material of ours; its name. `named` is what the file calls it.
+    /// Creates one of our materials; returns its name. `named` is its name in the file.
     pub(super) fn material(
         &mut self,
         kind: &str,
@@ -52,7 +52,7 @@ impl Scenery {
         Ok(made)
     }
 
-    /// The material of ours that the file calls so; grey where it has none.
+    /// Our material for a name of the file; grey if it is undefined.
     pub(super) fn named_material(&mut self, name: &str) -> Rc<str> {
         match self.known.materials.get(name) {
             Some(own) => {
@@ -103,7 +103,7 @@ impl Scenery {
         }))
     }
 
-    /// α of a surface that is alike in all directions.
+    /// α of an isotropic surface.
     fn alpha(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Factor, String> {
         let map = if parameters.flag("remaproughness", true)? { remapped } else { kept };
         let [u, v] = ["uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
@@ -165,7 +165,7 @@ impl Scenery {
         if parameters.numbers("albedo")?.is_some_and(|a| a.iter().any(|v| *v != 0.0)) {
             self.report.note("light that a coat scatters within itself (\"albedo\") is not used");
         }
-        // What it takes to scatter within the coat counts with an albedo alone, and how often it is followed is ours.
+        // Scattering within the coat matters only with an albedo, and the number of bounces is our own.
         ["g", "maxdepth", "nsamples"].iter().for_each(|name| {
             parameters.find(name);
         });
@@ -225,10 +225,10 @@ impl Scenery {
                 Ok(Metal::Named("Al".into()))
             }
             (Some(PbrtValues::Numbers(n)), Some(PbrtValues::Numbers(k))) => {
-                // A single number is the same at all wavelengths.
+                // A single number is constant over wavelength.
                 let of = |name: &str, numbers: &[f64]| match numbers {
                     [even] => Ok(Spectrum::from_fn(|_| *even)),
-                    // An index of 0 outside, as pbrt has it, is no material.
+                    // An exterior index of 0, as in pbrt, is not physical.
                     pairs => table(name, pairs, Outside::Hold),
                 };
                 let [n, k] = [of("eta", n)?, of("k", k)?];

@@ -2,8 +2,8 @@
 //!
 //! Source: "Input file format (v4)" of pbrt.org and the program's own code where the page leaves a rule open (docs/import.md lists the rules).
 //!
-//! pbrt's space is left-handed and has no up: ours is its mirror image, with the axis upwards that is nearest to the camera's up, so that pictures
-//! are the same. A length of 1 is a metre; a radiance of 1 of white light is 1 cd/m², by which pbrt's `power` and `illuminance` are lm and lx.
+//! pbrt's space is left-handed without an up axis: ours is its mirror image, with the axis nearest to the camera's up upwards, so that images are the same. A
+//! length of 1 is a metre; a radiance of 1 of white light is 1 cd/m², by which pbrt's `power` and `illuminance` are lm and lx.
 
 mod camera;
 mod colour;

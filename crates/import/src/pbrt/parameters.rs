@@ -1,8 +1,8 @@
-//! The parameters of a directive, by name.
+//! Access to the parameters of a directive by name.
 
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
-/// The parameters of one directive.
+/// Parameters of one directive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parameters<'a>(pub(super) &'a [PbrtParameter]);
 
@@ -14,7 +14,7 @@ impl<'a> Parameters<'a> {
         Some(found)
     }
 
-    /// Its numbers; `None` where it is not there.
+    /// Numbers of a parameter; `None` if it is absent.
     pub(super) fn numbers(&self, name: &str) -> Result<Option<&'a [f64]>, String> {
         match self.find(name).map(|p| &p.values) {
             None => Ok(None),
@@ -23,7 +23,7 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// Its one number, or `default`.
+    /// Single number of a parameter, or `default`.
     pub(super) fn number(&self, name: &str, default: f64) -> Result<f64, String> {
         match self.numbers(name)? {
             None => Ok(default),
@@ -32,7 +32,7 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// Its three numbers, or `default`.
+    /// Three numbers of a parameter, or `default`.
     pub(super) fn triple(&self, name: &str, default: [f64; 3]) -> Result<[f64; 3], String> {
         match self.numbers(name)? {
             None => Ok(default),
@@ -43,7 +43,7 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// Its text.
+    /// Text of a parameter.
     pub(super) fn text(&self, name: &str) -> Result<Option<&'a str>, String> {
         match self.texts(name)? {
             None => Ok(None),
@@ -60,7 +60,7 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// Its truth, or `default`.
+    /// Boolean of a parameter, or `default`.
     pub(super) fn flag(&self, name: &str, default: bool) -> Result<bool, String> {
         match self.find(name).map(|p| &p.values) {
             None => Ok(default),
@@ -69,7 +69,7 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// The names of parameters that nobody has asked for.
+    /// Names of unused parameters.
     pub(super) fn unused(&self) -> impl Iterator<Item = &'a str> {
         self.0.iter().filter(|p| !p.used.get()).map(|p| p.name.as_str())
     }

@@ -1,4 +1,4 @@
-//! Shapes: meshes in their places, spheres, discs, cylinders.
+//! Shapes: placed meshes, spheres, discs, cylinders.
 
 use etendue_scene::record::material::Factor;
 
@@ -44,12 +44,12 @@ impl Scenery {
         Ok(())
     }
 
-    /// What holds for a shape with its "alpha"; `None` where it says that nothing is there.
+    /// State of a shape with its "alpha"; `None` if alpha makes it invisible.
     fn with_alpha(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<Option<Graphics>, String> {
         let opacity = match self.factor(parameters, "alpha", 1.0, |alpha| alpha)? {
             Factor::Number(share) if share.value >= 1.0 => None,
             Factor::Number(share) if share.value <= 0.0 => {
-                // So lights are hidden in pbrt's scenes: a shape that nobody sees gives light all the same.
+                // pbrt's scenes hide lights in this way: an invisible shape still emits light.
                 self.report.note(match graphics.area_light {
                     Some(_) => {
                         "a light of alpha 0, which pbrt lets shine unseen, is left out: what shines is seen here"
@@ -104,20 +104,20 @@ impl Scenery {
         self.round(Triangles::of_cylinder(radius, [a.min(b), a.max(b)], turn_deg.to_radians()), graphics)
     }
 
-    /// A round shape as one mesh.
+    /// Adds a round shape as one mesh.
     fn round(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
         self.report
             .note("cylinders, and spheres and discs that carry a picture or are not whole, are meshes of 256 sides");
         self.surface(mesh, graphics, 1)
     }
 
-    /// Whether a picture is laid by the texture coordinates of a shape.
+    /// Returns true if the texture coordinates of a shape place an image.
     fn lays_picture(&self, graphics: &Graphics) -> bool {
         matches!(graphics.opacity, Some(Factor::Texture(_))) || self.known.pictured.contains(&graphics.material)
     }
 }
 
-/// The turn of a round shape about its axis, 0 to 360°.
+/// Sweep of a round shape about its axis, 0 to 360°.
 fn turn_deg(parameters: Parameters<'_>) -> Result<f64, String> {
     Ok(parameters.number("phimax", 360.0)?.clamp(0.0, 360.0))
 }
@@ -129,7 +129,7 @@ impl Triangles {
         Ok(Self { triangles, ..mesh })
     }
 
-    /// Corners of a patch stand in rows: (0, 0), (1, 0), (0, 1), (1, 1).
+    /// Corners of a patch are in rows: (0, 0), (1, 0), (0, 1), (1, 1).
     fn of_patches(parameters: Parameters<'_>) -> Result<Self, String> {
         let mesh = Self::points(parameters)?;
         let patches = indices::<4>(parameters, mesh.positions.len())?;
@@ -140,7 +140,7 @@ impl Triangles {
         Ok(Self { triangles, ..mesh })
     }
 
-    /// Patches with vertices of their own and the texture coordinates of their corners, as pbrt gives where a file has none.
+    /// Patches with separate vertices and the texture coordinates of their corners: pbrt's default if a file has none.
     fn of_own_patches(self, patches: &[[u32; 4]]) -> Self {
         let corners = patches.iter().flatten().map(|i| *i as usize);
         Self {
@@ -151,7 +151,7 @@ impl Triangles {
         }
     }
 
-    /// The same with the texture coordinates of pbrt's corners where it has none of its own.
+    /// The same, with pbrt's default texture coordinates if it has none.
     fn with_uv(self) -> Self {
         if self.uvs.is_empty() { self.with_corners_as_uv() } else { self }
     }
@@ -173,12 +173,12 @@ impl Triangles {
     }
 }
 
-/// The triangles of a patch.
+/// Two triangles of a patch.
 fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, d], [a, d, c]]
 }
 
-/// The corners of faces of `N`: of one face, in their order, where the file does not say them.
+/// Corner indices of faces with `N` corners; if the file states none, those of one face in order.
 fn indices<const N: usize>(parameters: Parameters<'_>, vertices: usize) -> Result<Vec<[u32; N]>, String> {
     match parameters.numbers("indices")? {
         Some(stated) => {

@@ -11,7 +11,7 @@ use super::parameters::Parameters;
 use crate::scenery::{KnownTexture, Scenery, grey};
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
-/// Whether a picture says how much of it is there: one that is there all over has no opacity, as in pbrt.
+/// Returns true if an image has transparent parts: a fully opaque one has no opacity, as in pbrt.
 fn has_opacity(image: &ImageAsset) -> bool {
     match &image.pixels {
         ImagePixels::Rgba8(pixels) => pixels.iter().any(|pixel| pixel[3] != u8::MAX),
@@ -20,7 +20,7 @@ fn has_opacity(image: &ImageAsset) -> bool {
     }
 }
 
-/// A texture's file as the written scene names it, and what its numbers are.
+/// File of a texture as named in the written scene, and its encoding.
 struct PictureFile {
     path: String,
     encoding: Encoding,
@@ -81,7 +81,7 @@ impl Scenery {
             return Ok(None);
         }
         let is_linear = matches!(ending.as_str(), "hdr" | "exr");
-        // pbrt heeds the encoding of PNG files alone: JPEG is sRGB whatever is said.
+        // pbrt uses the stated encoding only for PNG files: JPEG is always sRGB.
         let encoding = match parameters.text("encoding")? {
             _ if is_linear => Encoding::Linear,
             None | Some("sRGB") => Encoding::Srgb,
@@ -126,8 +126,8 @@ impl Scenery {
         Ok(Some(KnownTexture::Picture { name: own, scale, has_alpha }))
     }
 
-    /// A picture of numbers: its opacity where it has one, as leaves are cut out, else the mean of its colours, which are written anew where they are
-    /// encoded. A picture that cannot be read is told by the plan.
+    /// Image of numbers: its opacity if it has one (leaves are cut out so), else the mean of its colours, rewritten if they are encoded. The plan reports an
+    /// unreadable image.
     fn numbers_picture(&mut self, name: &str, file: &str, encoding: Encoding) -> Result<PictureFile, String> {
         let image = read_picture(&self.source_folder.join(file)).ok();
         let has_alpha = image.as_ref().is_some_and(has_opacity);
@@ -166,7 +166,7 @@ impl Scenery {
         })
     }
 
-    /// What the texture of a parameter became; `None` where it names none.
+    /// Converted texture of a parameter; `None` if it names none.
     pub(super) fn texture_of(
         &mut self,
         parameter: &PbrtParameter,
@@ -183,7 +183,7 @@ impl Scenery {
         }
     }
 
-    /// A scale that a texture of ours may have.
+    /// Scale within our legal range for textures.
     fn legal_scale(&mut self, scale: f64) -> Option<f64> {
         if scale > 1.0 {
             self.report.note("a picture times more than 1 is taken times 1");
@@ -191,7 +191,7 @@ impl Scenery {
         (scale < 1.0).then_some(scale.max(1e-6))
     }
 
-    /// The reflectance of a parameter, or `default`.
+    /// Reflectance of a parameter, or `default`.
     pub(super) fn reflectance(
         &mut self,
         parameters: Parameters<'_>,
@@ -212,7 +212,7 @@ impl Scenery {
         })
     }
 
-    /// The number of a parameter, 0 … 1 after `map`, or `default`; a picture is taken as it is.
+    /// Number of a parameter, 0 … 1 after `map`, or `default`; an image is used unchanged.
     pub(super) fn factor(
         &mut self,
         parameters: Parameters<'_>,

@@ -1,4 +1,4 @@
-//! Light from infinity, brought into our equirectangular pictures.
+//! Conversion of environment maps to our equirectangular images.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,13 +12,13 @@ use glam::{DMat3, DVec3};
 use super::stage::Scenery;
 use crate::naming::{azimuth_elevation_deg, rounded};
 
-/// Red, green and blue from a direction of our world of length 1.
+/// Red, green and blue from a unit direction of our world.
 pub(crate) type Found<'a> = dyn Fn(DVec3) -> [f64; 3] + 'a;
 
-/// A pixel by its number, row by row.
+/// Pixel by its index, row by row.
 pub(crate) type Pixels<'a> = Box<dyn Fn(usize) -> [f32; 3] + 'a>;
 
-/// The pixels of a picture of linear numbers; `None` of another.
+/// Pixels of an image of linear numbers; `None` for others.
 pub(crate) fn linear_pixels(image: &ImageAsset) -> Option<Pixels<'_>> {
     match &image.pixels {
         ImagePixels::Rgb32F(pixels) => Some(Box::new(|i| pixels[i])),
@@ -28,7 +28,7 @@ pub(crate) fn linear_pixels(image: &ImageAsset) -> Option<Pixels<'_>> {
 }
 
 impl Scenery {
-    /// Writes a picture of the sphere with `rows` rows; its path.
+    /// Writes an image of the sphere with `rows` rows; returns its path.
     pub(crate) fn environment_file(&mut self, rows: usize, found: &Found<'_>) -> Result<String, String> {
         let channels = resampled(rows, found);
         let layers: Vec<(String, Layer<'_>)> = ["B", "G", "R"]
@@ -44,7 +44,7 @@ impl Scenery {
     }
 }
 
-/// Red, green and blue of `rows` rows of twice as many columns, each the mean of four by four points.
+/// Red, green and blue of `rows` rows and twice as many columns, each the mean of four by four points.
 pub(crate) fn resampled(rows: usize, found: &Found<'_>) -> [Vec<f32>; 3] {
     const POINTS: usize = 4;
     let columns = 2 * rows;
@@ -68,20 +68,20 @@ pub(crate) fn resampled(rows: usize, found: &Found<'_>) -> [Vec<f32>; 3] {
     channels
 }
 
-/// An equirectangular picture, the first row at the top.
+/// Equirectangular image, with the first row at the top.
 pub(crate) struct LightPicture<'a> {
-    /// As the file calls it.
+    /// Name in the file.
     pub(crate) shown: &'a str,
-    /// As the written scene names it.
+    /// Name in the written scene.
     pub(crate) path: &'a str,
     pub(crate) columns: usize,
-    /// Pixels by their numbers.
+    /// Pixels by index.
     pub(crate) pixel: &'a dyn Fn(usize) -> [f32; 3],
 }
 
 impl Scenery {
-    /// The environment of a picture of `rows` rows, in which 1 is `scale` cd/m²; `turn` leads from the space of our pictures (the middle column is +x, the
-    /// top +z) to our world, and may mirror. It is named where it lies where it is upright, else resampled.
+    /// Environment of an image of `rows` rows, in which 1 is `scale` cd/m². `turn` transforms our image space (the middle column is +x, the top +z) to our
+    /// world, and may mirror. An upright image is referenced; others are resampled.
     pub(crate) fn light_picture(
         &mut self,
         picture: &LightPicture<'_>,
@@ -110,12 +110,12 @@ impl Scenery {
     }
 }
 
-/// Whether a picture by [`Scenery::light_picture`]'s `turn` stands upright and is not mirrored: it needs no other pixels.
+/// Returns true if `turn` of [`Scenery::light_picture`] leaves the image upright and not mirrored: no resampling is needed.
 pub(crate) fn is_upright(turn: &DMat3) -> bool {
     (turn.z_axis - DVec3::Z).length() < 1e-9 && turn.determinant() > 0.0
 }
 
-/// Columns go round, rows end at the poles.
+/// Bilinear interpolation: columns wrap around, rows end at the poles.
 fn bilinear(pixel: &dyn Fn(usize) -> [f32; 3], [columns, rows]: [usize; 2], [x, y]: [f64; 2]) -> [f64; 3] {
     let (x0, y0) = (x.floor(), y.floor());
     let (fx, fy) = (x - x0, y - y0);
@@ -128,15 +128,15 @@ fn bilinear(pixel: &dyn Fn(usize) -> [f32; 3], [columns, rows]: [usize; 2], [x, 
     std::array::from_fn(|i| (1.0 - fy) * ((1.0 - fx) * a[i] + fx * b[i]) + fy * ((1.0 - fx) * c[i] + fx * d[i]))
 }
 
-/// From another program's world to ours, of a camera's axes there (columns: right, up, ahead, as its picture has them): upwards goes the axis nearest
-/// to the camera's up, forward the one after it (x, y, z, x), and the picture is not mirrored.
+/// Rotation from another program's world to ours, from a camera's axes there (columns: right, up, forward, as in its image). The axis nearest to the camera's
+/// up points upwards, the next one (x, y, z, x) forward, and the image is not mirrored.
 pub(crate) fn to_ours(camera: DMat3) -> DMat3 {
     let up = camera.y_axis;
     let size = up.abs();
     let axis = if size.z >= size.x && size.z >= size.y { 2 } else { usize::from(size.y >= size.x) };
     let unit = |i: usize| DVec3::from_array(std::array::from_fn(|j| f64::from(u8::from(i == j))));
     let (ahead, up) = (unit((axis + 1) % 3), unit(axis) * up[axis].signum());
-    // Right, up, ahead is left-handed in a right-handed world.
+    // Right, up, forward is left-handed in a right-handed world.
     let left = up.cross(ahead) * if camera.determinant() > 0.0 { -1.0 } else { 1.0 };
     DMat3::from_cols(ahead, left, up).transpose()
 }
@@ -147,12 +147,12 @@ mod tests {
 
     #[test]
     fn a_right_handed_world_is_turned_and_a_left_handed_one_mirrored() {
-        // Looks along −z with y upwards, as in most right-handed scenes: right is x.
+        // The camera looks along −z with y upwards, as in most right-handed scenes: right is x.
         let right_handed = to_ours(DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::NEG_Z));
         assert_eq!(right_handed * DVec3::Z, DVec3::X);
         assert_eq!(right_handed * DVec3::X, DVec3::Y);
         assert_eq!(right_handed * DVec3::Y, DVec3::Z);
-        // Looks along z, right is x: left-handed.
+        // The camera looks along z, right is x: left-handed.
         let left_handed = to_ours(DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::Z));
         assert_eq!(left_handed * DVec3::Z, DVec3::X);
         assert_eq!(left_handed * DVec3::X, DVec3::NEG_Y);

@@ -1,4 +1,4 @@
-//! The scene that an import makes, piece by piece: what readers of other programs' scenes have in common.
+//! Construction of the imported scene: code shared by the readers of other programs' scenes.
 
 mod environment;
 mod objects;

@@ -1,4 +1,4 @@
-//! Objects: meshes in their places, spheres, discs, rectangles.
+//! Objects: placed meshes, spheres, discs, rectangles.
 
 use etendue_io::mesh::{encode_obj, encode_ply};
 use etendue_scene::record::medium::{MediumMesh, MediumShape, MediumSphere};
@@ -12,18 +12,18 @@ use super::stage::{Graphics, INTERFACE, Scenery};
 use crate::naming::rounded;
 
 impl Scenery {
-    /// From a shape's space to our world.
+    /// Transform from a shape's space to our world.
     pub(crate) fn placed(&self, graphics: &Graphics) -> DAffine3 {
         DAffine3::from_mat3(self.to_ours) * graphics.to_world
     }
 
-    /// A mesh of the material and the light that hold now.
+    /// Adds a mesh with the current material and light.
     pub(crate) fn mesh(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
         let count = mesh.triangles.len();
         self.surface(mesh, graphics, count)
     }
 
-    /// A mesh that is `count` shapes of the file.
+    /// Adds a mesh that represents `count` shapes of the file.
     pub(crate) fn surface(&mut self, mesh: Triangles, graphics: &Graphics, count: usize) -> Result<(), String> {
         if mesh.triangles.is_empty() {
             self.report.note("a mesh without triangles is left out");
@@ -46,7 +46,7 @@ impl Scenery {
         self.check_size()
     }
 
-    /// A sphere about the origin of a shape's space.
+    /// Adds a sphere about the origin of a shape's space.
     pub(crate) fn whole_sphere(&mut self, radius: f64, graphics: &Graphics) {
         let Some((rotation, scale)) = orthogonal(self.placed(graphics).matrix3) else {
             self.report.note("a sheared sphere is left out");
@@ -74,12 +74,12 @@ impl Scenery {
         }
     }
 
-    /// A disc in the plane z = `height` of a shape's space, its front towards +z.
+    /// Adds a disc in the plane z = `height` of a shape's space, with its front towards +z.
     pub(crate) fn whole_disc(&mut self, radius: f64, height: f64, graphics: &Graphics) {
         self.flat("disk", Shape::Disc(Disc::new(radius)), height, graphics);
     }
 
-    /// A rectangle of extents `size` in the plane z = 0 of a shape's space, its front towards +z. Where it is seen from in a picture on it may be mirrored.
+    /// Adds a rectangle of extents `size` in the plane z = 0 of a shape's space, with its front towards +z. An image on it may appear mirrored.
     pub(crate) fn quad(&mut self, size: [f64; 2], graphics: &Graphics) {
         self.flat("rectangle", Shape::Quad(Quad::new(size)), 0.0, graphics);
     }
@@ -90,7 +90,7 @@ impl Scenery {
             self.report.note(format!("a sheared {kind} is left out"));
             return;
         };
-        // `orthogonal` may have turned x round, which a flat shape does not show, but not its front.
+        // `orthogonal` may have rotated x, which does not affect a flat shape, except for its front.
         let rotation = match graphics.reverse_orientation {
             true => DMat3::from_cols(-rotation.x_axis, rotation.y_axis, -rotation.z_axis),
             false => rotation,
@@ -116,7 +116,7 @@ impl Scenery {
         self.fill(&graphics.inside, shape, transform);
     }
 
-    /// Whether a surface is one, and not the border of a medium alone.
+    /// Returns true for a visible surface, false for a mere medium boundary.
     fn is_seen(&mut self, graphics: &Graphics) -> bool {
         let is_border = &*graphics.material == INTERFACE;
         if is_border && graphics.area_light.is_some() {
@@ -125,7 +125,7 @@ impl Scenery {
         !is_border
     }
 
-    /// An object of the material and the light that hold now; `count` is how many shapes it is in pbrt.
+    /// Adds an object with the current material and light; `count` is the number of pbrt shapes in it.
     fn object(&mut self, kind: &str, body: Body, transform: Transform, graphics: &Graphics, count: usize) {
         let material = match &graphics.area_light {
             None => self.known_material(&graphics.material),
@@ -147,17 +147,17 @@ impl Scenery {
     }
 }
 
-/// Whether a shape parts a medium within from what is outside.
+/// Returns true if a shape separates a medium inside from the outside.
 fn fills(graphics: &Graphics) -> bool {
     !graphics.inside.is_empty() && graphics.inside != graphics.outside
 }
 
-/// A number above 0.
+/// Checks that a number is above 0.
 pub(crate) fn above_zero(name: &str, value: f64) -> Result<f64, String> {
     if value > 0.0 { Ok(value) } else { Err(format!("\"{name}\" of {value}; expected a number above 0")) }
 }
 
-/// A rotation and the scales before it, which make a matrix up to a turn of x; `None` where it shears.
+/// Rotation and the scales before it, equal to a matrix up to a rotation of x; `None` if it shears.
 fn orthogonal(m: DMat3) -> Option<(DMat3, DVec3)> {
     let axes = [m.x_axis, m.y_axis, m.z_axis];
     let scale = DVec3::from_array(axes.map(DVec3::length));
@@ -167,7 +167,7 @@ fn orthogonal(m: DMat3) -> Option<(DMat3, DVec3)> {
     square.then_some((DMat3::from_cols(x, y, z), scale))
 }
 
-/// A transform of ours; what is as by default is not stated.
+/// Our transform, without default values.
 fn place(position: DVec3, rotation: DMat3, scale: DVec3) -> Transform {
     let angles = rounded(angles_deg(rotation));
     Transform {

@@ -1,4 +1,4 @@
-//! Round shapes as meshes, where they carry a texture or are parts: their texture coordinates are then those of the program that wrote the scene.
+//! Round shapes as meshes, for textured or partial shapes: their texture coordinates are then those of the source program.
 
 use std::{f64::consts::TAU, path::Path};
 
@@ -6,22 +6,22 @@ use etendue_core::maths::f64 as maths;
 use etendue_io::mesh::{PlacedTriangles, read_mesh};
 use glam::{DAffine3, DVec3};
 
-/// Parts of a turn about the axis: their chords lie within 7.5e-5 of the radius.
+/// Segments of a full turn about the axis: their chords lie within 7.5e-5 of the radius.
 const SIDES: u32 = 256;
-/// Parts of the angle from pole to pole.
+/// Segments of the angle from pole to pole.
 const RINGS: u32 = 128;
 
-/// A point of a surface.
+/// Point of a surface.
 pub(crate) struct Point {
     pub(crate) position: DVec3,
-    /// Unit.
+    /// Unit normal.
     pub(crate) normal: DVec3,
-    /// v points upwards in pictures.
+    /// Texture coordinates; v points upwards in images.
     pub(crate) uv: [f64; 2],
 }
 
 impl Triangles {
-    /// A surface over the unit square, which `point` gives at (s, t); triangles without area are left out.
+    /// Surface over the unit square, which `point` evaluates at (s, t); triangles of zero area are omitted.
     fn over_square(columns: u32, rows: u32, point: impl Fn(f64, f64) -> Point) -> Self {
         let mut made = Self::default();
         for row in 0..=rows {
@@ -52,8 +52,8 @@ impl Triangles {
         (b - a).cross(c - a).length() > 1e-12 * longest * longest
     }
 
-    /// The part of a sphere about the origin between two heights z, over `turn_rad` from +x towards +y. u is the share of the turn, v that of the angle
-    /// from the lower to the upper border. (Mitsuba's whole sphere has the same.)
+    /// Part of a sphere about the origin between two heights z, over `turn_rad` from +x towards +y. u is the fraction of the turn, v that of the angle from the
+    /// lower to the upper border. (Mitsuba's whole sphere has the same.)
     pub(crate) fn of_sphere(radius: f64, [low, high]: [f64; 2], turn_rad: f64) -> Self {
         let polar = |z: f64| maths::acos((z / radius).clamp(-1.0, 1.0));
         let (from, to) = (polar(low), polar(high));
@@ -65,7 +65,7 @@ impl Triangles {
         })
     }
 
-    /// The side of a cylinder about z between two heights, over `turn_rad` from +x towards +y. u is the share of the turn, v that of the height.
+    /// Lateral surface of a cylinder about z between two heights, over `turn_rad` from +x towards +y. u is the fraction of the turn, v that of the height.
     pub(crate) fn of_cylinder(radius: f64, [low, high]: [f64; 2], turn_rad: f64) -> Self {
         Self::over_square(SIDES, 1, |s, t| {
             let normal = around(s * turn_rad);
@@ -73,22 +73,22 @@ impl Triangles {
         })
     }
 
-    /// The ring between an outer and an inner radius (0: a disc) in the plane z = `height`, its front towards +z, over `turn_rad` from +x towards +y;
-    /// `uv` gives the texture coordinates at the shares of the turn and of the way from the outer border to the inner.
+    /// Ring between an outer and an inner radius (0: a disc) in the plane z = `height`, with its front towards +z, over `turn_rad` from +x towards +y. `uv`
+    /// gives the texture coordinates at the fractions of the turn and of the distance from the outer border to the inner.
     pub(crate) fn of_ring(
         [outer, inner]: [f64; 2],
         height: f64,
         turn_rad: f64,
         uv: impl Fn(f64, f64) -> [f64; 2],
     ) -> Self {
-        // One row would lay a texture by straight lines across each triangle, which end in one point of the middle.
+        // One row would interpolate a texture linearly across triangles that meet in the centre.
         Self::over_square(SIDES, RINGS, |s, t| {
             let position = around(s * turn_rad) * (outer + (inner - outer) * t) + DVec3::Z * height;
             Point { position, normal: DVec3::Z, uv: uv(s, t) }
         })
     }
 
-    /// The same triangles with vertices of their own and the texture coordinates that pbrt gives where a file has none: those of the corners of each.
+    /// The same triangles with separate vertices and pbrt's default texture coordinates: those of the corners of each.
     pub(crate) fn with_corners_as_uv(self) -> Self {
         let corners = self.triangles.iter().flatten().map(|i| *i as usize);
         let take = |list: &[[f64; 3]]| match list.is_empty() {
@@ -104,13 +104,13 @@ impl Triangles {
     }
 }
 
-/// A unit vector at this angle from +x towards +y; exact after whole turns.
+/// Unit vector at this angle from +x towards +y; exact after whole turns.
 fn around(angle_rad: f64) -> DVec3 {
     let (sin, cos) = maths::sin_cos(if angle_rad >= TAU { 0.0 } else { angle_rad });
     DVec3::new(cos, sin, 0.0)
 }
 
-/// Triangles as a file has them.
+/// Triangles of a file.
 #[derive(Clone, Default)]
 pub(crate) struct Triangles {
     pub(crate) positions: Vec<[f64; 3]>,
@@ -120,7 +120,7 @@ pub(crate) struct Triangles {
 }
 
 impl Triangles {
-    /// Those of a mesh file, with texture coordinates whose v points upwards in pictures.
+    /// Triangles of a mesh file, with texture coordinates whose v points upwards in images.
     pub(crate) fn read(file: &Path) -> Result<Self, String> {
         let asset = read_mesh(file).map_err(|e| e.to_string())?;
         let place = |p: &[f32; 3]| std::array::from_fn(|i| asset.origin[i] + f64::from(p[i]));
@@ -132,11 +132,11 @@ impl Triangles {
         })
     }
 
-    /// Gives every vertex the mean normal of its triangles, each by its angle there (Thürmer and Wüthrich 1998), as Mitsuba does: of the triangles as they
-    /// lie in the file's world, whose front a mirror turns.
+    /// Gives every vertex the mean normal of its triangles, weighted by angle (Thürmer and Wüthrich 1998), as Mitsuba does. The triangles are those in the
+    /// file's world, whose front a mirror reverses.
     pub(crate) fn smooth(&mut self, to_world: DAffine3) {
         let at = |i: u32| to_world.transform_point3(DVec3::from_array(self.positions[i as usize]));
-        // The way back of `placed`: normals go by the inverse transposed.
+        // Inverse of `placed`: normals transform by the inverse transpose.
         let back = to_world.matrix3.transpose();
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
         for [a, b, c] in self.triangles.iter().copied() {
@@ -149,7 +149,7 @@ impl Triangles {
         self.normals = sums.into_iter().map(|sum| (back * sum.normalize_or(DVec3::Z)).to_array()).collect();
     }
 
-    /// The same in our world. Winding is that of the normal, which a mirror does not turn.
+    /// The same triangles in our world. Winding follows the normal, which a mirror does not reverse.
     pub(crate) fn placed(self, to_ours: DAffine3, reversed: bool) -> PlacedTriangles {
         let inverse = to_ours.matrix3.inverse().transpose();
         let side = if reversed { -1.0 } else { 1.0 };
@@ -185,7 +185,7 @@ mod tests {
         mesh.triangles.iter().map(|[a, b, c]| 0.5 * (at(*b) - at(*a)).cross(at(*c) - at(*a)).length()).sum()
     }
 
-    /// Areas of zones (Archimedes), sides and rings; chords lose 1e-4 of them.
+    /// Areas of zones (Archimedes), lateral surfaces and rings; chords lose 1e-4 of them.
     #[test]
     fn parts_have_their_areas() {
         let parts = [
@@ -213,7 +213,7 @@ mod tests {
         assert_eq!((find(DVec3::NEG_Z)[1], find(DVec3::Z)[1]), (0.0, 1.0));
     }
 
-    /// At the corner of a cube three squares meet, of which one is cut there: by angles its normal is the diagonal all the same.
+    /// Three squares meet at the corner of a cube, and one of them is cut there: weighted by angle its normal is still the diagonal.
     #[test]
     fn normals_are_weighted_by_angles() {
         let positions = vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [1., 1., 0.]];
@@ -224,7 +224,7 @@ mod tests {
         assert!((DVec3::from_array(corner.normals[0]) - diagonal).length() < 1e-12, "{:?}", corner.normals[0]);
     }
 
-    /// A roof of two halves, stretched and mirrored in its place: the ridge's normal is that of the place.
+    /// A roof of two halves, stretched and mirrored in the world: the ridge's normal is that in the world.
     #[test]
     fn normals_are_those_of_the_place() {
         let positions = vec![[0., 0., 1.], [0., 1., 1.], [1., 0., 0.], [-1., 0., 0.]];

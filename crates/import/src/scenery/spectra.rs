@@ -1,6 +1,6 @@
-//! Spectra: light, tables beside the scene, coefficients.
+//! Spectra: light, tables in separate files, coefficients.
 //!
-//! Pictures of plain numbers (roughness, opacity), of pictures that hold them as encoded colours.
+//! Also images of plain numbers (roughness, opacity), from images that hold them as encoded colours.
 
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ use etendue_spectra::{Spectrum, colour::decode, upsample::reflectance_spectrum};
 
 use super::{stage::Scenery, surfaces::grey};
 
-/// A light: its colour, and the luminance of one unit of it, cd/m². Zero luminance is no light.
+/// Light: colour, and luminance of one unit, cd/m². Zero luminance means no light.
 pub(crate) struct LightUnit {
     pub(crate) colour: LightColour,
     pub(crate) luminance: f64,
@@ -24,7 +24,7 @@ pub(crate) fn illuminant_of(name: &str) -> LightColour {
 }
 
 impl Scenery {
-    /// A file of a spectrum beside the scene; its path.
+    /// Writes a file of a spectrum next to the scene; returns its path.
     pub(crate) fn spectrum_file(&mut self, points: &[(f64, f64)]) -> String {
         let mut text = "wavelength_nm,value\n".to_owned();
         points.iter().for_each(|(nm, value)| writeln!(text, "{nm},{value}").expect("a text grows"));
@@ -32,14 +32,14 @@ impl Scenery {
         self.add_file(format!("spectra/{name}.csv"), text.into_bytes())
     }
 
-    /// A smooth spectrum as a table.
+    /// Smooth spectrum as a table.
     pub(crate) fn smooth_file(&mut self, spectrum: &Spectrum, factor: f64) -> String {
         let points: Vec<(f64, f64)> =
             (60..=166).map(|i| 5 * i).map(|nm| (f64::from(nm), factor * f64::from(spectrum.at(nm as f32)))).collect();
         self.spectrum_file(&points)
     }
 
-    /// A number, or a table.
+    /// Number, or table.
     pub(crate) fn curve(&mut self, spectrum: &Spectrum, even: Option<f64>, factor: f64) -> Curve {
         match even {
             Some(even) => Curve::Constant((factor * even).into()),
@@ -48,12 +48,12 @@ impl Scenery {
     }
 }
 
-/// A coefficient, 0 or more, of three numbers; the second answer is the number where they are the same.
+/// Coefficient, 0 or more, from three numbers; the second value is the number if they are equal.
 pub(crate) fn coefficient_of_rgb(name: &str, rgb: [f64; 3]) -> Result<(Spectrum, Option<f64>), String> {
     if rgb.iter().any(|v| *v < 0.0) {
         return Err(format!("\"{name}\" below 0"));
     }
-    // As pbrt has colours beyond 1: a reflectance of half the largest, times twice that.
+    // Like pbrt's colours beyond 1: a reflectance of half the largest, times twice that.
     let largest = rgb.iter().fold(0.0_f64, |most, v| most.max(*v));
     if let Some(even) = grey(rgb) {
         return Ok((Spectrum::from_fn(|_| even), Some(even)));
@@ -62,7 +62,7 @@ pub(crate) fn coefficient_of_rgb(name: &str, rgb: [f64; 3]) -> Result<(Spectrum,
     Ok((Spectrum::from_fn(|nm| 2.0 * largest * f64::from(reflectance.at(nm as f32))), None))
 }
 
-/// Red, green, blue and opacity of each pixel as they are stored, 1 for the greatest number of whole ones.
+/// Red, green, blue and opacity of each pixel as stored; integers are scaled so that their largest is 1.
 pub(crate) fn stored_pixels(image: &ImageAsset) -> Vec<[f32; 4]> {
     let byte = |b: u8| f32::from(b) / 255.0;
     let grey = |g: f32| [g, g, g, 1.0];
@@ -77,8 +77,8 @@ pub(crate) fn stored_pixels(image: &ImageAsset) -> Vec<[f32; 4]> {
 }
 
 impl Scenery {
-    /// Writes the numbers of a picture of sRGB-encoded colours: what `number` makes of linear red, green and blue; the path of the file, which holds them
-    /// as greys.
+    /// Writes an image of numbers computed by `number` from the linear red, green and blue of an sRGB-encoded image; returns the path of the file, which is
+    /// grey.
     pub(crate) fn numbers_file(
         &mut self,
         image: &ImageAsset,

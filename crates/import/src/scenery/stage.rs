@@ -1,4 +1,4 @@
-//! What an import makes: the state that holds for a shape, what names stand for, and what became of what.
+//! State of an import: graphics state of a shape, named definitions, and the conversion report.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -11,24 +11,24 @@ use glam::{DAffine3, DMat3};
 
 use crate::naming::{Names, path_between};
 
-/// What stands in the place of a material's name where a surface only parts two media.
+/// Placeholder for the material of a surface that only separates two media.
 pub(crate) const INTERFACE: &str = "interface/";
 
-/// What a texture became.
+/// Converted texture.
 #[derive(Clone)]
 pub(crate) enum KnownTexture {
-    /// The same everywhere.
+    /// Constant.
     Even([f64; 3]),
-    /// A texture of ours, times a number.
+    /// One of our textures, times a number.
     Picture {
         name: String,
         scale: f64,
-        /// Whether its number is its opacity, as of pbrt's pictures with one.
+        /// True if its number is its opacity, as for pbrt's images with one.
         has_alpha: bool,
     },
 }
 
-/// A homogeneous medium.
+/// Homogeneous medium.
 #[derive(Clone)]
 pub(crate) struct Homogeneous {
     pub(crate) extinction: Curve,
@@ -36,36 +36,36 @@ pub(crate) struct Homogeneous {
     pub(crate) g: f64,
 }
 
-/// Names and what they stand for.
+/// Named definitions.
 #[derive(Default)]
 pub(crate) struct Known {
-    /// Textures, those of colours (true) and those of numbers apart.
+    /// Textures; those of colours (true) and those of numbers are separate.
     pub(crate) textures: HashMap<(bool, String), KnownTexture>,
-    /// Names of ours of the file's materials; the empty name is that of the grey one.
+    /// Our names of the file's materials; the empty name is the grey one.
     pub(crate) materials: HashMap<String, Rc<str>>,
-    /// Names of ours of the materials that lay a picture by texture coordinates.
+    /// Our names of the materials that place an image by texture coordinates.
     pub(crate) pictured: HashSet<Rc<str>>,
-    /// How often a material has laid a picture so far.
+    /// Number of images placed by materials so far.
     pub(crate) pictures_laid: usize,
-    /// Names of copies of which only a share is there, by what they are copies of and the share.
+    /// Names of partly transparent copies, by the original and the opacity.
     pub(crate) thinned: HashMap<String, Rc<str>>,
-    /// Media that are understood.
+    /// Supported media.
     pub(crate) media: HashMap<String, Homogeneous>,
 }
 
-/// The light of the shapes that follow.
+/// Light of the shapes that follow.
 #[derive(Clone, Debug)]
 pub(crate) struct AreaLight {
     pub(crate) colour: LightColour,
-    /// cd/m², of shapes without a flux.
+    /// Luminance, cd/m², of shapes without a flux.
     pub(crate) luminance: f64,
-    /// Flux of each of pbrt's shapes, a triangle or a sphere, lm.
+    /// Flux of each pbrt shape, a triangle or a sphere, lm.
     pub(crate) flux: Option<f64>,
     pub(crate) two_sided: bool,
 }
 
 impl AreaLight {
-    /// The emission of an object that is `count` of pbrt's shapes.
+    /// Emission of an object of `count` pbrt shapes.
     pub(crate) fn emission(&self, count: usize) -> SurfaceEmission {
         let level = match self.flux {
             Some(lm) => Level::LuminousFlux((lm * count as f64).into()),
@@ -75,34 +75,34 @@ impl AreaLight {
         SurfaceEmission { sides: self.two_sided.then(|| Sides::Both.into()), ..SurfaceEmission::new(light) }
     }
 
-    /// Whether it gives each of pbrt's shapes a flux.
+    /// Returns true if each pbrt shape has a flux.
     pub(crate) fn has_flux(&self) -> bool {
         self.flux.is_some()
     }
 }
 
-/// Objects of a scene, instances counted each: as text they have about 100 MB.
+/// Maximum objects of a scene, counting each instance: as text they have about 100 MB.
 const MAX_OBJECTS: usize = 1_000_000;
 
-/// The scene as far as it is made.
+/// Scene under construction.
 pub(crate) struct Scenery {
     pub(crate) scene: Scene,
     pub(crate) report: Report,
     pub(crate) file_names: Names,
     pub(crate) names: Names,
-    /// From the file's world to ours.
+    /// Rotation from the file's world to ours.
     pub(crate) to_ours: DMat3,
     pub(crate) known: Known,
-    /// The folder of the scene file.
+    /// Folder of the scene file.
     pub(crate) source_folder: PathBuf,
-    /// The folder of what is written.
+    /// Folder of the written files.
     folder: PathBuf,
     pub(crate) files: Vec<(String, Vec<u8>)>,
     bytes: u64,
 }
 
 impl Graphics {
-    /// What holds where nothing is said.
+    /// Default graphics state.
     pub(crate) fn plain() -> Self {
         let none: Rc<str> = Rc::from("");
         Self {
@@ -134,14 +134,14 @@ impl Scenery {
         }
     }
 
-    /// Adds a file to what is written; its path.
+    /// Adds a file to the written ones; returns its path.
     pub(crate) fn add_file(&mut self, name: String, bytes: Vec<u8>) -> String {
         self.bytes += bytes.len() as u64;
         self.files.push((name.clone(), bytes));
         name
     }
 
-    /// Refuses what instances would multiply beyond the limit.
+    /// Refuses instances that exceed the limit.
     pub(crate) fn check_size(&self) -> Result<(), String> {
         if self.scene.objects.len() > MAX_OBJECTS {
             return Err(format!("the scene has more than {MAX_OBJECTS} objects with all instances; instance less"));
@@ -149,17 +149,17 @@ impl Scenery {
         limits::MESH.check_unpacked(self.bytes).map_err(|problem| problem.words)
     }
 
-    /// The path, as the written scene names it, of a file that the scene file names.
+    /// Path, as in the written scene, of a file that the scene file names.
     pub(crate) fn path_of(&self, name: &str) -> String {
         self.way_to(&self.source_folder.join(name))
     }
 
-    /// The path of a file as the written scene names it.
+    /// Path of a file as in the written scene.
     pub(crate) fn way_to(&self, file: &Path) -> String {
         path_between(&self.folder, file).to_string_lossy().into_owned()
     }
 
-    /// Notes the parameters that nobody has asked for.
+    /// Notes the unused parameters.
     pub(crate) fn note_unused<'a>(&mut self, of: &str, unused: impl Iterator<Item = &'a str>) {
         for name in unused {
             self.report.note(format!("{of}: \"{name}\" is not used"));
@@ -167,33 +167,33 @@ impl Scenery {
     }
 }
 
-/// What holds for a shape.
+/// Graphics state of a shape.
 #[derive(Clone)]
 pub(crate) struct Graphics {
-    /// What the shape is called; empty: by its kind.
+    /// Name of the shape; empty: named by its kind.
     pub(crate) name: Rc<str>,
-    /// From the space of what follows to the file's world.
+    /// Transform from the current space to the file's world.
     pub(crate) to_world: DAffine3,
     pub(crate) reverse_orientation: bool,
     pub(crate) material: Rc<str>,
     pub(crate) area_light: Option<Rc<AreaLight>>,
     pub(crate) inside: Rc<str>,
     pub(crate) outside: Rc<str>,
-    /// Share of the surface that is there; `None` for all.
+    /// Opacity of the surface; `None` if opaque.
     pub(crate) opacity: Option<Factor>,
 }
 
-/// Sentences in the order in which they came.
+/// Notes, in the order of occurrence.
 #[derive(Debug, Default)]
 pub(crate) struct Report {
     order: Vec<String>,
     counts: HashMap<String, (usize, String)>,
-    /// The file and line that is being read.
+    /// File and line in progress.
     place: String,
 }
 
 impl Report {
-    /// What follows stands here.
+    /// Sets the place of the notes that follow.
     pub(crate) fn at(&mut self, place: String) {
         self.place = place;
     }

@@ -1,6 +1,4 @@
-//! Surfaces and media: the default surface, those that give light, metals by tables, shares of light.
-//!
-//! Shares of light, 0 … 1.
+//! Surfaces and media: the default surface, emissive surfaces, metals by tables, and reflectances 0 … 1.
 
 use std::{fmt::Write as _, rc::Rc};
 
@@ -11,13 +9,13 @@ use etendue_spectra::upsample;
 
 use super::stage::{Homogeneous, Scenery};
 
-/// The number that three equal ones are.
+/// Value of three equal numbers.
 pub(crate) fn grey(values: [f64; 3]) -> Option<f64> {
     (values[0] == values[1] && values[1] == values[2]).then_some(values[0])
 }
 
 impl Scenery {
-    /// A share of light of a parameter called `name`, cut off at 0 and 1, which is said.
+    /// Reflectance of a parameter called `name`, clamped to 0 … 1 with a note.
     pub(crate) fn cut(&mut self, name: &str, share: f64) -> f64 {
         let legal = share.clamp(0.0, 1.0);
         if legal != share {
@@ -26,7 +24,7 @@ impl Scenery {
         legal
     }
 
-    /// The same of linear sRGB.
+    /// The same for linear sRGB.
     pub(crate) fn share_of_rgb(&mut self, name: &str, rgb: [f64; 3]) -> Colour {
         let legal = rgb.map(|v| self.cut(name, v));
         grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into()))
@@ -34,7 +32,7 @@ impl Scenery {
 }
 
 impl Scenery {
-    /// Fills a part of the world with a medium; nothing where the name is empty or not understood.
+    /// Fills a part of the world with a medium; does nothing if the name is empty or not supported.
     pub(crate) fn fill(&mut self, name: &str, shape: MediumShape, transform: Transform) {
         let Some(Homogeneous { extinction, albedo, g }) = self.known.media.get(name).cloned() else {
             self.report.note(format!("a part of the world has no medium: \"{name}\" is not there or not understood"));
@@ -55,7 +53,7 @@ impl Scenery {
 }
 
 impl Scenery {
-    /// A material by its name in ours; the grey one where it is empty.
+    /// Material by our name; the grey one if it is empty.
     pub(crate) fn known_material(&mut self, own: &str) -> String {
         if !own.is_empty() {
             return own.to_owned();
@@ -69,7 +67,7 @@ impl Scenery {
         grey.to_string()
     }
 
-    /// The black surface of lights that have none of their own, one for all of them.
+    /// Black surface of lights without one of their own, shared by all of them.
     pub(crate) fn black(&mut self) -> Rc<str> {
         const KEY: &str = "black/";
         if let Some(black) = self.known.materials.get(KEY) {
@@ -81,7 +79,7 @@ impl Scenery {
         black
     }
 
-    /// A copy of a material that gives light.
+    /// Emissive copy of a material.
     pub(crate) fn glowing(&mut self, own: &str, emission: SurfaceEmission) -> String {
         let own = self.known_material(own);
         let name = self.names.take(&format!("{own}-light"), "light");
@@ -91,7 +89,7 @@ impl Scenery {
         name
     }
 
-    /// A copy of a material of which only a share is there.
+    /// Partly transparent copy of a material.
     pub(crate) fn thinned(&mut self, own: &str, opacity: Factor) -> String {
         let told = match &opacity {
             Factor::Number(share) => format!("{own} {}", share.value),
@@ -111,7 +109,7 @@ impl Scenery {
         name
     }
 
-    /// A metal that reflects shares of light of linear sRGB at normal incidence, as pbrt has it: n = 1 and the k that reflects so.
+    /// Metal with the reflectance of linear sRGB at normal incidence, as in pbrt: n = 1 and the matching k.
     pub(crate) fn metal_of_rgb(&mut self, rgb: [f64; 3]) -> Metal {
         let reflectance = upsample::reflectance_spectrum(rgb.map(|v| v as f32));
         let k = |nm: f32| {
@@ -121,7 +119,7 @@ impl Scenery {
         self.index_file(|_| 1.0, k)
     }
 
-    /// A metal of a complex refractive index over the wavelength, in a file beside the scene.
+    /// Metal with a complex refractive index over wavelength, in a separate file next to the scene.
     pub(crate) fn index_file(&mut self, n: impl Fn(f32) -> f64, k: impl Fn(f32) -> f64) -> Metal {
         let mut text = "wavelength_nm,n,k\n".to_owned();
         for nm in (60_u16..=166).map(|i| 5 * i) {
@@ -134,7 +132,7 @@ impl Scenery {
     }
 }
 
-/// The same reflectance at all wavelengths.
+/// Constant reflectance over wavelength.
 pub(crate) fn plain(reflectance: f64) -> Reflectance {
     Reflectance::Plain(Colour::Grey(reflectance.into()))
 }

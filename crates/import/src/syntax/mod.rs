@@ -1,4 +1,4 @@
-//! Files of other programs as those programs structure them: directives, elements and prims, each with its place.
+//! Syntax of other programs' files: directives, elements and prims, each with its place.
 
 pub mod mitsuba;
 pub mod pbrt;

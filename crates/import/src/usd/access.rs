@@ -1,4 +1,4 @@
-//! Prims and properties by their paths, and attributes by what is expected of them.
+//! Access to prims and properties by path, and to attributes by type.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::syntax::usd::{UsdAsset, UsdPrim, UsdValue};
 
-/// A number; `None` where there is none.
+/// Number; `None` if there is none.
 pub(super) fn stated(prim: &UsdPrim, name: &str) -> Option<f64> {
     match prim.value(name)? {
         UsdValue::Number(v) if v.is_finite() => Some(*v),
@@ -14,12 +14,12 @@ pub(super) fn stated(prim: &UsdPrim, name: &str) -> Option<f64> {
     }
 }
 
-/// A number, or what holds without one.
+/// Number, or the default.
 pub(super) fn number(prim: &UsdPrim, name: &str, default: f64) -> f64 {
     stated(prim, name).unwrap_or(default)
 }
 
-/// True or false.
+/// Boolean, or the default.
 pub(super) fn flag(prim: &UsdPrim, name: &str, default: bool) -> bool {
     match prim.value(name) {
         Some(UsdValue::Flag(v)) => *v,
@@ -28,7 +28,7 @@ pub(super) fn flag(prim: &UsdPrim, name: &str, default: bool) -> bool {
     }
 }
 
-/// A tuple of finite numbers.
+/// Tuple of finite numbers.
 pub(super) fn tuple<const N: usize>(prim: &UsdPrim, name: &str) -> Option<[f64; N]> {
     match prim.value(name)? {
         UsdValue::Tuple(list) if list.iter().all(|v| v.is_finite()) => list.as_slice().try_into().ok(),
@@ -36,7 +36,7 @@ pub(super) fn tuple<const N: usize>(prim: &UsdPrim, name: &str) -> Option<[f64; 
     }
 }
 
-/// A token or text; empty where there is none.
+/// Token or text; empty if there is none.
 pub(super) fn text<'a>(prim: &'a UsdPrim, name: &str) -> &'a str {
     match prim.value(name) {
         Some(UsdValue::Text(text)) => text,
@@ -44,7 +44,7 @@ pub(super) fn text<'a>(prim: &'a UsdPrim, name: &str) -> &'a str {
     }
 }
 
-/// A file, unless its name is empty.
+/// File, unless its name is empty.
 pub(super) fn asset<'a>(prim: &'a UsdPrim, name: &str) -> Option<&'a UsdAsset> {
     match prim.value(name) {
         Some(UsdValue::Asset(asset)) if !asset.stated.is_empty() => Some(asset),
@@ -52,7 +52,7 @@ pub(super) fn asset<'a>(prim: &'a UsdPrim, name: &str) -> Option<&'a UsdAsset> {
     }
 }
 
-/// An array of numbers; empty where there is none.
+/// Array of numbers; empty if there is none.
 pub(super) fn numbers<'a>(prim: &'a UsdPrim, name: &str) -> &'a [f64] {
     match prim.value(name) {
         Some(UsdValue::Numbers(list)) => list,
@@ -60,13 +60,13 @@ pub(super) fn numbers<'a>(prim: &'a UsdPrim, name: &str) -> &'a [f64] {
     }
 }
 
-/// An array of numbers of things, each 0 or more; `None` of one that is not.
+/// Array of indices, each 0 or more; `None` if one is not.
 pub(super) fn indices(prim: &UsdPrim, name: &str) -> Option<Vec<usize>> {
     let index = |v: &f64| (*v >= 0.0 && *v < 1e15).then_some(*v as usize);
     numbers(prim, name).iter().map(index).collect()
 }
 
-/// An array of tuples, one after the other; empty where there is none of `N` numbers each.
+/// Array of tuples, concatenated; empty if there is none of `N` numbers each.
 pub(super) fn tuples<'a, const N: usize>(prim: &'a UsdPrim, name: &str) -> &'a [[f64; N]] {
     match prim.value(name) {
         Some(UsdValue::Tuples(count, list)) if *count == N => list.as_chunks::<N>().0,
@@ -74,12 +74,12 @@ pub(super) fn tuples<'a, const N: usize>(prim: &'a UsdPrim, name: &str) -> &'a [
     }
 }
 
-/// A direction or place.
+/// Direction or position.
 pub(super) fn vector(prim: &UsdPrim, name: &str) -> Option<DVec3> {
     tuple::<3>(prim, name).map(DVec3::from_array)
 }
 
-/// Counts everything of a prim as looked at: what is left out is told once.
+/// Marks all properties of a prim as used: omitted content is reported once.
 pub(super) fn leave(prim: &UsdPrim) {
     prim.attributes.values().for_each(|attribute| attribute.used.set(true));
     prim.relations.values().for_each(|relation| relation.used.set(true));
@@ -101,12 +101,12 @@ impl<'a> Paths<'a> {
         Self(all)
     }
 
-    /// The prim of a path.
+    /// Prim of a path.
     pub(super) fn prim(&self, path: &str) -> Option<&'a UsdPrim> {
         self.0.get(path).copied()
     }
 
-    /// The prim and the name of a property, `/a/b.outputs:rgb`.
+    /// Prim and name of a property, `/a/b.outputs:rgb`.
     pub(super) fn property<'p>(&self, path: &'p str) -> Option<(&'a UsdPrim, &'p str)> {
         let (prim, name) = path.split_once('.')?;
         Some((self.prim(prim)?, name))

@@ -1,7 +1,7 @@
-//! Which material a prim has.
+//! Material of a prim.
 //!
-//! Source: openusd.org, UsdShadeMaterialBindingAPI, "Material Resolve" and "Binding strength": of the bindings for full rendering the nearest one from a prim upwards
-//! holds, or else of those for all purposes; one that is stronger than its descendants holds for all of them.
+//! Source: openusd.org, UsdShadeMaterialBindingAPI, "Material Resolve" and "Binding strength": the nearest binding for full rendering from a prim upwards
+//! applies, or else the nearest for all purposes; one that is stronger than its descendants applies to all of them.
 
 use std::rc::Rc;
 
@@ -11,7 +11,7 @@ const FULL: &str = "material:binding:full";
 const ALL_PURPOSES: &str = "material:binding";
 const COLLECTION: &str = "material:binding:collection";
 
-/// What a prim is bound to, by itself or by those above it.
+/// Material bindings of a prim, its own or inherited.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Bindings<'a> {
     full: Option<Binding<'a>>,
@@ -25,13 +25,13 @@ struct Binding<'a> {
 }
 
 impl<'a> Bindings<'a> {
-    /// Those of a prim in one that has these; only what leads to a material holds.
+    /// Bindings of a child prim; only those that lead to a material apply.
     pub(super) fn within(self, prim: &'a UsdPrim, is_material: impl Fn(&str) -> bool) -> Self {
         let full = holding(self.full, prim, FULL, &is_material);
         Self { full, all_purposes: holding(self.all_purposes, prim, ALL_PURPOSES, &is_material) }
     }
 
-    /// The path of the material.
+    /// Path of the material.
     pub(super) fn material(&self) -> Option<&'a str> {
         self.full.or(self.all_purposes).map(|binding| binding.path)
     }
@@ -50,31 +50,31 @@ fn holding<'a>(
     above.filter(|binding| binding.is_stronger).or(own).or(above)
 }
 
-/// The paths that a prim is bound to by itself.
+/// Paths of a prim's own bindings.
 pub(super) fn bound(prim: &UsdPrim) -> impl Iterator<Item = &str> {
     let relations = [FULL, ALL_PURPOSES].into_iter().filter_map(|name| prim.relation(name));
     relations.filter_map(|relation| relation.targets.first()).map(String::as_str)
 }
 
-/// Whether a prim is bound to a material by itself.
+/// Returns true if a prim has its own binding to a material.
 pub(super) fn is_bound(prim: &UsdPrim) -> bool {
     [FULL, ALL_PURPOSES].iter().any(|name| prim.relation(name).is_some())
 }
 
-/// Whether it binds collections, which are told apart from other relationships.
+/// Returns true if it binds collections, as opposed to other relationships.
 pub(super) fn binds_collections(prim: &UsdPrim) -> bool {
     let names = prim.relations.keys().filter(|name| name.starts_with(COLLECTION));
     names.filter(|name| prim.relation(name).is_some()).count() > 0
 }
 
-/// A material of the stage.
+/// Material of the stage.
 #[derive(Clone, Default)]
 pub(super) struct BoundMaterial {
-    /// Its name in ours; empty of one that is not understood.
+    /// Our name; empty if it is not supported.
     pub(super) name: Rc<str>,
-    /// The primvar by which its pictures lie; empty of one without pictures.
+    /// Primvar of the texture coordinates of its images; empty without images.
     primvar: Rc<str>,
-    /// Factors of u, v, and what is added, of those of its pictures that are black outside of 0 … 1.
+    /// Factors and offsets of u, v for its images that are black outside 0 … 1.
     black_outside: Rc<[[[f64; 2]; 2]]>,
 }
 
@@ -83,19 +83,19 @@ impl BoundMaterial {
         Self { name: name.into(), primvar, black_outside: black_outside.into() }
     }
 
-    /// The primvar by which pictures lie.
+    /// Primvar of the texture coordinates of its images.
     pub(super) fn primvar(&self) -> &str {
         if self.primvar.is_empty() { "st" } else { &self.primvar }
     }
 
-    /// Whether it has pictures.
+    /// Returns true if it has images.
     pub(super) fn has_pictures(&self) -> bool {
         !self.primvar.is_empty()
     }
 
-    /// Whether a picture that is black outside is seen from outside at one of these texture coordinates.
+    /// Returns true if one of these texture coordinates shows the outside of an image that is black there.
     pub(super) fn shows_outside(&self, uvs: &[[f64; 2]]) -> bool {
-        // Coordinates of 32 bits, and what scales make of them.
+        // Tolerance for coordinates of 32 bits after scaling.
         const NEAR: f64 = 1e-5;
         let is_outside = |v: f64| !(-NEAR..=1.0 + NEAR).contains(&v);
         let leaves =
@@ -132,9 +132,9 @@ mod tests {
         let inner = || prim(&[(ALL_PURPOSES, "/inner", false)]);
         assert_eq!(material(&[outer(), prim(&[]), inner()]), Some("/inner"));
         assert_eq!(material(&[outer(), prim(&[])]), Some("/outer"));
-        // Full rendering goes before all purposes, however far above it is bound.
+        // Full rendering takes precedence over all purposes, however far above it is bound.
         assert_eq!(material(&[prim(&[(FULL, "/full", false)]), inner()]), Some("/full"));
-        // What leads to no material hides none.
+        // A binding that leads to no material hides no other.
         assert_eq!(material(&[outer(), prim(&[(ALL_PURPOSES, "/none", true)])]), Some("/outer"));
         assert_eq!(material(&[prim(&[(FULL, "/none", false), (ALL_PURPOSES, "/inner", false)])]), Some("/inner"));
         assert_eq!(material(&[prim(&[("material:binding:preview", "/preview", true)])]), None);

@@ -8,11 +8,11 @@ use super::importer::{Importer, State};
 use crate::syntax::usd::UsdPrim;
 use crate::written::{ImportedCamera, View, pose_of, size_of};
 
-/// Focal lengths that are believed, mm.
+/// Plausible focal lengths, mm.
 const USUAL_MM: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
 
 impl<'a> Importer<'a> {
-    /// Focal length and apertures are in tenths of the stage's unit; it looks along −z.
+    /// Converts a camera. Focal length and apertures are in tenths of the stage's unit; it looks along −z.
     pub(super) fn camera(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
         let above_zero = |name: &str, usual: f64| match number(prim, name, usual) {
             v if v > 0.0 && v.is_finite() => Ok(v),

@@ -1,4 +1,4 @@
-//! Light from all round: UsdLux's DomeLight.
+//! Environment light: UsdLux's DomeLight.
 
 use std::path::Path;
 
@@ -10,7 +10,8 @@ use super::importer::{Importer, State};
 use crate::scenery::{LightPicture, LightUnit, grey, is_upright, linear_pixels};
 use crate::syntax::usd::{UsdAxis, UsdFile, UsdPrim};
 
-/// From the space of a dome, its top +y, to that of our pictures: the middle of its picture is seen along +z, the quarter to the left along +x (OpenEXR's).
+/// Rotation from the space of a dome, with its top at +y, to that of our images: the middle of its image is seen along +z, the quarter to the left along +x
+/// (OpenEXR's convention).
 fn picture_axes() -> DMat3 {
     DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)
 }
@@ -33,7 +34,7 @@ impl<'a> Importer<'a> {
         Ok(())
     }
 
-    /// `None`, and a note, of a picture that is not used.
+    /// `None`, with a note, for an unused image.
     fn dome_picture(
         &mut self,
         prim: &'a UsdPrim,
@@ -67,7 +68,7 @@ impl<'a> Importer<'a> {
             "" if prim.kind == "DomeLight_1" => self.stage.up,
             _ => UsdAxis::Y,
         };
-        // A pole along z: as turned by 90° about x.
+        // A pole along z is a rotation by 90° about x.
         let stand =
             if pole == UsdAxis::Z { DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y) } else { DMat3::IDENTITY };
         let axes = state.to_world.matrix3;
@@ -77,7 +78,7 @@ impl<'a> Importer<'a> {
             axes.z_axis.normalize_or_zero(),
         );
         let turn = self.scenery.to_ours * own * stand * picture_axes().transpose();
-        // What is resampled need not lie beside the scene as well.
+        // A resampled image need not also be written next to the scene.
         let path = match (&stated.file, is_upright(&turn)) {
             (Some(UsdFile::Packed(..)), false) => String::new(),
             _ => self.file(stated)?,
@@ -87,7 +88,7 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// Whether a picture's ending is one of linear numbers: those of 16 bits are encoded.
+/// Returns true for file extensions of linear images: those of 16 bits are encoded.
 fn is_linear(name: &str) -> bool {
     let ending = Path::new(name).extension().unwrap_or_default().to_ascii_lowercase();
     ending == "exr" || ending == "hdr"

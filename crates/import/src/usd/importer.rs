@@ -1,4 +1,4 @@
-//! Prims to a scene.
+//! Conversion of prims to a scene.
 
 use std::{collections::HashMap, path::Path, rc::Rc};
 
@@ -12,46 +12,46 @@ use crate::syntax::usd::{UsdAxis, UsdPrim, UsdStage};
 use crate::without::{even_sky, whole_view};
 use crate::written::{ImportedCamera, Written, written};
 
-/// Prims that are walked, those of instances counted each.
+/// Maximum visited prims, counting those of each instance.
 const MAX_VISITS: usize = 1_000_000;
 
-/// The scene as far as it is made.
+/// Scene under construction.
 pub(super) struct Importer<'a> {
     pub(super) scenery: Scenery,
     pub(super) stage: &'a UsdStage,
     pub(super) paths: Paths<'a>,
-    /// From the stage's space to that of lengths in metres.
+    /// Transform from the stage's space to metres.
     root: DAffine3,
-    /// What materials became, by their paths.
+    /// Converted materials, by path.
     pub(super) materials: HashMap<String, BoundMaterial>,
-    /// Of the material that is being made: how pictures lie that are black outside.
+    /// Texture transforms of the current material's images that are black outside.
     pub(super) black_outside: Vec<[[f64; 2]; 2]>,
-    /// What pictures became, by all that is asked of them.
+    /// Converted images, by all their parameters.
     pub(super) textures: HashMap<String, KnownTexture>,
-    /// Files of packages that are written, by their names there.
+    /// Written files of packages, by their names there.
     pub(super) unpacked: HashMap<String, String>,
     pub(super) cameras: Vec<ImportedCamera>,
-    /// The box that holds all shapes, in our world.
+    /// Bounding box of all shapes, in our world.
     low: DVec3,
     high: DVec3,
     pub(super) shines: bool,
     visits: usize,
 }
 
-/// What holds for a prim by those about it.
+/// State inherited by a prim.
 #[derive(Clone)]
 pub(super) struct State<'a> {
     pub(super) to_world: DAffine3,
     is_visible: bool,
     purpose: &'a str,
-    /// The materials that are bound.
+    /// Material bindings.
     pub(super) bindings: Bindings<'a>,
-    /// Instancers about it.
+    /// Number of enclosing instancers.
     pub(super) depth: usize,
 }
 
 impl State<'_> {
-    /// Whether it is seen in a picture.
+    /// Returns true if it is visible in an image.
     pub(super) fn is_drawn(&self) -> bool {
         self.is_visible && matches!(self.purpose, "" | "default" | "render")
     }
@@ -81,7 +81,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// Makes the scene of all prims.
+    /// Converts all prims.
     pub(super) fn read(&mut self) -> Result<(), String> {
         let metres = self.stage.metres_per_unit;
         let by = if self.stage.says_metres { "as it says" } else { "as where nothing is said" };
@@ -97,7 +97,7 @@ impl<'a> Importer<'a> {
         Ok(())
     }
 
-    /// The files of the scene.
+    /// Files of the scene.
     pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
         self.read()?;
         let Scenery { scene, report, .. } = &mut self.scenery;
@@ -119,7 +119,7 @@ impl<'a> Importer<'a> {
         Ok(made)
     }
 
-    /// A prim and all within it.
+    /// Converts a prim and all its descendants.
     pub(super) fn prim(&mut self, prim: &'a UsdPrim, about: &State<'a>) -> Result<(), String> {
         self.visits += 1;
         if self.visits > MAX_VISITS {
@@ -137,7 +137,7 @@ impl<'a> Importer<'a> {
         state.bindings = self.bindings(prim, &about.bindings);
         match prim.kind.as_str() {
             "PointInstancer" => return self.instancer(prim, &state),
-            // Whoever asks for them reads them.
+            // Read where they are used.
             "Material" | "Shader" | "NodeGraph" | "GeomSubset" => return Ok(()),
             "Camera" => self.camera(prim, &state)?,
             "" | "Xform" | "Scope" | "SkelRoot" => {}
@@ -149,7 +149,7 @@ impl<'a> Importer<'a> {
         prim.children.iter().try_for_each(|child| self.prim(child, &state))
     }
 
-    /// What a prim is bound to, within one of these bindings.
+    /// Bindings of a prim, within those of its parent.
     pub(super) fn bindings(&mut self, prim: &'a UsdPrim, about: &Bindings<'a>) -> Bindings<'a> {
         if binds_collections(prim) {
             self.scenery.report.note("materials that are bound to collections are not used");
@@ -164,25 +164,25 @@ impl<'a> Importer<'a> {
         about.within(prim, is_material)
     }
 
-    /// Says that a prim is not drawn.
+    /// Notes that a prim is not drawn.
     pub(super) fn leave_undrawn(&mut self, prim: &UsdPrim) {
         super::access::leave(prim);
         let told = "what is invisible, or for purposes other than rendering (guide, proxy), is left out";
         self.scenery.report.note(told);
     }
 
-    /// What a shape is called.
+    /// Name of a shape.
     pub(super) fn name(prim: &UsdPrim) -> Rc<str> {
         prim.name().into()
     }
 
-    /// Notes that a shape reaches to a place of the file's world.
+    /// Extends the bounding box to a position of the file's world.
     pub(super) fn reaches(&mut self, place: DVec3) {
         let ours = self.scenery.to_ours * place;
         (self.low, self.high) = (self.low.min(ours), self.high.max(ours));
     }
 
-    /// Notes what changes over time, and what nobody has asked for.
+    /// Notes properties that change over time, and unused ones.
     pub(super) fn note_unused(&mut self, prim: &UsdPrim) {
         let time = self.stage.start_time;
         self.scenery.report.at(prim.path.clone());
@@ -204,7 +204,7 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// Attributes and relationships that say nothing of a picture, and those of which what they lead to is used.
+/// Returns true for attributes and relationships that do not affect an image, and for those used through their targets.
 fn is_aside(name: &str) -> bool {
     matches!(name, "extent" | "doubleSided" | "extentsHint" | "visibility" | "purpose" | "xformOpOrder")
         || matches!(name, "proxyPrim" | "familyName")

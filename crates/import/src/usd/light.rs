@@ -12,9 +12,9 @@ use super::shape::{about, cylinder};
 use crate::scenery::{AreaLight, Graphics, LightUnit};
 use crate::{lamps, syntax::usd::UsdPrim};
 
-/// The least disc of parallel light, degrees.
+/// Minimum angular diameter of parallel light, degrees.
 const PARALLEL_DEG: f64 = 0.01;
-/// The largest disc of a sun, degrees.
+/// Maximum angular diameter of a sun, degrees.
 const MAX_SUN_DEG: f64 = 20.0;
 
 impl<'a> Importer<'a> {
@@ -66,7 +66,7 @@ impl<'a> Importer<'a> {
         [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.length() / self.stage.metres_per_unit)
     }
 
-    /// A surface that shines, black by itself.
+    /// Adds an emissive surface with a black BSDF.
     fn area(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit) -> Result<(), String> {
         self.scenery.report.note(format!("{}: {} cd/m²", prim.kind, unit.luminance));
         if super::access::asset(prim, "inputs:texture:file").is_some() {
@@ -80,7 +80,7 @@ impl<'a> Importer<'a> {
             area_light: Some(Rc::new(light)),
             ..Graphics::plain()
         };
-        // Flat lights shine towards −z.
+        // Flat lights emit towards −z.
         let turned = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)));
         let flat = Graphics { to_world: state.to_world * turned, ..graphics.clone() };
         self.shines = true;
@@ -102,8 +102,8 @@ impl<'a> Importer<'a> {
         self.scenery.check_size()
     }
 
-    /// What a sphere of this luminance gives from afar, cd: L π r², or where "normalize" divides by its surface 4 π r², a quarter of L unit²,
-    /// whatever its radius is.
+    /// Intensity of a sphere of this luminance from afar, cd: L π r². With "normalize", which divides by its surface 4 π r², a quarter of L unit², whatever its
+    /// radius.
     fn candela(&self, prim: &UsdPrim, state: &State<'a>, luminance: f64) -> f64 {
         if flag(prim, "inputs:normalize", false) {
             let _ = number(prim, "inputs:radius", 0.5);
@@ -144,7 +144,7 @@ impl<'a> Importer<'a> {
         self.scenery.report.note("a SphereLight without a radius, and without \"normalize\", is dark and left out");
     }
 
-    /// A disc at infinity: its luminance over its projected solid angle is what arrives.
+    /// Disc at infinity: its illuminance is its luminance times its projected solid angle.
     fn distant(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit, is_divided: bool) {
         let angle_deg = number(prim, "inputs:angle", 0.53).clamp(0.0, 360.0);
         let half = maths::sin(0.5 * angle_deg.min(180.0).to_radians());
@@ -164,7 +164,7 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// The area of a light's surface, in the stage's unit, by lengths of its axes.
+/// Area of a light's surface, in the stage's unit, from the lengths of its axes.
 fn area_of(prim: &UsdPrim, [x, y, z]: [f64; 3]) -> f64 {
     let radius = number(prim, "inputs:radius", 0.5);
     match prim.kind.as_str() {
@@ -175,7 +175,7 @@ fn area_of(prim: &UsdPrim, [x, y, z]: [f64; 3]) -> f64 {
     }
 }
 
-/// Angles of the cone of a light from its axis, degrees: where it begins to fall, and where it ends; `None` of one that shines all round.
+/// Angles of a light's cone from its axis, degrees: start and end of the falloff; `None` for a light without a cone.
 fn cone_of(prim: &UsdPrim) -> Option<[f64; 2]> {
     let outer_deg = number(prim, "inputs:shaping:cone:angle", 90.0);
     let softness = number(prim, "inputs:shaping:cone:softness", 0.0).clamp(0.0, 1.0);

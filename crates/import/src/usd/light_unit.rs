@@ -1,7 +1,7 @@
-//! How strong and of which colour lights are.
+//! Strength and colour of lights.
 //!
-//! Of UsdLux: the luminance of a light's surface is intensity · 2^exposure, in cd/m², times its colour, times that of a black body of luminance 1 where a
-//! temperature holds; "normalize" divides by the surface's area in the world's unit.
+//! UsdLux: the luminance of a light's surface is intensity · 2^exposure, in cd/m², times its colour, times that of a black body of luminance 1 if a temperature
+//! applies; "normalize" divides by the surface's area in the world's unit.
 
 use etendue_core::maths::f64 as maths;
 use etendue_scene::record::LightColour;
@@ -14,7 +14,7 @@ use crate::scenery::{AreaLight, LightUnit, grey, illuminant_of};
 use crate::syntax::usd::UsdPrim;
 
 impl<'a> Importer<'a> {
-    /// Luminance and colour, without what "normalize" divides by; `None`, and a note, of one that is dark.
+    /// Luminance and colour, without the divisor of "normalize"; `None`, with a note, for a dark light.
     pub(super) fn light_unit(&mut self, prim: &'a UsdPrim, usual: f64) -> Option<LightUnit> {
         let exposure = number(prim, "inputs:exposure", 0.0).clamp(-100.0, 100.0);
         let strength = number(prim, "inputs:intensity", usual) * maths::pow(2.0, exposure);
@@ -54,7 +54,7 @@ impl<'a> Importer<'a> {
         None
     }
 
-    /// The light of a mesh that is one, without "normalize".
+    /// Light of an emissive mesh, without "normalize".
     pub(super) fn mesh_light(&mut self, prim: &'a UsdPrim) -> Option<AreaLight> {
         let unit = self.light_unit(prim, 1.0)?;
         self.scenery.report.note(format!("a mesh shines, {} cd/m², its own emission apart", unit.luminance));
@@ -62,12 +62,12 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// A black body's light through a filter of a colour.
+/// Light of a black body through a colour filter.
 fn tinted(rgb: [f64; 3], kelvin: f64, strength: f64) -> LightUnit {
     let body = illuminant::blackbody(kelvin);
     let own = linear_srgb_from_xyz(observer::xyz(&body));
     let luminance = |rgb: [f64; 3]| -> f64 { rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum() };
-    // Of luminance 1, and without what lies outside the colours of sRGB.
+    // Luminance 1, clipped to the gamut of sRGB.
     let level = luminance(own);
     let scale = if level > 0.0 { 1.0 / level } else { 1.0 };
     let tint: [f64; 3] = std::array::from_fn(|i| (rgb[i] * own[i] * scale).max(0.0));

@@ -1,4 +1,4 @@
-//! UsdPreviewSurface as surfaces of ours.
+//! Conversion of UsdPreviewSurface.
 
 use std::ops::RangeInclusive;
 
@@ -14,14 +14,14 @@ use super::{binding::BoundMaterial, importer::Importer, network::Input};
 use crate::scenery::{KnownTexture, grey};
 use crate::syntax::usd::{UsdPrim, UsdValue};
 
-/// The index that reflects a share of light at normal incidence.
+/// Refractive index of a given reflectance at normal incidence.
 fn index_of(share: f64) -> f64 {
     let root = share.clamp(0.0, 0.36).sqrt();
     (1.0 + root) / (1.0 - root)
 }
 
 impl<'a> Importer<'a> {
-    /// The material of a path.
+    /// Material at a path.
     pub(super) fn material(&mut self, path: &str) -> Result<BoundMaterial, String> {
         if let Some(known) = self.materials.get(path) {
             return Ok(known.clone());
@@ -34,7 +34,7 @@ impl<'a> Importer<'a> {
     fn material_of(&mut self, prim: &'a UsdPrim) -> Result<BoundMaterial, String> {
         self.black_outside.clear();
         let named = prim.attributes.keys().filter(|name| name.starts_with("outputs:") && name.ends_with("surface"));
-        // That of all renderers comes first.
+        // The output for all renderers comes first.
         let outputs = std::iter::once("outputs:surface").chain(named.map(String::as_str));
         let found = outputs.filter_map(|name| self.input(prim, name)).find_map(|input| match input {
             Input::Shader(shader, _) => Some(shader),
@@ -88,7 +88,7 @@ impl<'a> Importer<'a> {
         self.note_unused(shader);
     }
 
-    /// No metal is coated, a metal has the index that reflects its colour, between is a mix, as for glTF.
+    /// As for glTF: dielectrics are coated, a metal has the index that reflects its colour, values between give a mix.
     fn surface(&mut self, shader: &'a UsdPrim, name: &str) -> Result<Surface, String> {
         let alpha = self.factor(shader, "inputs:roughness", 0.5, &|v| v * v)?;
         let metallic = self.factor(shader, "inputs:metallic", 0.0, &|v| v)?;
@@ -121,7 +121,7 @@ impl<'a> Importer<'a> {
         Ok(Surface::Mix(Mix::new(a.as_str(), b.as_str(), metallic)))
     }
 
-    /// A surface that says its reflectance at normal incidence.
+    /// Surface with a stated reflectance at normal incidence.
     fn specular(&mut self, shader: &'a UsdPrim, base: Reflectance, alpha: Factor) -> Result<Surface, String> {
         let colour = self.mean_colour(shader, "inputs:specularColor", [0.0; 3])?;
         let share: f64 = colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
@@ -137,7 +137,7 @@ impl<'a> Importer<'a> {
         Ok(self.coated(base, "specularColor", index_of(share), &alpha))
     }
 
-    /// A base under a coat. Within its range an index is as stated; one of 1 reflects nothing, and leaves the base alone.
+    /// Base under a coat. An index within its range is used as stated; an index of 1 reflects nothing and leaves the base alone.
     fn coated(&mut self, base: Reflectance, name: &str, index: f64, alpha: &Factor) -> Surface {
         if index == 1.0 {
             return Surface::Diffuse(Diffuse::new(base));
@@ -146,7 +146,7 @@ impl<'a> Importer<'a> {
         Surface::Coated(Coated { index: Some(index.into()), ..Coated::new(base, alpha.clone()) })
     }
 
-    /// The nearest index of a range.
+    /// Nearest index within a range.
     fn index_within(&mut self, name: &str, stated: f64, range: RangeInclusive<f64>) -> f64 {
         let legal = stated.clamp(*range.start(), *range.end());
         if legal != stated {
@@ -158,12 +158,12 @@ impl<'a> Importer<'a> {
         legal
     }
 
-    /// Whether opacity says what of the surface is there, and not how much goes through it.
+    /// Returns true if opacity means presence of the surface, not transmission.
     fn is_presence(&self, shader: &'a UsdPrim) -> bool {
         self.plain_text(shader, "inputs:opacityMode") == Some("presence")
     }
 
-    /// Whether most light goes through.
+    /// Returns true if most light is transmitted.
     fn is_clear(&self, shader: &'a UsdPrim) -> bool {
         if self.is_presence(shader) {
             return false;
@@ -230,7 +230,7 @@ impl<'a> Importer<'a> {
         Ok(name.map(|name| NormalMap { y, ..NormalMap::new(name.as_str()) }))
     }
 
-    /// A share of light over the wavelength.
+    /// Reflectance over wavelength.
     fn reflectance(&mut self, shader: &'a UsdPrim, name: &str, usual: [f64; 3]) -> Result<Reflectance, String> {
         let picture = match self.input(shader, name) {
             Some(Input::Shader(node, output)) => self.picture(node, &output, name)?,
@@ -248,7 +248,7 @@ impl<'a> Importer<'a> {
         })
     }
 
-    /// The mean of a colour where only one can be used.
+    /// Mean of a colour where only one value is supported.
     fn mean_colour(&mut self, shader: &'a UsdPrim, name: &str, usual: [f64; 3]) -> Result<[f64; 3], String> {
         let rgb = match self.input(shader, name) {
             Some(Input::Shader(node, output)) => match self.picture(node, &output, name)? {
@@ -263,7 +263,7 @@ impl<'a> Importer<'a> {
         Ok(rgb.map(|v| self.scenery.cut(name, v)))
     }
 
-    /// A number, 0 … 1, after a rule.
+    /// Number, 0 … 1, after a rule.
     fn factor(
         &mut self,
         shader: &'a UsdPrim,

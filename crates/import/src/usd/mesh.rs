@@ -1,4 +1,4 @@
-//! Meshes: polygons as triangles, with the values that lie on them.
+//! Meshes: triangulated polygons, with their primvars.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -10,39 +10,39 @@ use super::access::{indices, text, tuple, tuples};
 use crate::scenery::Triangles;
 use crate::syntax::usd::{UsdPrim, UsdValue};
 
-/// Corners of a polygon.
+/// Maximum corners of a polygon.
 const MAX_CORNERS: usize = 65_536;
 
-/// What a mesh's polygons are: UsdGeomMesh's `subdivisionScheme`.
+/// Meaning of a mesh's polygons: UsdGeomMesh's `subdivisionScheme`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scheme {
-    /// The surface, with normals of their own.
+    /// The surface itself, with its own normals.
     None,
-    /// The control mesh of a surface that goes through it, flat where it is.
+    /// Control mesh of a surface that passes through it, and is flat where the mesh is.
     Bilinear,
-    /// The control mesh of a smooth surface (Catmull-Clark, Loop), as where nothing is said.
+    /// Control mesh of a smooth surface (Catmull-Clark, Loop), the default.
     Smooth,
 }
 
-/// A mesh as a prim has it.
+/// Mesh of a prim.
 pub(super) struct PolygonMesh<'a> {
     points: &'a [[f64; 3]],
-    /// Where the corners of each face begin; one more than there are faces.
+    /// Start of the corners of each face; one more entry than faces.
     begins: Vec<usize>,
     /// Points of all corners.
     corners: Vec<usize>,
     normals: Option<Primvar<'a, 3>>,
-    /// Of the control mesh of a smooth surface: normals of points.
+    /// Normals of points, for the control mesh of a smooth surface.
     smooth: Vec<[f64; 3]>,
     holes: HashSet<usize>,
     counts: Counts,
     pub(super) scheme: Scheme,
-    /// Whether its winding is the other way round.
+    /// True for the left-handed winding.
     pub(super) is_left_handed: bool,
 }
 
 impl<'a> PolygonMesh<'a> {
-    /// An error, in words, of a mesh that cannot be used.
+    /// Reads a mesh. Returns an error, in words, for one that cannot be used.
     pub(super) fn read(prim: &'a UsdPrim) -> Result<Self, String> {
         let points = tuples::<3>(prim, "points");
         if points.iter().flatten().any(|v| !v.is_finite()) {
@@ -69,7 +69,7 @@ impl<'a> PolygonMesh<'a> {
             "bilinear" => Scheme::Bilinear,
             _ => Scheme::Smooth,
         };
-        // The creases of what is smoothed have no place in its cage.
+        // Creases of a subdivision surface are not supported on its control mesh.
         for name in ["cornerIndices", "cornerSharpnesses", "creaseIndices", "creaseLengths", "creaseSharpnesses"] {
             let _ = prim.value(name);
         }
@@ -94,7 +94,7 @@ impl<'a> PolygonMesh<'a> {
         Ok(made)
     }
 
-    /// The mean normal of each point's faces, in the mesh's own space.
+    /// Mean normal of each point's faces, in the mesh's own space.
     fn smoothed(&self) -> Vec<[f64; 3]> {
         let mut plain = Triangles { positions: self.points.to_vec(), ..Triangles::default() };
         for face in self.begins.windows(2).filter(|face| face[1] - face[0] >= 3) {
@@ -109,19 +109,19 @@ impl<'a> PolygonMesh<'a> {
         self.counts.faces
     }
 
-    /// Texture coordinates of its prim by their name, those that there are.
+    /// Texture coordinates of its prim by name, if present.
     pub(super) fn uvs(&self, prim: &'a UsdPrim, name: &str) -> Result<Option<Primvar<'a, 2>>, String> {
         Primvar::read(prim, &format!("primvars:{name}"), "constant", self.counts)
     }
 
-    /// The area of all faces in the space that a transform leads to.
+    /// Area of all faces in the space that a transform leads to.
     pub(super) fn area(&self, to_world: DAffine3) -> f64 {
         let (all, _) = self.triangles(0..self.faces(), None);
         let at = |i: u32| to_world.transform_point3(DVec3::from_array(all.positions[i as usize]));
         all.triangles.iter().map(|t| t.map(at)).map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
     }
 
-    /// Triangles of some faces, with texture coordinates; the second number says how many polygons had none.
+    /// Triangles of some faces, with texture coordinates; the second value is the number of polygons without triangles.
     pub(super) fn triangles(
         &self,
         faces: impl Iterator<Item = usize>,
@@ -148,7 +148,7 @@ impl<'a> PolygonMesh<'a> {
         (made, refused)
     }
 
-    /// The number of a corner's vertex: one for all corners that are alike.
+    /// Index of a corner's vertex, shared by all equal corners.
     fn vertex(
         &self,
         [face, corner]: [usize; 2],
@@ -170,15 +170,15 @@ impl<'a> PolygonMesh<'a> {
     }
 }
 
-/// Tuples of `N` numbers over a mesh.
+/// Tuples of `N` numbers on a mesh.
 pub(super) struct Primvar<'a, const N: usize> {
     values: Cow<'a, [[f64; N]]>,
-    /// Which value each element has; `None`: the one of its own number.
+    /// Index of the value of each element; `None`: the element's own index.
     indices: Option<Vec<usize>>,
     interpolation: Interpolation,
 }
 
-/// What has a value each: the whole mesh, each face, point or corner.
+/// Domain of the values: the whole mesh, each face, point or corner.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Interpolation {
     Whole,
@@ -187,7 +187,7 @@ enum Interpolation {
     Corners,
 }
 
-/// How many of each a mesh has.
+/// Numbers of faces, points and corners of a mesh.
 #[derive(Clone, Copy)]
 pub(super) struct Counts {
     pub(super) faces: usize,
@@ -196,7 +196,7 @@ pub(super) struct Counts {
 }
 
 impl<'a, const N: usize> Primvar<'a, N> {
-    /// `None` where there is none; an error, in words, where it does not fit the mesh.
+    /// `None` if there is none; an error, in words, if it does not fit the mesh.
     pub(super) fn read(prim: &'a UsdPrim, name: &str, usual: &str, counts: Counts) -> Result<Option<Self>, String> {
         let values = match prim.value(name) {
             None => return Ok(None),
@@ -233,7 +233,7 @@ impl<'a, const N: usize> Primvar<'a, N> {
         Ok(Some(Self { values, indices, interpolation }))
     }
 
-    /// Which value a corner has: by the numbers of its face, its point and itself.
+    /// Index of the value at a corner, from the numbers of its face, its point and itself.
     pub(super) fn index(&self, [face, point, corner]: [usize; 3]) -> usize {
         let element = match self.interpolation {
             Interpolation::Whole => 0,
@@ -255,7 +255,7 @@ impl<'a, const N: usize> Primvar<'a, N> {
         sum.map(|v| v / self.values.len() as f64)
     }
 
-    /// Whether it is the same everywhere.
+    /// Returns true if it is constant.
     pub(super) fn is_even(&self) -> bool {
         self.values.iter().all(|v| *v == self.values[0])
     }

@@ -2,8 +2,8 @@
 //!
 //! Source: openusd.org, the schemas UsdGeom, UsdLux and UsdShade, and "UsdPreviewSurface Specification" 2.6; docs/import.md lists the rules.
 //!
-//! A stage is right-handed with y or z upwards: y becomes ours as glTF's does (+z is forward), z stays. Lengths are of the stage's unit. A luminance of 1 is
-//! 1 cd/m², as UsdLux has it. Values are those at the stage's start.
+//! A stage is right-handed with y or z upwards: y is converted as for glTF (+z is forward), z stays. Lengths are in the stage's unit. A luminance of 1 is 1
+//! cd/m², as in UsdLux. Values are those at the stage's start.
 
 mod access;
 mod binding;

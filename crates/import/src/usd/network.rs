@@ -1,12 +1,12 @@
-//! Inputs of shaders and what they are connected to.
+//! Inputs of shaders and their connections.
 
 use super::importer::Importer;
 use crate::syntax::usd::{UsdPrim, UsdValue};
 
-/// Connections from one to the next.
+/// Maximum length of a chain of connections.
 const MAX_STEPS: usize = 32;
 
-/// What an input has.
+/// Source of an input.
 pub(super) enum Input<'a> {
     /// A value.
     Value(&'a UsdValue),
@@ -15,7 +15,7 @@ pub(super) enum Input<'a> {
 }
 
 impl<'a> Importer<'a> {
-    /// What an input has, through the borders of materials and node graphs; `None` where it has nothing.
+    /// Source of an input, through the interfaces of materials and node graphs; `None` without one.
     pub(super) fn input(&self, prim: &'a UsdPrim, name: &str) -> Option<Input<'a>> {
         let (mut prim, mut name) = (prim, name.to_owned());
         for _ in 0..MAX_STEPS {
@@ -32,7 +32,7 @@ impl<'a> Importer<'a> {
         None
     }
 
-    /// A number of an input that is not connected to a shader.
+    /// Number of an input that is not connected to a shader.
     pub(super) fn plain_number(&self, prim: &'a UsdPrim, name: &str) -> Option<f64> {
         match self.input(prim, name)? {
             Input::Value(UsdValue::Number(v)) if v.is_finite() => Some(*v),
@@ -40,7 +40,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// Several of them.
+    /// Tuple of such an input.
     pub(super) fn plain_tuple<const N: usize>(&self, prim: &'a UsdPrim, name: &str) -> Option<[f64; N]> {
         match self.input(prim, name)? {
             Input::Value(UsdValue::Tuple(list)) if list.iter().all(|v| v.is_finite()) => {
@@ -50,7 +50,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// A word of an input that is not connected to a shader.
+    /// Text of an input that is not connected to a shader.
     pub(super) fn plain_text(&self, prim: &'a UsdPrim, name: &str) -> Option<&'a str> {
         match self.input(prim, name)? {
             Input::Value(UsdValue::Text(text)) => Some(text),

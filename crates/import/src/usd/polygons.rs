@@ -1,4 +1,4 @@
-//! Meshes of polygons, a mesh of ours for each of their materials.
+//! Meshes of polygons; one of our meshes for each of their materials.
 
 use std::{collections::BTreeMap, rc::Rc};
 
@@ -9,26 +9,26 @@ use super::mesh::{PolygonMesh, Primvar, Scheme};
 use crate::scenery::{AreaLight, Graphics, Triangles};
 use crate::syntax::usd::UsdPrim;
 
-/// The faces of a mesh.
+/// Faces of a mesh.
 struct Parts<'a> {
-    /// Those of subsets by the paths of their materials.
+    /// Faces of subsets, by the paths of their materials.
     by_material: BTreeMap<&'a str, Vec<usize>>,
-    /// Those of no subset, which have the mesh's own.
+    /// Faces of no subset, which have the mesh's own material.
     rest: Vec<usize>,
 }
 
-/// A prim that is a mesh.
+/// Prim that is a mesh.
 struct MeshPrim<'p, 'a> {
     prim: &'a UsdPrim,
     state: &'p State<'a>,
     mesh: PolygonMesh<'a>,
-    /// Texture coordinates that materials have asked for, by their names.
+    /// Texture coordinates requested by materials, by name.
     uvs: BTreeMap<String, Option<Primvar<'a, 2>>>,
     light: Option<Rc<AreaLight>>,
 }
 
 impl<'a> MeshPrim<'_, 'a> {
-    /// Triangles of some faces, and how many polygons had none.
+    /// Triangles of some faces, and the number of polygons without any.
     fn triangles(&mut self, faces: Vec<usize>, uv: &str) -> Result<(Triangles, usize), String> {
         if !self.uvs.contains_key(uv) {
             self.uvs.insert(uv.to_owned(), self.mesh.uvs(self.prim, uv)?);
@@ -83,7 +83,7 @@ impl<'a> Importer<'a> {
         });
     }
 
-    /// Faces of a mesh that have one material.
+    /// Adds the faces of a mesh with one material.
     fn part(&mut self, of: &mut MeshPrim<'_, 'a>, material: Option<&str>, faces: Vec<usize>) -> Result<(), String> {
         let (graphics, material) = self.graphics(of.prim, of.state, material)?;
         let (mut triangles, refused) = of.triangles(faces, material.primvar())?;
@@ -99,13 +99,13 @@ impl<'a> Importer<'a> {
         if refused > 0 {
             self.scenery.report.note(format!("{refused} polygons that cross themselves are left out"));
         }
-        // Normals say which side is the front, and those of a control mesh follow its winding.
+        // Normals define the front; those of a control mesh follow its winding.
         let has_own = !triangles.normals.is_empty() && of.mesh.scheme == Scheme::None;
         let reverse_orientation = of.mesh.is_left_handed && !has_own;
         self.add(triangles, &Graphics { reverse_orientation, area_light: of.light.clone(), ..graphics })
     }
 
-    /// The light of a mesh: where "normalize" holds, divided by the area of all its faces in the world of the stage.
+    /// Light of a mesh; with "normalize" divided by the area of all its faces in the world of the stage.
     fn spread(&self, light: Rc<AreaLight>, mesh: &PolygonMesh<'a>, prim: &UsdPrim, state: &State<'a>) -> Rc<AreaLight> {
         if !flag(prim, "inputs:normalize", false) {
             return light;

@@ -15,11 +15,11 @@ use crate::scenery::{AreaLight, Graphics, Triangles};
 use crate::syntax::usd::UsdPrim;
 
 impl<'a> Importer<'a> {
-    /// What is drawn of a prim.
+    /// Converts the shape of a prim.
     pub(super) fn shape(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
         let told = |what: String| format!("{}: {what}", prim.path);
         let axis = text(prim, "axis");
-        // Cylinders, cones and capsules stand along z where nothing is said.
+        // Cylinders, cones and capsules are along z by default.
         let turn = |matrix| DAffine3::from_mat3(matrix);
         let radius = |name: &str, usual: f64| number(prim, name, usual).max(0.0);
         let (mesh, turn) = match prim.kind.as_str() {
@@ -65,7 +65,7 @@ impl<'a> Importer<'a> {
         self.add(mesh, &graphics).map_err(told)
     }
 
-    /// What holds for a shape that gives no light, with a material by its path.
+    /// Graphics state of a shape without emission, with a material by path.
     pub(super) fn graphics(
         &mut self,
         prim: &'a UsdPrim,
@@ -83,21 +83,21 @@ impl<'a> Importer<'a> {
         Ok((graphics, material))
     }
 
-    /// The light of a shape, without "normalize".
+    /// Light of a shape, without "normalize".
     pub(super) fn light_of_shape(&mut self, prim: &'a UsdPrim) -> Option<Rc<AreaLight>> {
         let is_light = prim.has_schema("MeshLightAPI") || prim.has_schema("LightAPI");
         if is_light { self.mesh_light(prim).map(Rc::new) } else { None }
     }
 
-    /// The colour of a prim without a material.
+    /// Colour of a prim without a material.
     fn display(&mut self, prim: &'a UsdPrim, graphics: &mut Graphics) {
-        // Only its mean is asked for: how it lies does not matter.
+        // Only its mean is used: the interpolation does not matter.
         let whole = super::mesh::Counts { faces: 1, points: 1, corners: 1 };
         if let Ok(Some(colour)) = Primvar::<3>::read(prim, "primvars:displayColor", "constant", whole) {
             if !colour.is_even() {
                 self.scenery.report.note("a displayColor that is not the same everywhere is its mean");
             }
-            // Numbers of 32 bits have seven digits.
+            // 32-bit numbers have seven digits.
             graphics.material = self.display_material(colour.mean().map(|v| (1e7 * v).round() / 1e7));
         }
         let opacity = super::access::numbers(prim, "primvars:displayOpacity");
@@ -107,7 +107,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// A matt surface of a colour, one for all prims that have it.
+    /// Diffuse surface of a colour, shared by all prims that have it.
     fn display_material(&mut self, rgb: [f64; 3]) -> Rc<str> {
         let key = format!("display/{rgb:?}");
         if let Some(known) = self.scenery.known.materials.get(&key) {
@@ -135,7 +135,7 @@ impl<'a> Importer<'a> {
         self.scenery.check_size()
     }
 
-    /// A sphere about the origin of its space.
+    /// Adds a sphere about the origin of its space.
     pub(super) fn round(&mut self, radius: f64, graphics: &Graphics) {
         self.shines |= graphics.area_light.is_some();
         for corner in [DVec3::splat(radius), DVec3::splat(-radius)] {
@@ -144,7 +144,7 @@ impl<'a> Importer<'a> {
         self.scenery.whole_sphere(radius, graphics);
     }
 
-    /// A mesh in its space.
+    /// Adds a mesh in its space.
     pub(super) fn add(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
         self.shines |= graphics.area_light.is_some();
         for position in &mesh.positions {
@@ -154,11 +154,11 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// Instancers within one another.
+/// Maximum depth of instancers.
 const MAX_DEPTH: usize = 8;
 
 impl<'a> Importer<'a> {
-    /// Each instance goes through its scale, its orientation, its position, and the instancer's own transform.
+    /// Converts an instancer. Each instance applies its scale, its orientation, its position, and the instancer's own transform.
     pub(super) fn instancer(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
         let told = |what: String| Err(format!("{}: {what}", prim.path));
         if state.depth >= MAX_DEPTH {
@@ -216,12 +216,12 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// Sides of what is round.
+/// Segments of round shapes.
 pub(super) const SIDES: u32 = 128;
-/// Rings of a half sphere.
+/// Rings of a hemisphere.
 const RINGS: u32 = 32;
 
-/// From a shape about z to one about another axis, as UsdGeom turns it: x, y, z go round.
+/// Rotation from a shape about z to one about another axis, as in UsdGeom: x, y, z are permuted cyclically.
 pub(super) fn about(axis: &str) -> DMat3 {
     match axis {
         "X" => DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X),
@@ -230,7 +230,7 @@ pub(super) fn about(axis: &str) -> DMat3 {
     }
 }
 
-/// The same of a plane, whose width is along x (of one about x: along z).
+/// The same for a plane, whose width is along x (for the axis x: along z).
 fn plane_about(axis: &str) -> DMat3 {
     match axis {
         "X" => DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X),
@@ -239,7 +239,7 @@ fn plane_about(axis: &str) -> DMat3 {
     }
 }
 
-/// A cube about the origin.
+/// Cube about the origin.
 pub(super) fn cube(size: f64) -> Triangles {
     let mut made = Triangles::default();
     for axis in ["X", "Y", "Z"] {
@@ -258,7 +258,7 @@ pub(super) fn cube(size: f64) -> Triangles {
     made
 }
 
-/// A rectangle in the plane of which z is the normal.
+/// Rectangle with the normal z.
 fn plane([width, length]: [f64; 2]) -> Triangles {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     Triangles {
@@ -269,7 +269,7 @@ fn plane([width, length]: [f64; 2]) -> Triangles {
     }
 }
 
-/// A surface of revolution about z: rings of radius, height, and the normal's parts outwards and upwards, from below to above.
+/// Surface of revolution about z: rings with radius, height, and the normal's radial and axial components, from bottom to top.
 fn turned(rings: &[[f64; 4]]) -> Triangles {
     let mut made = Triangles::default();
     let rows = rings.len() as u32;
@@ -293,7 +293,7 @@ fn turned(rings: &[[f64; 4]]) -> Triangles {
     made
 }
 
-/// A cylinder with its caps; radii at its lower and its upper end.
+/// Cylinder with its caps; radii at its lower and its upper end.
 pub(super) fn cylinder([lower, upper]: [f64; 2], height: f64, has_caps: bool) -> Triangles {
     let half = 0.5 * height;
     let slope = DVec3::new(height, lower - upper, 0.0).normalize_or(DVec3::X);
@@ -306,7 +306,7 @@ pub(super) fn cylinder([lower, upper]: [f64; 2], height: f64, has_caps: bool) ->
     turned(&[floor, wall, ceiling].concat())
 }
 
-/// A cylinder of this height between two half spheres.
+/// Cylinder of this height between two hemispheres.
 fn capsule([lower, upper]: [f64; 2], height: f64) -> Triangles {
     let ring = |radius: f64, at: f64, i: u32| {
         let (sin, cos) = maths::sin_cos(FRAC_PI_2 * f64::from(i) / f64::from(RINGS));
@@ -324,7 +324,7 @@ fn capsule([lower, upper]: [f64; 2], height: f64) -> Triangles {
 mod tests {
     use super::*;
 
-    /// Six times the volume within, and whether triangles face where their normals point.
+    /// Enclosed volume; checks that triangles face the direction of their normals.
     fn volume(mesh: &Triangles) -> f64 {
         let mut sum = 0.0;
         for corners in &mesh.triangles {

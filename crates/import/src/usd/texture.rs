@@ -1,9 +1,9 @@
-//! Pictures of UsdUVTexture.
+//! Images of UsdUVTexture.
 //!
-//! What is outside of a picture: UsdUVTexture's wrapS and wrapT.
+//! The outside of an image is defined by UsdUVTexture's wrapS and wrapT.
 //!
-//! Source: "UsdPreviewSurface Specification" 2.6: `useMetadata`, which holds where nothing is said, is `black` where the file says nothing, as PNG and JPEG files do. Our
-//! textures are black nowhere: they go on with their edge.
+//! Source: "UsdPreviewSurface Specification" 2.6: `useMetadata`, the default, means `black` for files without the metadata, such as PNG and JPEG files. Our
+//! textures are never black outside: they continue with their edge.
 
 use std::io::{BufReader, Cursor};
 use std::{fs::File, path::Path, rc::Rc};
@@ -20,23 +20,23 @@ use crate::scenery::{KnownTexture, stored_pixels};
 use crate::syntax::usd::{UsdAsset, UsdFile, UsdPrim, UsdValue};
 
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
-/// Nodes between a picture and the primvar by which it lies.
+/// Maximum nodes between an image and its primvar.
 const MAX_STEPS: usize = 8;
 
-/// What an input is that is connected.
+/// Source of a connected input.
 pub(super) enum Picture<'a> {
-    /// The same everywhere.
+    /// Constant.
     Even([f64; 3]),
-    /// A picture.
+    /// An image.
     Node(PictureNode<'a>),
 }
 
-/// What colours of a picture are for.
+/// Use of the colours of an image.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ColourRule {
-    /// Shares of light, 0 … 1.
+    /// Reflectance, 0 … 1.
     Share,
-    /// Light, 0 and more.
+    /// Light, 0 or more.
     Light,
 }
 
@@ -49,16 +49,16 @@ impl ColourRule {
     }
 }
 
-/// A picture and how it is read.
+/// Image and its sampling.
 pub(super) struct PictureNode<'a> {
     asset: &'a UsdAsset,
     pub(super) scale: [f64; 4],
     pub(super) bias: [f64; 4],
-    /// Numbers from 0 to 3; `None`: all colours.
+    /// Channel from 0 to 3; `None`: all colours.
     channel: Option<usize>,
     is_encoded: bool,
     wrap: Wrap,
-    /// How its u, v lie: factors, and what is added.
+    /// Transform of u, v: factors and offsets.
     uv_transform: [[f64; 2]; 2],
 }
 
@@ -67,7 +67,7 @@ impl PictureNode<'_> {
         self.bias == [0.0; 4] && self.channel.is_none()
     }
 
-    /// What makes it another texture of ours.
+    /// Key that distinguishes our textures.
     fn key(&self) -> String {
         let Self { asset, scale, bias, channel, is_encoded, wrap, uv_transform } = self;
         let file = match &asset.file {
@@ -80,7 +80,7 @@ impl PictureNode<'_> {
 }
 
 impl<'a> Importer<'a> {
-    /// The primvar by which pictures of a surface lie, "st" where none is named; empty where it has no pictures.
+    /// Primvar of the texture coordinates of a surface's images, "st" if none is named; empty without images.
     pub(super) fn primvar_of(&mut self, shader: &'a UsdPrim) -> Rc<str> {
         let (mut found, mut has_pictures) = (Vec::<&'a str>::new(), false);
         for name in shader.attributes.keys().filter(|name| name.starts_with("inputs:")) {
@@ -107,7 +107,7 @@ impl<'a> Importer<'a> {
         found.first().copied().unwrap_or(usual).into()
     }
 
-    /// What a node gives.
+    /// Output of a node.
     pub(super) fn picture(&mut self, node: &'a UsdPrim, output: &str, of: &str) -> Result<Picture<'a>, String> {
         let of = of.trim_start_matches("inputs:");
         let id = self.plain_text(node, "info:id").unwrap_or_default();
@@ -134,7 +134,7 @@ impl<'a> Importer<'a> {
                 None => [fallback[0], fallback[1], fallback[2]],
             }));
         };
-        // What "auto" finds, its file says, whichever output is asked for; alpha never is encoded.
+        // For "auto" the file decides, whichever output is used; alpha is never encoded.
         let is_encoded = match self.plain_text(node, "inputs:sourceColorSpace").unwrap_or("auto") {
             "raw" => false,
             "sRGB" => true,
@@ -146,7 +146,7 @@ impl<'a> Importer<'a> {
         Ok(Picture::Node(PictureNode { asset, scale, bias, channel, is_encoded, wrap, uv_transform }))
     }
 
-    /// How u, v lie by a UsdTransform2d.
+    /// Transform of u, v by a UsdTransform2d.
     fn uv_transform(&mut self, node: &'a UsdPrim) -> [[f64; 2]; 2] {
         let none = [[1.0; 2], [0.0; 2]];
         let Some(Input::Shader(inner, _)) = self.input(node, "inputs:st") else { return none };
@@ -163,7 +163,7 @@ impl<'a> Importer<'a> {
         [scale, offset]
     }
 
-    /// Colours: the picture as it is where that is what they are, else another one of linear numbers.
+    /// Colours: the image itself if it needs no change, else a new one of linear numbers.
     pub(super) fn colours(&mut self, node: &PictureNode<'a>, rule: ColourRule) -> Result<KnownTexture, String> {
         let factor = node.scale[0];
         let is_even = node.scale[..3] == [factor; 3] && factor > 0.0 && factor <= 1.0;
@@ -188,13 +188,13 @@ impl<'a> Importer<'a> {
         Ok(known)
     }
 
-    /// Numbers after a rule, as the red of another picture.
+    /// Numbers after a rule, as the red of a new image.
     pub(super) fn numbers(
         &mut self,
         node: &PictureNode<'a>,
         rule: &dyn Fn(f64) -> f64,
     ) -> Result<KnownTexture, String> {
-        // A rule is known by what it makes of a few numbers.
+        // A rule is identified by its results for a few numbers.
         let probed: Vec<f64> = (0..=16).map(|i| rule(f64::from(i) / 16.0)).collect();
         let key = format!("numbers {probed:?} {}", node.key());
         if let Some(known) = self.textures.get(&key) {
@@ -213,7 +213,7 @@ impl<'a> Importer<'a> {
         Ok(known)
     }
 
-    /// The mean of a picture's colours.
+    /// Mean colour of an image.
     pub(super) fn mean(&mut self, node: &PictureNode<'a>) -> Result<[f64; 3], String> {
         let image = self.image(node.asset)?;
         let pixels = values(&image, node, &|v| v.clamp(0.0, 1.0));
@@ -221,13 +221,13 @@ impl<'a> Importer<'a> {
         Ok(sum.map(|v| v / pixels.len() as f64))
     }
 
-    /// The picture as numbers that are no colours; the name of its texture.
+    /// Image of numbers that are not colours; returns the name of its texture.
     pub(super) fn data_picture(&mut self, node: &PictureNode<'a>) -> Result<Option<String>, String> {
         let path = self.file(node.asset)?;
         Ok(Some(self.texture(node, &path, Encoding::Data)))
     }
 
-    /// The path of a picture as the written scene names it; those of packages are written.
+    /// Path of an image as in the written scene; those of packages are written.
     pub(super) fn file(&mut self, asset: &UsdAsset) -> Result<String, String> {
         match &asset.file {
             Some(UsdFile::Plain(path)) => Ok(self.scenery.way_to(path)),
@@ -248,7 +248,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// The pixels of a picture.
+    /// Pixels of an image.
     pub(super) fn image(&self, asset: &UsdAsset) -> Result<ImageAsset, String> {
         let read = match &asset.file {
             Some(UsdFile::Plain(path)) => read_picture(path),
@@ -272,7 +272,7 @@ impl<'a> Importer<'a> {
         name
     }
 
-    /// Writes a picture of linear numbers; the name of its texture.
+    /// Writes an image of linear numbers; returns the name of its texture.
     fn baked(
         &mut self,
         node: &PictureNode<'a>,
@@ -293,10 +293,10 @@ impl<'a> Importer<'a> {
     }
 }
 
-/// Whether a picture has colours that are encoded as sRGB's, by UsdUVTexture's rule for `auto`: three or four channels of 8 bits.
+/// Returns true if an image has sRGB-encoded colours, by UsdUVTexture's rule for `auto`: three or four channels of 8 bits.
 fn has_encoded_colours(asset: &UsdAsset) -> bool {
     match &asset.file {
-        // A pipe would be waited for; reading it refuses it.
+        // Reading a pipe would block; the reader refuses it.
         Some(UsdFile::Plain(path)) if path.is_file() => {
             File::open(path).is_ok_and(|opened| has_colours_of_8_bits(path, BufReader::new(opened)))
         }
@@ -305,7 +305,7 @@ fn has_encoded_colours(asset: &UsdAsset) -> bool {
     }
 }
 
-/// Pixels of a picture after its scale and bias, and a rule; a channel stands for all three.
+/// Pixels of an image after its scale and bias, and a rule; a single channel gives all three.
 fn values(image: &ImageAsset, node: &PictureNode<'_>, rule: &dyn Fn(f64) -> f64) -> Vec<[f32; 3]> {
     let decoded = |v: f32| if node.is_encoded { colour::decode(v) } else { v };
     let value = |p: [f32; 4]| {
@@ -319,7 +319,7 @@ fn values(image: &ImageAsset, node: &PictureNode<'_>, rule: &dyn Fn(f64) -> f64)
     stored_pixels(image).into_iter().map(value).collect()
 }
 
-/// How a picture goes on.
+/// Continuation of an image outside.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Outside {
     Black,
@@ -338,7 +338,7 @@ impl Outside {
 }
 
 impl<'a> Importer<'a> {
-    /// How a picture goes on, and whether it is black there.
+    /// Continuation of an image outside; the second value is true if it is black there.
     pub(super) fn wrap(&mut self, node: &'a UsdPrim) -> (Wrap, bool) {
         let [s, t] =
             ["inputs:wrapS", "inputs:wrapT"].map(|name| Outside::of(self.plain_text(node, name).unwrap_or("")));
@@ -351,7 +351,7 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// Says that a shape shows what is outside of a picture that is black there.
+    /// Notes that a shape shows the outside of an image that is black there.
     pub(super) fn note_outside(&mut self) {
         let told = "a picture that is black outside of u, v = 0 … 1 (so where wrapS and wrapT say nothing, or useMetadata), of which the shape shows some, has its edge there";
         self.scenery.report.note(told);

@@ -1,6 +1,6 @@
 //! Transforms: the operations that `xformOpOrder` lists.
 //!
-//! Of UsdGeomXformable: the first of the list is the outermost; a point goes through the last one first.
+//! As in UsdGeomXformable, the first of the list is the outermost; the last one is applied to a point first.
 
 use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -11,7 +11,7 @@ use crate::syntax::usd::{UsdPrim, UsdValue};
 const RESET: &str = "!resetXformStack!";
 const INVERSE: &str = "!invert!";
 
-/// From the space of a prim to that about it, and whether that is the world's, whatever stands about it.
+/// Transform from the space of a prim to its parent's; true if it is relative to the world instead, whatever the parent.
 pub(super) fn transform_of(prim: &UsdPrim) -> Result<(DAffine3, bool), String> {
     let Some(UsdValue::Texts(order)) = prim.value("xformOpOrder") else { return Ok((DAffine3::IDENTITY, false)) };
     let (mut made, mut is_reset) = (DAffine3::IDENTITY, false);
@@ -62,7 +62,7 @@ fn operation(prim: &UsdPrim, name: &str) -> Result<DAffine3, String> {
         }
         "rotateXYZ" | "rotateXZY" | "rotateYXZ" | "rotateYZX" | "rotateZXY" | "rotateZYX" => {
             vector(prim, name).map(|degrees| {
-                // The axis that is named first turns first.
+                // The axis named first is applied first.
                 let made = kind
                     .chars()
                     .skip(6)
@@ -72,7 +72,7 @@ fn operation(prim: &UsdPrim, name: &str) -> Result<DAffine3, String> {
         }
         other => return Err(format!("{}: \"{name}\": no transform is called \"{other}\"", prim.path)),
     };
-    // An operation without a value is none.
+    // An operation without a value is ignored.
     let made = made.unwrap_or(DAffine3::IDENTITY);
     let size = made.matrix3.to_cols_array().iter().fold(made.translation.length(), |most, v| most.max(v.abs()));
     match size < 1e12 {
@@ -81,13 +81,13 @@ fn operation(prim: &UsdPrim, name: &str) -> Result<DAffine3, String> {
     }
 }
 
-/// The rotation of a quaternion, its real part first, of any length; none of one without.
+/// Rotation of a quaternion, its real part first, of any length; the identity for length 0.
 pub(super) fn rotation([w, x, y, z]: [f64; 4]) -> DQuat {
     let own = DQuat::from_xyzw(x, y, z, w);
     if own.length() > 1e-12 { own.normalize() } else { DQuat::IDENTITY }
 }
 
-/// A matrix by which row vectors are multiplied.
+/// Matrix for multiplication of row vectors.
 fn of_rows(m: &[f64; 16]) -> DAffine3 {
     let row = |i: usize| DVec3::new(m[i], m[i + 1], m[i + 2]);
     DAffine3 { matrix3: DMat3::from_cols(row(0), row(4), row(8)), translation: row(12) }
@@ -111,7 +111,7 @@ mod tests {
         }
     }
 
-    /// A pivot: there, turned, and back.
+    /// A pivot: moved there, rotated, and moved back.
     #[test]
     fn the_last_operation_is_the_innermost() {
         let at = UsdValue::Tuple(vec![1.0, 0.0, 0.0]);

@@ -1,10 +1,10 @@
-//! Mitsuba's scene files as elements: parameters, included files, faults with their place.
+//! Mitsuba's scene files as elements: parameters, included files, errors with their place.
 
 use etendue_import::syntax::mitsuba::{MitsubaElement, MitsubaScene, read_mitsuba};
 use etendue_io::Sandbox;
 use std::fs;
 
-/// The root of the first file; the others lie beside it.
+/// Root of the first file; the others are next to it.
 fn read(files: &[(&str, &str)]) -> Result<MitsubaElement, String> {
     read_given(files, &[]).map(|scene| scene.root)
 }
@@ -70,7 +70,7 @@ fn faults_have_their_line() {
     refused(&deep, "a.xml:2: elements stand more than 64 deep in one another");
 }
 
-/// Parameters that double thirty times are no gigabyte.
+/// Parameters that double thirty times do not become a gigabyte.
 #[test]
 fn parameters_of_parameters_do_not_fill_the_memory() {
     let doubling: String =
@@ -93,7 +93,7 @@ fn included_files_lie_in_the_sandbox() {
     assert!(told.contains("a.xml:1: ") && told.contains("leads out of"), "{told}");
 }
 
-/// Names of parameters stay as they are, and `$name` names them so.
+/// Names of parameters are unchanged, and `$name` uses them so.
 #[test]
 fn parameters_of_old_files_keep_their_names() {
     let text = "<scene version=\"0.5.0\"><default name=\"camDist\" value=\"3\"/><default name=\"cam\" value=\"9\"/>\
@@ -103,7 +103,7 @@ fn parameters_of_old_files_keep_their_names() {
     assert_eq!((colour.name(), index.name(), index.attribute("value")), ("reflectance", "int_ior", Some("3")));
 }
 
-/// As Mitsuba 3.9.1 does (`mi.load_file` with `r="7"` and so on; 2, 5 and 7.5 are its radii).
+/// As in Mitsuba 3.9.1 (`mi.load_file` with `r="7"` and so on; 2, 5 and 7.5 are its radii).
 #[test]
 fn values_that_are_given_hold_in_place_of_defaults() {
     let scene = |body: &str| format!("<scene version=\"3.0.0\">{body}</scene>");
@@ -136,7 +136,7 @@ fn values_that_are_given_hold_in_place_of_defaults() {
     }
 }
 
-/// A tree of files below a temporary folder: scenes with a body.
+/// Tree of files in a temporary folder: scenes with a body.
 fn tree(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, body) in files {
@@ -147,8 +147,8 @@ fn tree(files: &[(&str, &str)]) -> tempfile::TempDir {
     folder
 }
 
-/// Beside the file that includes, then where its `<path>` lead, the last first, then where the file was sought that includes: these are what Mitsuba 3.9.1
-/// finds in these files.
+/// Search order: next to the including file, then the folders of its `<path>`, last first, then the folders of the file that includes it. These are the files
+/// that Mitsuba 3.9.1 finds.
 #[test]
 fn included_files_are_sought_beside_the_file_that_includes_them() {
     let folder = tree(&[

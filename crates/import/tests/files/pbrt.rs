@@ -1,11 +1,11 @@
-//! pbrt's scene files as directives: forms, included files, faults with their place.
+//! pbrt's scene files as directives: forms, included files, errors with their place.
 
 use etendue_import::syntax::pbrt::{PbrtDirective, PbrtValues, read_pbrt};
 use etendue_io::Sandbox;
 use std::fs;
 use std::path::Path;
 
-/// The directives of the first file with the lines where they stand; of several files the others lie beside it.
+/// Directives of the first file with their lines; the other files are next to it.
 fn read(files: &[(&str, &str)]) -> Result<Vec<(String, usize, PbrtDirective)>, String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     files.iter().for_each(|(name, text)| fs::write(folder.path().join(name), text).expect("written"));

@@ -1,4 +1,4 @@
-//! COLMAP's `cameras.txt`: a line a camera, CAMERA_ID MODEL WIDTH HEIGHT PARAMS…; the id is the camera's name.
+//! COLMAP's `cameras.txt`: one line per camera, CAMERA_ID MODEL WIDTH HEIGHT PARAMS…; the id is the camera's name.
 //!
 //! All models of COLMAP 4 are read. Its pixel coordinates are the raster's.
 
@@ -33,7 +33,7 @@ const TWO_FOCALS: [(&str, usize); 10] = [
     ("THIN_PRISM_FISHEYE", 12),
     ("RAD_TAN_THIN_PRISM_FISHEYE", 16),
 ];
-/// Its two parameters are the picture's size.
+/// Its two parameters are the image size.
 const PANORAMA: (&str, usize) = ("EQUIRECTANGULAR", 2);
 
 pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
@@ -100,7 +100,7 @@ impl<'a> Line<'a> {
         Ok((model(self.model, k).map_err(wrong(self.number))?, matrix))
     }
 
-    /// The camera matrix and what follows it.
+    /// The camera matrix and the coefficients after it.
     fn matrix(&self) -> (CameraMatrix, &[f64]) {
         let p = &self.parameters;
         let of = |fx, fy, cx, cy| CameraMatrix { fx, fy, skew: 0.0, cx, cy };
@@ -114,14 +114,14 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The model of what follows the camera matrix, in the number that the tables state.
+/// The model of the coefficients after the camera matrix, whose number the tables state.
 fn model(name: &str, k: &[f64]) -> Result<Model, ModelError> {
     match (name, k) {
         ("THIN_PRISM_FISHEYE", &[k1, k2, p1, p2, k3, k4, sx1, sy1]) => {
             let (numerator, prism) = ([k1, k2, k3, k4], [sx1, 0.0, sy1, 0.0]);
             thin_prism(&[], DistortionTerms { numerator, tangential: [p1, p2], prism, ..Default::default() })
         }
-        // The first tangential coefficient goes with x here, as OpenCV's second does.
+        // The first tangential coefficient belongs to x here, as OpenCV's second does.
         ("RAD_TAN_THIN_PRISM_FISHEYE", &[.., p0, p1, s0, s1, s2, s3]) => {
             let prism = [s0, s1, s2, s3];
             thin_prism(&k[..6], DistortionTerms { tangential: [p1, p0], prism, ..Default::default() })

@@ -3,17 +3,16 @@
 //! | DriveWorks (properties of a sensor) | NCore | is |
 //! | --- | --- | --- |
 //! | Model = "ftheta" | – | the model; any other is refused |
-//! | width, height | resolution | the picture, px |
+//! | width, height | resolution | image size, px |
 //! | cx, cy | principal_point | the principal point; the centre of the top-left pixel is (0, 0) |
-//! | polynomial-type | reference_poly | which way the polynomial runs |
+//! | polynomial-type | reference_poly | direction of the polynomial |
 //! | polynomial, or bw-poly (pixel distance to angle) | pixeldist_to_angle_poly, angle_to_pixeldist_poly | c₀ … (px, rad), c₀ = 0 |
 //! | linear-c, linear-d, linear-e | linear_cde | x′ = c x + d y, y′ = e x + y; 1, 0, 0 where absent or all 0 |
 //! | – | max_angle | the field angle up to which it holds, rad; up to 180° where absent |
 //!
-//! The properties may stand at the root, under `properties`, or in `rig.sensors` with a `name`; NCore's parameters at the root
-//! or under `camera_model_parameters`. Of the two polynomials of NCore the one that `reference_poly` names is read; the other
-//! is a fit to its inverse, and the exact inverse is used. A second distortion by a wind-screen
-//! (`external_distortion_parameters`) is refused.
+//! The properties may stand at the root, under `properties`, or in `rig.sensors` with a `name`; NCore's parameters at the root or under
+//! `camera_model_parameters`. Of NCore's two polynomials the one that `reference_poly` names is read; the other is a fit to its inverse, and the exact inverse
+//! is used. A second distortion by a windscreen (`external_distortion_parameters`) is refused.
 
 use core::f64::consts::PI;
 
@@ -50,7 +49,7 @@ pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
     if node.find("resolution").is_some() { ncore(node) } else { drive_works(node) }
 }
 
-/// The camera of a rig: the one of a name, or its only f-theta camera.
+/// Camera of a rig: the named one, or the only f-theta camera.
 fn sensor<'a>(rig: &'a Node, camera: Option<&str>) -> Read<(String, &'a Node)> {
     let sensors = rig.key("sensors")?.items().unwrap_or_default();
     let cameras = sensors.iter().filter_map(|sensor| {
@@ -80,7 +79,7 @@ fn is_f_theta(properties: &Node) -> bool {
     properties.find("Model").and_then(|model| model.text().ok()) == Some("ftheta")
 }
 
-/// What both programs say.
+/// Parameters that both formats state.
 struct Numbers {
     line: usize,
     size_px: [usize; 2],
@@ -156,7 +155,7 @@ fn sense(node: &Node) -> Read<FThetaSense> {
     }
 }
 
-/// Numbers of a list, or in one text.
+/// Numbers of a list, or of one text.
 fn words(node: &Node) -> Read<Vec<f64>> {
     let Ok(text) = node.text() else { return node.numbers() };
     let number = |word: &str| {
@@ -172,7 +171,7 @@ fn found(numbers: Numbers, notes: Vec<String>) -> Read<Found> {
     if c <= 0.0 {
         return Err(Fault::at(line, format!("the linear term c = {c}; expected a positive number")));
     }
-    // (c x + d y, e x + y) stretches columns where `Affine` stretches rows: c goes into the unit of the radius.
+    // (c x + d y, e x + y) stretches columns; `Affine` stretches rows: c goes into the unit of the radius.
     let stretch = Affine { c: 1.0 / c, d: e / c, e: d / c };
     let model = FTheta::new(sense, enlarged(sense, polynomial, c), greatest_angle_rad, stretch).map_err(wrong(line))?;
     let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx, cy }.from_opencv();
@@ -180,7 +179,7 @@ fn found(numbers: Numbers, notes: Vec<String>) -> Read<Found> {
     Ok(Found { name: String::new(), calibration, notes })
 }
 
-/// The polynomial of a radius that is `ratio` times as large.
+/// Polynomial of a radius that is `ratio` times as large.
 fn enlarged(sense: FThetaSense, polynomial: Vec<f64>, ratio: f64) -> Vec<f64> {
     let factors = std::iter::successors(Some(1.0), |factor| Some(factor / ratio));
     match sense {

@@ -1,4 +1,4 @@
-//! What a reader of one format answers, a camera, or why the text holds none; matrices and sizes as OpenCV and ROS write them.
+//! Result of a reader of one format: a camera, or the reason why the text holds none. Also matrices and sizes in the form of OpenCV and ROS.
 
 use etendue_projection::{Calibration, CalibrationError, CameraMatrix};
 
@@ -6,7 +6,7 @@ use super::yaml::Node;
 use crate::ErrorCode;
 use crate::tree::{Fault, Read};
 
-/// What a reader found.
+/// Result of a reader.
 pub(super) struct Found {
     pub(super) name: String,
     pub(super) calibration: Calibration,
@@ -14,7 +14,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// The camera, if it is the one asked for.
+    /// The camera, if it is the requested one.
     pub(super) fn chosen(self, camera: Option<&str>) -> Read<(String, Calibration, Vec<String>)> {
         match camera {
             Some(asked) if asked != self.name && self.name.is_empty() => {
@@ -30,7 +30,7 @@ impl Found {
     }
 }
 
-/// A fault of the camera as a whole, told at the line where it starts.
+/// Error of the camera as a whole, reported at the line where it starts.
 pub(super) fn of_camera(line: usize) -> impl Fn(CalibrationError) -> Fault {
     move |cause| Fault::at(line, cause.to_string())
 }

@@ -114,7 +114,7 @@ fn omni(node: &Node, xi: f64) -> Read<Model> {
     unified(xi, k).map_err(wrong(node.key("intrinsics")?.line))
 }
 
-/// Refuses any distortion but `none`, and coefficients of none.
+/// Refuses any distortion except `none`, and coefficients of `none`.
 fn no_distortion(node: &Node) -> Read<()> {
     let name = node.key("distortion_model")?;
     let found = name.text()?;

@@ -9,9 +9,9 @@
 //! | [`Ocam`](CalibrationFormat::Ocam) | `calib_results.txt` | Scaramuzza's | (0, 0), row first |
 //! | [`FTheta`](CalibrationFormat::FTheta) | NVIDIA's rig or NCore JSON | f-theta | (0, 0) |
 //!
-//! All become a [`Calibration`] in raster coordinates, in which that centre is at (0.5, 0.5). What a file says beyond the
-//! camera (dates, boards, extrinsics, rectification) is passed over, and the [notes](ImportedCamera::notes) name it. A
-//! calibration that folds over inside its picture is read; [`Calibration::check`] refuses it.
+//! All become a [`Calibration`] in raster coordinates, in which that centre is at (0.5, 0.5). Other content of a file (dates, boards, extrinsics,
+//! rectification) is ignored, and the [notes](ImportedCamera::notes) name it. A calibration that folds over inside its image is read; [`Calibration::check`]
+//! refuses it.
 
 mod colmap;
 pub mod export;
@@ -33,23 +33,23 @@ use found::{Found, of_camera};
 
 pub use etendue_scene::asset::CalibrationFormat;
 
-/// A camera of a calibration file.
+/// Camera of a calibration file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedCamera {
-    /// Its name in the file; empty where it has none.
+    /// Name in the file; empty if it has none.
     pub name: String,
     /// The camera.
     pub calibration: Calibration,
-    /// What was passed over, a sentence each.
+    /// Ignored content, one sentence each.
     pub notes: Vec<String>,
     /// Content hash of the file.
     pub hash: ContentHash,
 }
 
-/// Reads one camera; `camera` chooses it by its name in a file that holds several.
+/// Reads one camera; `camera` selects it by name in a file with several.
 ///
 /// # Errors
-/// The first fault of the file, with its line.
+/// The first error of the file, with its line.
 pub fn read_calibration(file: &Path, format: CalibrationFormat, camera: Option<&str>) -> Result<ImportedCamera, Error> {
     let bytes = read_description_bytes(file, "calibration")?;
     let text = decode_text(file, &bytes)?;

@@ -1,4 +1,4 @@
-//! OCamCalib's `calib_results.txt` (Scaramuzza 2006): five lines of numbers between remarks.
+//! OCamCalib's `calib_results.txt` (Scaramuzza 2006): five lines of numbers between comments.
 //!
 //! | line | holds |
 //! | --- | --- |
@@ -8,7 +8,7 @@
 //! | 4 | affine c, d, e |
 //! | 5 | height and width, px |
 //!
-//! The inverse polynomial is a fit to the inverse; the exact inverse is used, and a note says how far the fit is off.
+//! The inverse polynomial is a fit to the inverse; the exact inverse is used, and a note states the error of the fit.
 
 use etendue_projection::{Calibration, CameraMatrix, Model, model::Ocam, plane::Affine};
 
@@ -91,7 +91,7 @@ fn size(row: &Row) -> Read<[usize; 2]> {
     Ok([width as usize, height as usize])
 }
 
-/// How far the inverse polynomial is from the inverse of the direct one, over half the picture's diagonal.
+/// Note with the deviation of the inverse polynomial from the inverse of the direct one, over half the image diagonal.
 fn note(direct: &[f64], inverse: &[f64], [width, height]: [usize; 2]) -> Option<String> {
     if inverse.is_empty() {
         return None;

@@ -1,10 +1,10 @@
 //! OpenCV's FileStorage, YAML or JSON: `camera_matrix`, `distortion_coefficients`, `image_width`, `image_height`.
 //!
-//! The keys are those of OpenCV's own calibration programs; `cameraMatrix`, `K` and `distCoeffs`, `dist_coeffs`, `D` are
-//! read as well, and matrices as plain nested lists. `fisheye_model: 1` means `cv::fisheye`, whose camera matrix holds
-//! α fx as its skew; `xi` means `cv::omnidir`. The perspective functions of OpenCV ignore a skew, so one is refused.
+//! The keys are those of OpenCV's own calibration programs; `cameraMatrix`, `K` and `distCoeffs`, `dist_coeffs`, `D` are read as well, and matrices as plain
+//! nested lists. `fisheye_model: 1` means `cv::fisheye`, whose camera matrix holds α fx as its skew; `xi` means `cv::omnidir`. The perspective functions of
+//! OpenCV ignore a skew, so one is refused.
 //!
-//! ROS `camera_info` YAML (camera_calibration_parsers): the raw picture, before rectification.
+//! ROS `camera_info` YAML (camera_calibration_parsers): the raw image, before rectification.
 //!
 //! | distortion_model | coefficients |
 //! | --- | --- |
@@ -12,7 +12,7 @@
 //! | rational_polynomial | k1, k2, p1, p2, k3, k4, k5, k6 (, s1 … s4 (, τx, τy)) |
 //! | equidistant | k1, k2, k3, k4 of the polynomial fisheye |
 //!
-//! The rectification and projection matrices describe the rectified picture, so they are passed over.
+//! The rectification and projection matrices describe the rectified image, so they are ignored.
 
 use etendue_projection::model::{KannalaBrandt, ModelError, Perspective, Unified};
 use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
@@ -24,7 +24,7 @@ const MATRIX: [&str; 3] = ["camera_matrix", "cameraMatrix", "K"];
 const DISTORTION: [&str; 4] = ["distortion_coefficients", "distCoeffs", "dist_coeffs", "D"];
 const REST: [&str; 5] = ["image_width", "image_height", "image_size", "fisheye_model", "xi"];
 
-/// Reads a camera; `fisheye` where the caller knows that it is one.
+/// Reads a camera; `fisheye` if the caller knows it to be one.
 pub(super) fn read_opencv(text: &str, fisheye: bool) -> Read<Found> {
     let root = yaml::parse(text)?;
     let size_px = found::size(&root)?;

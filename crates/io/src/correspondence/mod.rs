@@ -1,4 +1,4 @@
-//! Where points are seen in another picture: optical flow and disparity, in the files of the benchmarks.
+//! Correspondence of points in two images: optical flow and disparity, in the file formats of the benchmarks.
 //!
 //! | file | numbers | not known | holds | after |
 //! | --- | --- | --- | --- | --- |
@@ -7,14 +7,14 @@
 //! | [`encode_kitti_disparity`], 16-bit grey PNG | 256 d | 0 | 1/256 to 256 px in steps of 1/256 | KITTI 2012 and 2015 |
 //! | [`encode_pfm`], `.pfm` | a 32-bit float a pixel | +∞ | all | Debevec's float map, as Middlebury's stereo sets have it (Scharstein et al. 2014, GCPR) |
 //!
-//! u is to the right and v down, both in pixels. In memory what is not known is NaN. What a KITTI file cannot hold is marked as not known, never
-//! cut to the nearest number; only a disparity below 1/512 px, which would read as not known, becomes 1/256 px, as KITTI's own program writes it.
+//! u is to the right and v down, both in pixels. In memory unknown values are NaN. Values outside the range of a KITTI file are marked as unknown, never
+//! clamped. Only a disparity below 1/512 px, which would read as unknown, becomes 1/256 px, as KITTI's own program writes it.
 //!
-//! KITTI's PNGs of 16 bits: optical flow in three channels, disparity in one (format of the development kit of the 2015 benchmark). A tEXt
-//! chunk says what they are, which KITTI's own readers pass over: by their pixels they could be pictures.
+//! KITTI's PNGs of 16 bits: optical flow in three channels, disparity in one (format of the development kit of the 2015 benchmark). A tEXt chunk, which KITTI's
+//! own readers ignore, states the content: by their pixels alone they could be images.
 //!
-//! Middlebury's optical flow, `.flo`: the characters PIEH (the float 202 021.25), width and height as 32-bit integers, then u and v of each
-//! pixel as 32-bit floats, rows from the top; all little-endian. A vector with a component beyond ±10⁹ is not known.
+//! Middlebury's optical flow, `.flo`: the characters PIEH (the float 202 021.25), width and height as 32-bit integers, then u and v of each pixel as 32-bit
+//! floats, rows from the top; all little-endian. A vector with a component beyond ±10⁹ is not known.
 //!
 //! Portable float maps of one channel: `Pf`, width and height, −1 (little-endian), then 32-bit floats, rows from the bottom.
 
@@ -30,10 +30,10 @@ use crate::picture::{Kept, decode_raster};
 use crate::png::{encode_grey16, encode_rgb16, title, with_text};
 use crate::{Error, exr::EncodeError, source::read_bytes};
 
-/// The optical flow in a `.flo` or a PNG of KITTI, NaN where it is not known; `None` where the file is neither.
+/// Optical flow of a `.flo` file or a KITTI PNG, NaN where unknown; `None` if the file is neither.
 ///
 /// # Errors
-/// Where it is missing or damaged.
+/// If it is missing or damaged.
 pub fn read_flow(file: &Path) -> Result<Option<Plane<OpticalFlow>>, Error> {
     let bytes = read_bytes(file, "flow or picture")?;
     match (is_flo(&bytes), is_kitti_flow(&bytes)) {
@@ -45,22 +45,22 @@ pub fn read_flow(file: &Path) -> Result<Option<Plane<OpticalFlow>>, Error> {
 
 const FLOW_TITLE: &str = "optical flow, KITTI 2015";
 const DISPARITY_TITLE: &str = "disparity, KITTI 2015";
-/// Units a pixel of flow, and the number of no flow.
+/// Units per pixel of flow; the next constant is the number of zero flow.
 const FLOW_UNITS: f64 = 64.0;
 const FLOW_ZERO: f64 = 32_768.0;
-/// Units a pixel of disparity.
+/// Units per pixel of disparity.
 const DISPARITY_UNITS: f64 = 256.0;
 
-/// Optical flow as KITTI's PNG of 16 bits.
+/// Optical flow as KITTI's 16-bit PNG.
 ///
 /// # Errors
-/// Of a plane without pixels, or of more than PNG counts.
+/// If the plane has no pixels, or more than PNG supports.
 pub fn encode_kitti_flow(flow: &Plane<OpticalFlow>) -> Result<Vec<u8>, EncodeError> {
     let values: Vec<u16> = flow.samples().iter().flat_map(|vector| stored_flow(*vector)).collect();
     Ok(with_text(encode_rgb16(flow.width(), flow.height(), &values)?, "Title", FLOW_TITLE))
 }
 
-/// Disparity as KITTI's PNG of 16 bits.
+/// Disparity as KITTI's 16-bit PNG.
 ///
 /// # Errors
 /// As [`encode_kitti_flow`].
@@ -69,13 +69,13 @@ pub fn encode_kitti_disparity(disparity: &Plane<Disparity>) -> Result<Vec<u8>, E
     Ok(with_text(encode_grey16(disparity.width(), disparity.height(), &values)?, "Title", DISPARITY_TITLE))
 }
 
-/// Numbers of a vector; zeros where it is not known or too long.
+/// Stored numbers of a vector; zeros if it is unknown or too long.
 fn stored_flow(vector: [f32; 2]) -> [u16; 3] {
     let [u, v] = vector.map(|px| in_16_bits(f64::from(px) * FLOW_UNITS + FLOW_ZERO));
     u.zip(v).map_or([0; 3], |(u, v)| [u, v, 1])
 }
 
-/// The number of a disparity; 0 where it is not known, negative (but for rounding) or too large.
+/// Stored number of a disparity; 0 if it is unknown, negative (except for rounding) or too large.
 fn stored_disparity(px: f32) -> u16 {
     in_16_bits(f64::from(px) * DISPARITY_UNITS).map_or(0, |units| units.max(1))
 }
@@ -85,12 +85,12 @@ fn in_16_bits(number: f64) -> Option<u16> {
     (0.0..=f64::from(u16::MAX)).contains(&whole).then_some(whole as u16)
 }
 
-/// Whether a PNG says of itself that it is optical flow.
+/// Returns true if a PNG states that it is optical flow.
 pub(crate) fn is_kitti_flow(bytes: &[u8]) -> bool {
     title(bytes) == Some(FLOW_TITLE)
 }
 
-/// The flow in the bytes of KITTI's PNG, NaN where it is not known.
+/// Flow in the bytes of a KITTI PNG, NaN where unknown.
 pub(crate) fn decode_kitti_flow(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error> {
     let (_, picture) = decode_raster(file, bytes, "KITTI's PNG", Kept::Floats)?;
     let image::DynamicImage::ImageRgb16(picture) = picture else {
@@ -107,10 +107,10 @@ const MAGIC: &[u8; 4] = b"PIEH";
 const NOT_KNOWN: f32 = 1e10;
 const GREATEST_KNOWN: f32 = 1e9;
 
-/// The bytes of a `.flo` file.
+/// Bytes of a `.flo` file.
 ///
 /// # Errors
-/// Of a plane without pixels, or of more than the format counts.
+/// If the plane has no pixels, or more than the format supports.
 pub fn encode_flo(flow: &Plane<OpticalFlow>) -> Result<Vec<u8>, EncodeError> {
     let (width, height) = (flow.width(), flow.height());
     if width == 0 || height == 0 {
@@ -125,15 +125,15 @@ pub fn encode_flo(flow: &Plane<OpticalFlow>) -> Result<Vec<u8>, EncodeError> {
     Ok(head.chain(body).collect())
 }
 
-/// Whether the bytes begin as those of a `.flo` file.
+/// Returns true if the bytes begin like a `.flo` file.
 pub(crate) fn is_flo(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// The flow in the bytes of a `.flo` file, NaN where it is not known.
+/// Flow in the bytes of a `.flo` file, NaN where unknown.
 ///
 /// # Errors
-/// Where the bytes are no such file, or are cut off.
+/// If the bytes are no such file, or are truncated.
 pub fn decode_flo(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error> {
     let wrong = || Error::new(file, "not a .flo file: expected PIEH, width and height above 0, and two floats a pixel");
     let (head, body) = bytes.split_at_checked(12).filter(|(head, _)| is_flo(head)).ok_or_else(wrong)?;
@@ -156,10 +156,10 @@ fn is_known(vector: [f32; 2]) -> bool {
     vector.iter().all(|v| v.abs() <= GREATEST_KNOWN)
 }
 
-/// The bytes of a PFM of `width` numbers a row, given row by row from the top; NaN, not known, is stored as +∞.
+/// Bytes of a PFM of `width` numbers per row, given row by row from the top; NaN (unknown) is stored as +∞.
 ///
 /// # Errors
-/// Where there are no pixels, or not as many as the rows need.
+/// If there are no pixels, or too few for the rows.
 pub fn encode_pfm(width: usize, samples: &[f32]) -> Result<Vec<u8>, EncodeError> {
     let height = samples.len().checked_div(width).unwrap_or(0);
     if height == 0 {
@@ -207,7 +207,7 @@ mod tests {
         for (read, written) in read.samples().iter().zip(vectors) {
             let known = written.iter().all(|px| px.abs() < 512.0);
             assert_eq!(read.iter().all(|px| px.is_finite()), known, "{written:?}");
-            // Numbers are rounded to the nearest of steps of 1/64 px; 2^-15 of 512 px is the rounding of f32.
+            // Numbers are rounded to the nearest step of 1/64 px; 2^-15 of 512 px is the rounding of f32.
             let close = (0..2).all(|i| (read[i] - written[i]).abs() <= 0.5 / 64.0 + 512.0 * f32::EPSILON);
             assert!(close || !known, "{read:?} {written:?}");
         }

@@ -1,4 +1,4 @@
-//! Where the samples of an EXR file come from: planes in memory, bands on the disk, or strips of rows that are made when they are written; why values cannot be stored.
+//! Sources of the samples of an EXR file: planes in memory, bands on the disk, or strips of rows computed while they are written. Also encoding errors.
 
 use std::{borrow::Cow, ops::Range};
 
@@ -11,13 +11,13 @@ pub(crate) enum Channel<'a> {
     Float(Cow<'a, [f32]>),
     /// 32-bit unsigned integers, row by row.
     Uint(Cow<'a, [u32]>),
-    /// A component of vectors, row by row.
+    /// One component of vectors, row by row.
     Component(&'a [[f32; 3]], usize),
-    /// A band.
+    /// Band on the disk.
     Band(&'a dyn BandReader, usize),
-    /// The floats of this place in a strip.
+    /// Floats at this position of a strip.
     StripFloat(usize),
-    /// The integers of this place in a strip.
+    /// Integers at this position of a strip.
     StripUint(usize),
 }
 
@@ -29,17 +29,17 @@ pub(crate) enum Samples {
     Uint(Vec<u32>),
 }
 
-/// Channels of which rows are made together.
+/// Channels whose rows are computed together.
 pub(crate) trait Strips: Send + Sync {
-    /// Whole rows of all these channels.
+    /// Returns whole rows of all these channels.
     ///
     /// # Errors
-    /// Where they cannot be read, in a sentence for the user.
+    /// If they cannot be read, in a sentence for the user.
     fn rows(&self, rows: Range<usize>) -> Result<Vec<Samples>, String>;
 }
 
 impl Channel<'_> {
-    /// Samples, where they are in memory.
+    /// Number of samples, if they are in memory.
     pub(super) fn len(&self) -> Option<usize> {
         match self {
             Self::Float(samples) => Some(samples.len()),
@@ -49,7 +49,7 @@ impl Channel<'_> {
         }
     }
 
-    /// What the encoder knows of a channel before it has samples: their type.
+    /// Sample type of a channel, for the encoder.
     pub(super) fn described(&self) -> FlatSamples {
         match self {
             Self::Uint(_) | Self::StripUint(_) => FlatSamples::U32(Vec::new()),
@@ -58,7 +58,7 @@ impl Channel<'_> {
     }
 }
 
-/// The channels of a picture, sorted by name.
+/// Channels of an image, sorted by name.
 pub(super) struct ImageRows<'a> {
     pub(super) width: usize,
     pub(super) channels: Vec<Channel<'a>>,
@@ -72,12 +72,12 @@ enum Rows<'a> {
 }
 
 impl ImageRows<'_> {
-    /// Bytes of a row.
+    /// Bytes per row.
     pub(super) fn row_bytes(&self) -> usize {
         self.width * self.channels.len() * size_of::<f32>()
     }
 
-    /// The bytes of rows as the encoder wants them: line by line, in each channel by channel, in the machine's order.
+    /// Bytes of rows in the encoder's layout: line by line, channel by channel within a line, in native byte order.
     pub(super) fn bytes(&self, rows: Range<usize>) -> Result<Vec<u8>, EncodeError> {
         let strip = self.strips.as_ref().map(|strips| strips.rows(rows.clone())).transpose();
         let strip = strip.map_err(EncodeError::Read)?.unwrap_or_default();
@@ -128,46 +128,46 @@ impl ImageRows<'_> {
     }
 }
 
-/// Why values cannot become an EXR or PNG file.
+/// Reason for which values cannot become an EXR or PNG file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EncodeError {
     /// Zero pixels.
     #[error("a picture of {width} × {height} pixels cannot be stored; expected at least one pixel")]
     Empty {
-        /// Pixels a row.
+        /// Pixels per row.
         width: usize,
         /// Rows.
         height: usize,
     },
-    /// A digital number that 16 bits do not hold.
+    /// Digital number that does not fit into 16 bits.
     #[error("the digital number {value} does not fit into 16 bits; write the raw as TIFF")]
     Wide {
         /// The number.
         value: u32,
     },
-    /// A picture without channels.
+    /// An image without channels.
     #[error("a picture without channels cannot be stored; expected at least one plane")]
     NoChannels,
     /// Planes of different sizes.
     #[error("plane `{name}` has {found} samples, expected {expected}; all planes of one file have the same size")]
     Size {
-        /// The plane.
+        /// Name of the plane.
         name: String,
-        /// Its samples.
+        /// Number of its samples.
         found: usize,
-        /// The file's pixels.
+        /// Number of pixels of the file.
         expected: usize,
     },
-    /// A text outside Latin-1, or a name longer than 31 bytes, which EXR headers do not hold.
+    /// Text outside Latin-1, or name longer than 31 bytes, which EXR headers do not support.
     #[error("`{0}` cannot stand in an EXR header: texts are Latin-1 without NUL, attribute names at most 31 bytes")]
     Text(String),
-    /// Samples that are kept on the disk cannot be read.
+    /// Samples on the disk cannot be read.
     #[error("{0}")]
     Read(String),
     /// The file cannot be written.
     #[error("{0}")]
     Write(String),
-    /// The encoder refused.
+    /// The encoder failed.
     #[error("the encoder failed: {0}")]
     Encoder(String),
 }

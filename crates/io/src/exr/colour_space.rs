@@ -1,14 +1,14 @@
-//! The colour space of an EXR: its `chromaticities`, by which R, G and B become those of Rec. 709.
+//! Colour space of an EXR: conversion of R, G and B from its `chromaticities` to Rec. 709.
 //!
-//! A file without the attribute has Rec. 709 primaries and white, as the format says. Channels that are named R, G and B alone are colours; those of
-//! layers may be anything (identities, normals) and stay as they are. White is not adapted. Pictures keep what their file holds beside the matrix: a
-//! texture of data is no colour.
+//! A file without the attribute has Rec. 709 primaries and white, as the format specifies. Only channels named exactly R, G and B are colours; those of layers
+//! may be anything (identities, normals) and are unchanged. White is not adapted. Images keep the stored values together with the matrix: a texture of data is
+//! no colour.
 //!
 //! Channel names of the spectral layout.
 //!
-//! Fichet, Pacanowski, Wilkie, "An OpenEXR layout for spectral images", JCGT 10(3), 2021: `S0.550,000000nm` is the
-//! unpolarised emission at 550 nm, `T.550,000000nm` a reflectance or transmittance. The decimal sign is a comma,
-//! because a point divides layers. Other writers use a point as well, SI prefixes, and frequencies in Hz.
+//! Fichet, Pacanowski, Wilkie, "An OpenEXR layout for spectral images", JCGT 10(3), 2021: `S0.550,000000nm` is the unpolarised emission at 550 nm,
+//! `T.550,000000nm` a reflectance or transmittance. The decimal separator is a comma, because a point separates layers. Other writers use a point as well, SI
+//! prefixes, and frequencies in Hz.
 
 use core::fmt;
 use std::path::Path;
@@ -19,10 +19,10 @@ use etendue_spectra::colour::{Primaries, REC_709};
 
 use crate::Error;
 
-/// Chromaticities that differ by less are those of Rec. 709: files round them, and its white, differently.
+/// Tolerance within which chromaticities count as Rec. 709: files round them, and the white point, differently.
 const SAME: f64 = 5e-4;
 
-/// What makes colours of these chromaticities those of Rec. 709; `None` where they are.
+/// Matrix from these chromaticities to Rec. 709; `None` if they are equal.
 pub(crate) fn to_rec_709(file: &Path, stated: &Chromaticities) -> Result<Option<ColourMatrix>, Error> {
     let pair = |v: ::exr::prelude::Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
     let Chromaticities { red, green, blue, white } = *stated;
@@ -43,7 +43,7 @@ pub(super) fn text(Chromaticities { red, green, blue, white }: &Chromaticities) 
     format!("red {}, green {}, blue {}, white {}", pair(red), pair(green), pair(blue), pair(white))
 }
 
-/// How a file says that it is projected, in a word; nothing where it says nothing.
+/// Projection that a file states, in a word; `None` if it states none.
 pub(super) fn projection(stated: Option<EnvironmentMap>) -> Option<&'static str> {
     stated.map(|stated| match stated {
         EnvironmentMap::LatitudeLongitude => "latitude-longitude",
@@ -51,36 +51,36 @@ pub(super) fn projection(stated: Option<EnvironmentMap>) -> Option<&'static str>
     })
 }
 
-/// The attribute that says so.
+/// Attribute of the projection.
 pub(super) const ENVMAP: &str = "envmap";
 pub(super) const CUBE: &str = "cube";
 
 /// Speed of light in vacuum, m/s (exact, SI).
 const LIGHT_M_PER_S: f64 = 299_792_458.0;
 
-/// What a spectral channel holds.
+/// Content of a spectral channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stokes {
     /// A component of the Stokes vector of emitted light; 0 is the intensity.
     Emissive(u8),
-    /// A reflectance or transmittance.
+    /// Reflectance or transmittance.
     Reflective,
 }
 
-/// A channel name taken apart.
+/// Parsed channel name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpectralChannel {
-    /// What it holds.
+    /// Content.
     pub stokes: Stokes,
     /// Wavelength in vacuum, nm.
     pub nm: f64,
-    /// Whether the name stated a wavelength and not a frequency.
+    /// True if the name states a wavelength, not a frequency.
     pub by_wavelength: bool,
-    /// Whether this is our variance of that channel.
+    /// True if it is our variance of that channel.
     pub variance: bool,
 }
 
-/// The layer that holds our variance channels, with its dot.
+/// Layer of our variance channels, with its dot.
 const VARIANCE: &str = "variance.";
 
 impl fmt::Display for Stokes {
@@ -92,14 +92,14 @@ impl fmt::Display for Stokes {
     }
 }
 
-/// The name of a channel at `nm`, six decimals.
+/// Name of a channel at `nm`, with six decimals.
 #[must_use]
 pub fn channel_name(stokes: Stokes, nm: f64, variance: bool) -> String {
     let number = format!("{nm:.6}").replace('.', ",");
     format!("{}{stokes}.{number}nm", if variance { VARIANCE } else { "" })
 }
 
-/// Takes a channel name apart; `None` where it is no spectral channel.
+/// Parses a channel name; `None` if it is no spectral channel.
 #[must_use]
 pub fn parse_channel_name(name: &str) -> Option<SpectralChannel> {
     let bare = name.strip_prefix(VARIANCE);
@@ -116,7 +116,7 @@ fn parse_stokes(layer: &str) -> Option<Stokes> {
     }
 }
 
-/// Vacuum wavelength in nm, and whether it was stated as one.
+/// Wavelength in vacuum, nm, and true if it was stated as a wavelength.
 fn parse_wavelength(text: &str) -> Option<(f64, bool)> {
     let (rest, by_wavelength) = match text.strip_suffix("Hz") {
         Some(rest) => (rest, false),
@@ -265,7 +265,7 @@ mod tests {
     fn names_of_other_writers_are_understood() {
         assert_eq!(nm("S0.550nm"), Some(550.0));
         assert_eq!(nm("S0.550.25nm"), Some(550.25));
-        // Scaling by 1e3 and 1e9 rounds once or twice: 4 units in the last place at most.
+        // Scaling by 1e3 and 1e9 rounds once or twice: at most 4 units in the last place.
         for name in ["S0.0,55um", "S0.5,5E-7m", "S0.545077,19636363636GHz", "S0.545.07719636363636THz"] {
             let parsed = nm(name).expect(name);
             assert!((parsed - 550.0).abs() < 550.0 * 1e-9, "{name}: {parsed}");

@@ -1,33 +1,34 @@
 //! Cryptomatte (Friedman and Jones 2015; Psyop's specification, version 1.2.0): identities of a pixel with their coverage, ranked.
 //!
-//! - An identity is MurmurHash3 (32 bits for x86, seed 0; Appleby 2011) of its name in UTF-8, read as the bits of a 32-bit float. Where these would be no normal
-//!   number, an exponent of 0 or of 255, the lowest bit of the exponent is turned over.
-//! - Ranks lie in pairs in layers of four channels: `CryptoObject00.R` the identity that covers most and `.G` its coverage, `.B` and `.A` the second; `CryptoObject01` the
-//!   third and the fourth, and so on. Where there is none both are 0. [`RANKS`] are written; smaller shares are left out.
-//! - The header says, under the first seven digits of the hash of the layer's own name, `name`, `hash`, `conversion` and `manifest`: names and hashes as JSON, in ASCII.
+//! - An identity is MurmurHash3 (32 bits for x86, seed 0; Appleby 2011) of its name in UTF-8, read as the bits of a 32-bit float. If these are not a normal
+//!   number, an exponent of 0 or of 255, the lowest bit of the exponent is flipped.
+//! - Ranks lie in pairs in layers of four channels: `CryptoObject00.R` the identity with the largest coverage and `.G` its coverage, `.B` and `.A` the second;
+//!   `CryptoObject01` the third and the fourth, and so on. Unused ranks are 0 in both. [`RANKS`] ranks are written; smaller coverages are omitted.
+//! - The header states, under the first seven digits of the hash of the layer's own name, `name`, `hash`, `conversion` and `manifest`: names and hashes as
+//!   JSON, in ASCII.
 //!
-//! Two names of one hash cannot be told apart, by the format.
+//! The format cannot distinguish two names with the same hash.
 
 use std::{collections::BTreeMap, fmt::Write as _};
 
 use super::encode::ExrImage;
 use crate::Provenance;
 
-/// Ranks of a pixel that are written: three layers, as renderers write unless told otherwise.
+/// Ranks written per pixel: three layers, the usual default of renderers.
 const RANKS: usize = 6;
 
-/// A kind of identities, such as objects.
+/// One kind of identities, such as objects.
 #[derive(Clone, Copy, Debug)]
 pub struct CryptomatteLayer<'a> {
-    /// The name of its layers: `CryptoObject`.
+    /// Name of its layers: `CryptoObject`.
     pub name: &'a str,
     /// Names of the identities by their numbers.
     pub names: &'a BTreeMap<u32, &'a str>,
-    /// Of each pixel, row by row from the top left: numbers and coverages, the largest first.
+    /// Numbers and coverages of each pixel, largest first; pixels row by row from the top left.
     pub pixels: &'a [Vec<(u32, f32)>],
 }
 
-/// The file of some layers of `width` × `height` pixels.
+/// File of some layers of `width` × `height` pixels.
 #[must_use]
 pub fn cryptomatte_image(
     width: usize,
@@ -67,7 +68,7 @@ fn add(image: &mut ExrImage<'static>, layer: &CryptomatteLayer<'_>) {
     }
 }
 
-/// The identity of a name, as the float that pixels hold.
+/// Identity of a name, as the float stored in pixels.
 #[must_use]
 pub fn cryptomatte_id(name: &str) -> f32 {
     let hash = murmur3_32(name.as_bytes());
@@ -82,7 +83,7 @@ fn manifest(names: &BTreeMap<u32, &str>) -> String {
     format!("{{{}}}", entries.join(","))
 }
 
-/// A text as JSON, in ASCII: headers of EXR hold nothing else alike in all readers.
+/// Text as JSON in ASCII: readers agree on nothing else in EXR headers.
 fn ascii(text: &str) -> String {
     let mut out = String::from("\"");
     for unit in text.encode_utf16() {
@@ -107,7 +108,7 @@ fn murmur3_32(bytes: &[u8]) -> u32 {
     });
     let tail = rest.iter().rev().fold(0_u32, |tail, byte| tail << 8 | u32::from(*byte));
     hash ^= mixed(tail);
-    // Lengths count modulo 2³².
+    // Lengths are taken modulo 2³².
     hash ^= bytes.len() as u32;
     hash = (hash ^ hash >> 16).wrapping_mul(0x85eb_ca6b);
     hash = (hash ^ hash >> 13).wrapping_mul(0xc2b2_ae35);
@@ -147,7 +148,7 @@ mod tests {
 
     #[test]
     fn identities_are_normal_numbers() {
-        // The hash 0 has the exponent 0, whose lowest bit is then turned over: 2⁻¹²⁶.
+        // The hash 0 has the exponent 0, whose lowest bit is then flipped: 2⁻¹²⁶.
         assert_eq!(cryptomatte_id("").to_bits(), 0x0080_0000);
         assert!((0..4096).all(|i| cryptomatte_id(&format!("object.{i}")).is_normal()));
     }

@@ -1,9 +1,9 @@
-//! Channels and facts to the bytes of an EXR file.
+//! Encoder from channels and facts to an EXR file.
 //!
-//! Channels to the compressed blocks of an EXR file, in parallel.
+//! Blocks are compressed in parallel.
 //!
-//! The encoder's own way to do so starts threads of its own for every file; this one runs on the caller's. A block's bytes
-//! are its own, and blocks are written in their order: the number of threads does not show.
+//! The encoder's own method starts threads for every file; this one runs on the caller's pool. A block's bytes depend on that block alone, and blocks are
+//! written in order, so the file does not depend on the number of threads.
 
 use std::fmt::{Debug, Formatter};
 use std::io::{self, Cursor, Seek, SeekFrom, Write};
@@ -21,15 +21,15 @@ use rayon::prelude::*;
 use super::channel::{Channel, EncodeError, ImageRows, Strips};
 use crate::Provenance;
 
-/// A picture to be stored: what it states, and where its samples come from.
+/// Image to be stored: facts and sources of samples.
 pub struct ExrImage<'a> {
     pub(super) width: usize,
     pub(super) height: usize,
     pub(super) channels: Vec<(String, Channel<'a>)>,
     pub(super) strips: Option<Box<dyn Strips + 'a>>,
-    /// Header attributes, all texts: readers in use pass over attributes of 64-bit floats (OpenEXR 3.5 for Python).
+    /// Header attributes, all texts: current readers ignore attributes of 64-bit floats (OpenEXR 3.5 for Python).
     pub(crate) facts: BTreeMap<String, String>,
-    /// Luminance of R = G = B = 1, cd/m², where R, G, B are photometric.
+    /// Luminance of R = G = B = 1, cd/m², if R, G, B are photometric.
     pub(crate) white_luminance: Option<f32>,
 }
 
@@ -41,7 +41,7 @@ impl Debug for ExrImage<'_> {
 }
 
 impl<'a> ExrImage<'a> {
-    /// A picture without channels that carries `provenance` as `etendue:…` facts.
+    /// Returns an image without channels, with `provenance` as `etendue:…` facts.
     pub(crate) fn new(width: usize, height: usize, provenance: &Provenance) -> Self {
         let (facts, white_luminance) = (BTreeMap::new(), None);
         let mut image = Self { width, height, channels: Vec::new(), strips: None, facts, white_luminance };
@@ -71,10 +71,10 @@ impl<'a> ExrImage<'a> {
         self.channels.push((name.into(), channel));
     }
 
-    /// The bytes of the file. Runs on the caller's thread pool.
+    /// Returns the bytes of the file. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// Where the picture cannot be stored.
+    /// If the image cannot be stored.
     pub fn into_bytes(self) -> Result<Vec<u8>, EncodeError> {
         let mut bytes = Cursor::new(Vec::new());
         self.write_to(&mut bytes)?;
@@ -84,7 +84,7 @@ impl<'a> ExrImage<'a> {
     /// Writes the same bytes, some rows at a time. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// Where the picture cannot be stored, its samples cannot be read, or `sink` fails.
+    /// If the image cannot be stored, its samples cannot be read, or `sink` fails.
     pub fn write_to(mut self, sink: impl Write + Seek) -> Result<(), EncodeError> {
         self.check()?;
         let mut attributes = LayerAttributes { white_luminance: self.white_luminance, ..LayerAttributes::default() };
@@ -128,7 +128,7 @@ impl<'a> ExrImage<'a> {
     }
 }
 
-/// The one encoding we write.
+/// The only encoding written.
 const ENCODING: Encoding =
     Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
 
@@ -142,8 +142,8 @@ fn header_name(name: &str) -> Result<Text, EncodeError> {
     if name.len() > 31 { Err(EncodeError::Text(name.to_owned())) } else { text(name) }
 }
 
-/// The head of a file up to the end of its header, the header's records sorted by name. The encoder writes custom attributes in the random order
-/// of a hash map; the sum of their lengths does not change, so the offsets that follow stay valid.
+/// Start of a file up to the end of its header, with the header's records sorted by name. The encoder writes custom attributes in the random order of a hash
+/// map; the sum of their lengths does not change, so the offsets that follow stay valid.
 fn sorted_head(headers: &Headers) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Cursor::new(Vec::new());
     match block::write(&mut bytes, headers.clone(), true, |_, _| Err(::exr::error::Error::Aborted)) {
@@ -157,7 +157,7 @@ fn sorted_head(headers: &Headers) -> Result<Vec<u8>, EncodeError> {
     Ok(bytes)
 }
 
-/// Sorts the header's records by name in place; answers with where they end. `None` where the bytes are no single-part header.
+/// Sorts the header's records by name in place; returns their end. `None` if the bytes are no single-part header.
 fn sort_header(bytes: &mut [u8]) -> Option<usize> {
     const START: usize = 8; // magic number and version
     let mut records: Vec<&[u8]> = Vec::new();
@@ -173,7 +173,7 @@ fn sort_header(bytes: &mut [u8]) -> Option<usize> {
     Some(START + sorted.len())
 }
 
-/// Length of the record at the head of `bytes`: name, NUL, type, NUL, length as little-endian i32, value.
+/// Length of the first record in `bytes`: name, NUL, type, NUL, length as little-endian i32, value.
 fn record_length(bytes: &[u8]) -> Option<usize> {
     let name = bytes.iter().position(|&b| b == 0)?;
     let kind = bytes[name + 1..].iter().position(|&b| b == 0)?;
@@ -182,9 +182,9 @@ fn record_length(bytes: &[u8]) -> Option<usize> {
     Some(head + 4 + usize::try_from(length).ok()?)
 }
 
-/// Blocks a thread that wait, compressed, to be written.
+/// Compressed blocks per thread that wait to be written.
 const BLOCKS_A_THREAD: usize = 8;
-/// Bytes of the blocks that wait, before they are compressed; one waits at least.
+/// Maximum uncompressed bytes of the waiting blocks; at least one block waits.
 pub const WAITING_BYTES: usize = 32 << 20;
 
 /// Writes the file.
@@ -219,7 +219,7 @@ fn compress(headers: Headers, image: &ImageRows<'_>, sink: impl Write + Seek) ->
     }
 }
 
-/// Passes on what is written, but for its first bytes, in whose place stands a head of its own.
+/// Writer that replaces the first bytes by a given head and passes on the rest.
 pub(super) struct HeadReplaced<W> {
     sink: W,
     head: Vec<u8>,
@@ -227,7 +227,7 @@ pub(super) struct HeadReplaced<W> {
 }
 
 impl<W: Write + Seek> HeadReplaced<W> {
-    /// In the place of as many bytes stands `head`.
+    /// `head` replaces the first bytes of the same length.
     pub(super) fn new(sink: W, head: Vec<u8>) -> Self {
         Self { sink, head, position: 0 }
     }
@@ -308,7 +308,7 @@ mod tests {
         assert_eq!(ExrImage::new(1, 2, &Provenance::default()).into_bytes(), Err(EncodeError::NoChannels));
     }
 
-    /// More rows than one round of blocks has on these numbers of threads, and a last block of few rows.
+    /// More rows than one round of blocks on these numbers of threads, and a short last block.
     #[test]
     fn the_bytes_are_those_of_the_encoder_on_one_thread() {
         let floats: Vec<f32> = (0..5 * 1003).map(|i| (i * 7919 % 1009) as f32).collect();
@@ -319,7 +319,7 @@ mod tests {
         let image = Image::from_layer(Layer::new((5, 1003), LayerAttributes::default(), ENCODING, channels));
         let mut plain = Cursor::new(Vec::new());
         image.write().non_parallel().to_buffered(&mut plain).expect("a picture");
-        // Our header says more, in an order of its own; the blocks are the same.
+        // Our header contains more, in its own order; the blocks are the same.
         let blocks = |bytes: &[u8]| bytes[bytes.len() - length_of_blocks(bytes)..].to_vec();
         for threads in [1, 2, 3, 7] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
@@ -331,12 +331,12 @@ mod tests {
         }
     }
 
-    /// From the first block on: its offset is the first in the table behind the header.
+    /// Length from the first block on; its offset is the first in the table after the header.
     fn length_of_blocks(bytes: &[u8]) -> usize {
         let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), true).expect("a header");
         let count = meta.headers[0].chunk_count;
         let at = |place: usize| u64::from_le_bytes(bytes[place..place + 8].try_into().expect("eight bytes"));
-        // The table is where its first number points behind its last.
+        // The table begins where its first number points just past its last.
         let table = (0..bytes.len() - 8 * count).find(|place| at(*place) == (place + 8 * count) as u64);
         bytes.len() - (table.expect("a table of offsets") + 8 * count)
     }

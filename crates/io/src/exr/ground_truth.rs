@@ -11,7 +11,7 @@ use super::channel::{Channel, EncodeError, Samples, Strips};
 use super::encode::ExrImage;
 use crate::Provenance;
 
-/// Planes of ground truth; what a job did not ask for is `None`.
+/// Planes of ground truth; `None` for those that a job did not request.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GroundTruth<'a> {
     /// Distance along the camera's axis, m.
@@ -22,7 +22,7 @@ pub struct GroundTruth<'a> {
     pub normal: Option<&'a Plane<Vector>>,
     /// Position in the world, m, rounded to 32-bit floats (at 100 km from the origin by up to 4 mm, at 5 000 km by 0.25 m).
     pub position: Option<&'a Plane<Vector>>,
-    /// What that rounding took off, m.
+    /// Remainder of that rounding, m.
     pub position_low: Option<&'a Plane<Vector>>,
     /// Position in the camera frame (x right, y down, z forward and negative behind), m.
     pub camera_space_position: Option<&'a Plane<Vector>>,
@@ -32,21 +32,21 @@ pub struct GroundTruth<'a> {
     pub semantic: Option<&'a Plane<Identity>>,
     /// Identity of the material.
     pub material: Option<&'a Plane<Identity>>,
-    /// By which ray the pixel looks: 0 none, 1 the principal ray, 2 one through the centroid of the open pupil.
+    /// Kind of ray of the pixel: 0 none, 1 the principal ray, 2 one through the centroid of the open pupil.
     pub ray: Option<&'a Plane<Identity>>,
-    /// Where the ray meets the camera's mirror, camera frame, m; NaN where it does not.
+    /// Intersection of the ray with the camera's mirror, camera frame, m; NaN if there is none.
     pub mirror: Option<&'a Plane<Vector>>,
 }
 
-/// The planes of `truth` in one file.
+/// Encodes the planes of `truth` in one file.
 ///
 /// # Errors
-/// Where there is no plane, or planes have different sizes.
+/// If there is no plane, or planes have different sizes.
 pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> Result<Vec<u8>, EncodeError> {
     ground_truth_of_planes(truth, provenance)?.into_bytes()
 }
 
-/// As [`encode_ground_truth`], as an image that is not encoded yet.
+/// Returns [`encode_ground_truth`]'s image before encoding.
 ///
 /// # Errors
 /// There is no plane.
@@ -68,13 +68,13 @@ pub fn ground_truth_of_planes<'a>(
     Ok(image)
 }
 
-/// Ground truth that is found some rows at a time.
+/// Ground truth computed some rows at a time.
 pub trait GroundTruthRows: Send + Sync {
-    /// Hands over the planes of some rows, the same planes for all rows.
+    /// Passes the planes of some rows to `take`: the same planes for all rows.
     fn rows(&self, rows: Range<usize>, take: &mut dyn FnMut(&GroundTruth<'_>));
 }
 
-/// The same file of `width` × `height` pixels, to be written, of rows that are found when they are. `has_gaps` says whether the depth of some pixel is NaN.
+/// Returns the same file of `width` × `height` pixels for writing, whose rows are computed on demand. `has_gaps` is true if the depth of some pixel is NaN.
 #[must_use]
 pub fn ground_truth_image<'a>(
     width: usize,
@@ -126,7 +126,7 @@ impl Layer<'_> {
     }
 }
 
-/// What the header says of planes.
+/// States the header facts of the planes.
 fn state(image: &mut ExrImage<'_>, truth: &GroundTruth<'_>, has_gaps: bool) {
     image.state("quantity", "ground truth");
     let metres = [
@@ -155,7 +155,7 @@ fn state(image: &mut ExrImage<'_>, truth: &GroundTruth<'_>, has_gaps: bool) {
 }
 
 impl<'a> GroundTruth<'a> {
-    /// The channels of the planes that there are.
+    /// Channels of the planes that are present.
     fn layers(&self) -> Vec<(String, Layer<'a>)> {
         let lengths = [("depth.Z", self.depth), ("distance.Z", self.distance)];
         let lengths =
@@ -200,8 +200,8 @@ pub(super) fn add_vector<'a>(image: &mut ExrImage<'a>, layer: &str, plane: &'a P
     }
 }
 
-/// Origins (m) and unit directions in the camera's frame, by which ray a pixel looks, and of a camera with a mirror the path
-/// from the pupil to the origin (m).
+/// Rays: origins (m) and unit directions in the camera's frame, the kind of ray of each pixel, and for a camera with a mirror the path from the pupil to the
+/// origin (m).
 #[must_use]
 pub fn rays_image<'a>(
     origin: &'a Plane<Vector>,

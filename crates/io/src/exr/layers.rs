@@ -1,6 +1,6 @@
-//! Planes in a file: of any name, as a program keeps them for itself, and one plane of a scalar quantity with its variance.
+//! Planes in a file: arbitrarily named planes for internal use, and one plane of a scalar quantity with its variance.
 //!
-//! One plane of a scalar quantity as an EXR, with its variance where known.
+//! Encoding of one plane of a scalar quantity, with its variance if known.
 //!
 //! The channel is named by the quantity (`electrons`), its variance `variance.electrons`, in squared units.
 
@@ -18,14 +18,14 @@ pub enum Layer<'a> {
     Float(&'a [f32]),
     /// 32-bit unsigned integers.
     Uint(&'a [u32]),
-    /// A band of a cube in memory or on the disk.
+    /// Band of a cube in memory or on the disk.
     Band(&'a dyn BandReader, usize),
 }
 
-/// Named planes of `width` × `height` samples.
+/// Encodes named planes of `width` × `height` samples.
 ///
 /// # Errors
-/// Where they cannot be stored.
+/// If they cannot be stored.
 pub fn encode_layers(
     width: usize,
     height: usize,
@@ -35,7 +35,7 @@ pub fn encode_layers(
     layers_image(width, height, layers, provenance).into_bytes()
 }
 
-/// The same, to be written.
+/// Returns the same image for writing.
 #[must_use]
 pub fn layers_image<'a>(
     width: usize,
@@ -54,7 +54,7 @@ pub fn layers_image<'a>(
     image
 }
 
-/// `plane`, with the variance of each pixel where given.
+/// Encodes `plane`, with the variance of each pixel if given.
 pub fn encode_plane<Q: Quantity<Sample = f32>>(
     plane: &Plane<Q>,
     variance: Option<&Plane<Variance>>,
@@ -63,7 +63,7 @@ pub fn encode_plane<Q: Quantity<Sample = f32>>(
     plane_image(plane, variance, provenance).into_bytes()
 }
 
-/// The same, to be written.
+/// Returns the same image for writing.
 #[must_use]
 pub fn plane_image<'a, Q: Quantity<Sample = f32>>(
     plane: &'a Plane<Q>,

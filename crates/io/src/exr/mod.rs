@@ -1,12 +1,11 @@
 //! OpenEXR files: spectral images, ground truth, planes of one quantity.
 //!
-//! Everything is written as one part of scan lines, ZIP16 compression, increasing line order, channels sorted by name and
-//! header records sorted by name: the same values give the same bytes, in any process and on any number of threads (blocks
-//! are compressed on the caller's thread pool). 32-bit floats and unsigned integers pass unchanged, NaN and infinities
-//! included.
+//! Everything is written as one part of scan lines, ZIP16 compression, increasing line order, channels sorted by name and header records sorted by name: the
+//! same values give the same bytes, in any process and on any number of threads (blocks are compressed on the caller's thread pool). 32-bit floats and unsigned
+//! integers pass unchanged, NaN and infinities included.
 //!
-//! A file is made some rows at a time. What may be large is an [`ExrImage`] first, which is written without ever being in memory as a whole, and whose bands
-//! may be on the disk ([`SpectralBands`]).
+//! A file is written some rows at a time. A large image is an [`ExrImage`] first: it is written without being in memory as a whole, and its bands may be on the
+//! disk ([`SpectralBands`]).
 //!
 //! | writer | channels |
 //! | --- | --- |

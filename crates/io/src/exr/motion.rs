@@ -1,4 +1,4 @@
-//! Ground truth of motion as an EXR: where what a pixel sees is seen in the frames before and after it, and how it moves.
+//! Ground truth of motion as an EXR: correspondence of each pixel with the frames before and after it, and velocities.
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity, ImageVelocity, OpticalFlow, Quantity, Time, Vector};
@@ -6,41 +6,40 @@ use etendue_core::quantity::{Disparity, Identity, ImageVelocity, OpticalFlow, Qu
 use super::{channel::EncodeError, encode::ExrImage, ground_truth::add_vector};
 use crate::Provenance;
 
-/// What a pixel's surface point is in one neighbouring frame.
+/// State of a pixel's surface point in one neighbouring frame.
 #[derive(Clone, Copy, Debug)]
 pub struct NeighbourTruth<'a> {
-    /// Where it is seen there, minus where it is seen here, px; NaN where it has no image there. `None` where it is not asked for.
+    /// Image position in that frame minus the position here, px; NaN if it has no image there. `None` if not requested.
     pub flow: Option<&'a Plane<OpticalFlow>>,
-    /// Whether it is seen there: [`VISIBILITY`]. `None` where it is not asked for.
+    /// Visibility in that frame: [`VISIBILITY`]. `None` if not requested.
     pub visibility: Option<&'a Plane<Identity>>,
-    /// Its place in the camera's frame there minus that here, each camera's own frame, m; NaN for the background. `None` where it is not
-    /// asked for.
+    /// Position in the camera's frame there minus that here, each in its own camera frame, m; NaN for the background. `None` if not requested.
     pub scene_flow: Option<&'a Plane<Vector>>,
 }
 
-/// Planes of the truth of motion of one frame; what a job did not ask for is `None`.
+/// Planes of motion ground truth of one frame; `None` for those that a job did not request.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MotionTruth<'a> {
-    /// In the next frame.
+    /// Correspondence with the next frame.
     pub forward: Option<NeighbourTruth<'a>>,
-    /// In the frame before.
+    /// Correspondence with the previous frame.
     pub backward: Option<NeighbourTruth<'a>>,
     /// Velocity of the image at the middle of the pixel's exposure, px/s.
     pub motion_vector: Option<&'a Plane<ImageVelocity>>,
     /// Velocity of the surface point in the world, m/s; NaN for the background.
     pub velocity: Option<&'a Plane<Vector>>,
-    /// The moment of the pixel's truth, s from the frame's start.
+    /// Time of the pixel's ground truth, s from the frame's start.
     pub time: Option<&'a Plane<Time>>,
 }
 
-/// What the numbers of a visibility plane mean.
+/// Meaning of the numbers of a visibility plane.
 pub const VISIBILITY: &str =
     "0 not known, 1 seen, 2 hidden by what is before it, 3 outside the picture, 4 no image by the lens";
 
-/// The planes of `truth` in one file.
+/// Encodes the planes of `truth` in one file.
 ///
 /// # Errors
-/// Where there is no plane, or planes have different sizes.
+/// If there is no plane, or planes have different sizes.
 pub fn encode_motion(truth: &MotionTruth<'_>, provenance: &Provenance) -> Result<Vec<u8>, EncodeError> {
     let (width, height) = truth.size().ok_or(EncodeError::NoChannels)?;
     let mut image = ExrImage::new(width, height, provenance);
@@ -73,10 +72,10 @@ pub fn encode_motion(truth: &MotionTruth<'_>, provenance: &Provenance) -> Result
     image.into_bytes()
 }
 
-/// Disparity to a right camera and whether that sees the point, in one file.
+/// Encodes the disparity to a right camera, and the visibility of the point there, in one file.
 ///
 /// # Errors
-/// Where planes have different sizes or none.
+/// If planes have different sizes or none.
 pub fn encode_disparity(
     disparity: &Plane<Disparity>,
     visibility: &Plane<Identity>,

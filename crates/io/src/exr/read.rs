@@ -1,4 +1,4 @@
-//! Reading any flat EXR: all channels of all parts, at full resolution; R, G and B in the primaries of Rec. 709 (`colour_space.rs`).
+//! Reader of any flat EXR: all channels of all parts, at full resolution; R, G and B in the primaries of Rec. 709 (`colour_space.rs`).
 
 use std::{collections::BTreeMap, io::Cursor, path::Path};
 
@@ -21,7 +21,7 @@ pub enum Samples {
     Uint(Vec<u32>),
 }
 
-/// A channel by its full name; of a file of several named parts the part's name stands before it.
+/// Channel by its full name; in a file of several named parts the part's name precedes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExrChannel {
     /// Name.
@@ -30,10 +30,10 @@ pub struct ExrChannel {
     pub samples: Samples,
 }
 
-/// What is in an EXR file.
+/// Content of an EXR file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExrFile {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: usize,
     /// Rows.
     pub height: usize,
@@ -41,14 +41,14 @@ pub struct ExrFile {
     pub channels: Vec<ExrChannel>,
     /// Header attributes other than the technical ones, as text.
     pub attributes: BTreeMap<String, String>,
-    /// Compression, in the words of OpenEXR.
+    /// Compression, as OpenEXR names it.
     pub compression: String,
-    /// What makes R, G and B those of Rec. 709; `None` where they are.
+    /// Matrix from R, G and B to Rec. 709; `None` if they are in it.
     pub to_rec_709: Option<ColourMatrix>,
 }
 
 impl ExrFile {
-    /// The facts that a result carries; of other files all are at their defaults.
+    /// Facts of a result; for files of other programs all are at their defaults.
     #[must_use]
     pub fn provenance(&self) -> Provenance {
         let facts = self.attributes.iter().filter_map(|(name, text)| Some((name.strip_prefix("etendue:")?, text)));
@@ -57,7 +57,7 @@ impl ExrFile {
 }
 
 impl Samples {
-    /// The samples one by one, as [`Samples::to_floats`] has them.
+    /// Samples one by one, as [`Samples::to_floats`] returns them.
     pub(crate) fn floats(&self) -> Box<dyn Iterator<Item = f32> + '_> {
         match self {
             Self::Half(values) | Self::Float(values) => Box::new(values.iter().copied()),
@@ -71,7 +71,7 @@ impl Samples {
         self.clone().into_floats()
     }
 
-    /// The same, without another copy of floats in memory.
+    /// The same, without a second copy of floats in memory.
     #[must_use]
     pub fn into_floats(self) -> Vec<f32> {
         match self {
@@ -82,7 +82,7 @@ impl Samples {
 }
 
 impl ExrFile {
-    /// The channel of that name.
+    /// Channel of that name.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<&Samples> {
         self.channels.iter().find(|c| c.name == name).map(|c| &c.samples)
@@ -90,7 +90,7 @@ impl ExrFile {
 }
 
 impl ExrFile {
-    /// The file with R, G and B, where all three are there, in Rec. 709; its attributes state it.
+    /// Converts R, G and B, if all three are present, to Rec. 709; the attributes state it.
     fn in_rec_709(mut self) -> Self {
         if let Some(matrix) = self.to_rec_709.take()
             && convert(&mut self.channels, &matrix)
@@ -101,7 +101,7 @@ impl ExrFile {
         self
     }
 
-    /// Refuses a cube map, whose faces are one image under the other, as a picture.
+    /// Refuses a cube map, whose faces are stacked vertically, as an image.
     pub(crate) fn check_is_no_cube_map(&self, file: &Path) -> Result<(), Error> {
         if self.attributes.get(colour_space::ENVMAP).is_none_or(|projection| projection != colour_space::CUBE) {
             return Ok(());
@@ -138,20 +138,20 @@ fn floats(samples: &mut Samples) -> Option<&mut [f32]> {
 /// Reads `file`.
 ///
 /// # Errors
-/// Where it is missing, damaged or of a kind that is not read, or unpacks to more than its bytes can hold (`texture_memory.rs`).
+/// If it is missing, damaged or of an unsupported kind, or unpacks to more than its size allows (`texture_memory.rs`).
 pub fn read_exr(file: &Path) -> Result<ExrFile, Error> {
     decode_exr(file, &read_bytes(file, "EXR")?)
 }
 
-/// What the head of a film takes at most, with the names of its channels.
+/// Maximum bytes of the header of a film, with the names of its channels.
 const HEAD_BYTES: u64 = 64 << 20;
 
 /// Reads `file`, whose samples take at most `most_bytes` as 32-bit numbers.
 ///
 /// # Errors
-/// Where it is missing, damaged or of a kind that is not read, or unpacks to more.
+/// If it is missing, damaged or of an unsupported kind, or unpacks to more.
 pub fn read_exr_within(file: &Path, most_bytes: u64) -> Result<ExrFile, Error> {
-    // Blocks that would grow are stored as they are; beside them are the head and a table of the blocks.
+    // Blocks that would grow are stored uncompressed; the rest is the header and the table of blocks.
     let most_packed = most_bytes.saturating_add(most_bytes / 8).saturating_add(HEAD_BYTES);
     let bytes = read_expected_bytes(file, "EXR", most_packed)?;
     texture_memory::check_within(file, samples(file, &bytes)?, most_bytes.into())?;
@@ -169,7 +169,7 @@ pub(crate) fn decode_exr_as_stored(file: &Path, bytes: &[u8]) -> Result<ExrFile,
     decode_all(file, bytes)
 }
 
-/// The samples that the headers state; none where they cannot be read, which reading the file tells.
+/// Number of samples that the headers state; `None` if they cannot be read, which the reader then reports.
 fn samples(file: &Path, bytes: &[u8]) -> Result<u128, Error> {
     guarded(file, || Ok(stated_samples(bytes)))
 }
@@ -293,7 +293,7 @@ mod tests {
     use super::*;
     use crate::exr::tests_support::picture;
 
-    /// A file of some hundred bytes that says it holds 20 000² pixels.
+    /// File of some hundred bytes that claims 20 000² pixels.
     fn large() -> Vec<u8> {
         let mut bytes = picture(1, 1, &["Y"], 0.0);
         for window in [&b"dataWindow\0box2i\0"[..], b"displayWindow\0box2i\0"] {

@@ -1,8 +1,8 @@
 //! Writing spectral images, with their colour preview.
 //!
-//! Each channel `S0.<centre>nm` holds the **mean over its band** per nm, as the cube does. `etendue:units` states the
-//! true unit; `emissiveUnits` is the literal string that readers of the layout expect. R, G, B are a preview in linear
-//! sRGB whose luminance is in cd/m² (lx for irradiance): it is of no use for measurement.
+//! Each channel `S0.<centre>nm` holds the **mean over its band** per nm, as the cube does. `etendue:units` states the true unit; `emissiveUnits` is the literal
+//! string that readers of the layout expect. R, G, B are a preview in linear sRGB whose luminance is in cd/m² (lx for irradiance): it is not suited for
+//! measurement.
 
 use std::ops::Range;
 
@@ -20,10 +20,10 @@ pub(super) const DISTANCE: &str = "distance.Z";
 /// The channel of distances along the camera's axis.
 const DEPTH: &str = "depth.Z";
 
-/// The version of the layout that we write.
+/// Version of the layout that is written.
 const LAYOUT_VERSION: &str = "1.0";
 
-/// How far off the scene is in each pixel of a radiance image, m; +∞ the sky, NaN no ray.
+/// Distance of the scene in each pixel of a radiance image, m; +∞ for sky, NaN without a ray.
 #[derive(Clone, Copy, Debug)]
 pub struct Lengths<'a> {
     /// Along the pixel's ray.
@@ -32,21 +32,21 @@ pub struct Lengths<'a> {
     pub depth: &'a Plane<Length>,
 }
 
-/// The bands of a spectral image, in memory or on the disk.
+/// Bands of a spectral image, in memory or on the disk.
 #[derive(Clone, Copy, Debug)]
 pub struct SpectralBands<'a> {
-    /// Which bands.
+    /// Wavelength bands.
     pub bands: Bands,
     /// Columns and rows.
     pub size: (usize, usize),
-    /// Their means.
+    /// Band means.
     pub mean: &'a dyn BandReader,
-    /// The variances of these, squared units; `None` where they are not stored.
+    /// Variances of the means, squared units; `None` if they are not stored.
     pub variance: Option<&'a dyn BandReader>,
 }
 
 impl<'a> SpectralBands<'a> {
-    /// Those of cubes in memory.
+    /// Bands of cubes in memory.
     #[must_use]
     pub fn of<Q: Quantity<Sample = f32>>(
         cube: &'a SpectralCube<Q>,
@@ -56,7 +56,7 @@ impl<'a> SpectralBands<'a> {
         Self { bands: cube.bands(), size: (cube.width(), cube.height()), mean: cube, variance }
     }
 
-    /// Those of cubes wherever they are.
+    /// Bands of cubes in memory or on the disk.
     #[must_use]
     pub fn of_kept<Q: Quantity<Sample = f32>>(cube: &'a KeptCube<Q>, variance: Option<&'a KeptCube<Variance>>) -> Self {
         let variance = variance.map(KeptCube::reader);
@@ -64,10 +64,10 @@ impl<'a> SpectralBands<'a> {
     }
 }
 
-/// A spectral image, with the variance of its band means where given (its unit is the square of the cube's).
+/// Encodes a spectral image, with the variance of its band means if given (its unit is the square of the cube's).
 ///
 /// # Errors
-/// Where it cannot be stored.
+/// If it cannot be stored.
 pub fn encode_spectral<Q: Quantity<Sample = f32>>(
     cube: &SpectralCube<Q>,
     variance: Option<&SpectralCube<Variance>>,
@@ -76,10 +76,10 @@ pub fn encode_spectral<Q: Quantity<Sample = f32>>(
     spectral_image::<Q>(SpectralBands::of(cube, variance), provenance).into_bytes()
 }
 
-/// A radiance image, with the distances of what its pixels see where given, in channels `distance.Z` and `depth.Z`.
+/// Encodes a radiance image, with the scene distances if given, in channels `distance.Z` and `depth.Z`.
 ///
 /// # Errors
-/// Where it cannot be stored.
+/// If it cannot be stored.
 pub fn encode_radiance(
     cube: &SpectralCube<Radiance>,
     variance: Option<&SpectralCube<Variance>>,
@@ -89,7 +89,7 @@ pub fn encode_radiance(
     radiance_image(SpectralBands::of(cube, variance), lengths, provenance).into_bytes()
 }
 
-/// A radiance image, to be written.
+/// Returns a radiance image for writing.
 #[must_use]
 pub fn radiance_image<'a>(
     bands: SpectralBands<'a>,
@@ -105,7 +105,7 @@ pub fn radiance_image<'a>(
     image
 }
 
-/// A spectral image of a quantity, to be written.
+/// Returns a spectral image of a quantity for writing.
 #[must_use]
 pub fn spectral_image<'a, Q: Quantity<Sample = f32>>(
     bands: SpectralBands<'a>,
@@ -135,7 +135,7 @@ pub fn spectral_image<'a, Q: Quantity<Sample = f32>>(
 /// Rows of all bands, their preview, and their variances.
 struct BandStrips<'a> {
     bands: SpectralBands<'a>,
-    /// Of the preview.
+    /// Weights of the bands in the preview.
     weights: Vec<[f64; 3]>,
 }
 
@@ -164,25 +164,25 @@ fn state_layout<Q: Quantity>(image: &mut ExrImage<'_>, band_width_nm: f64) {
     image.white_luminance = Some(1.0);
 }
 
-/// The unit as readers of the layout expect it: without `nm^-1`, although the values are per nm.
+/// Unit in the form that readers of the layout expect: without `nm^-1`, although the values are per nm.
 fn layout_unit(unit: &str) -> &str {
     unit.strip_suffix(".nm^-1").unwrap_or(unit)
 }
 
-/// Linear sRGB planes of `cube`, (1, 1, 1) at a luminance of 1 cd/m² (1 lx for irradiance). Components may be negative:
-/// spectral colours lie outside sRGB. Bands outside the visible add nothing.
+/// Linear sRGB planes of `cube`, (1, 1, 1) at a luminance of 1 cd/m² (1 lx for irradiance). Components may be negative: spectral colours lie outside sRGB.
+/// Bands outside the visible range contribute nothing.
 pub(crate) fn linear_srgb<Q: Quantity<Sample = f32>>(cube: &SpectralCube<Q>) -> [Vec<f32>; 3] {
     let planes: Vec<&[f32]> = cube.planes().iter().map(Plane::samples).collect();
     linear_srgb_of_bands(&planes, &band_weights(cube.bands()))
 }
 
-/// What a band mean of 1 adds to linear red, green and blue, (1, 1, 1) at 1 cd/m² of radiance (1 lx of irradiance).
+/// Contribution of a band mean of 1 to linear red, green and blue, (1, 1, 1) at 1 cd/m² of radiance (1 lx of irradiance).
 #[must_use]
 pub fn band_weights(bands: Bands) -> Vec<[f64; 3]> {
     xyz_weights(bands).into_iter().map(linear_srgb_from_xyz).collect()
 }
 
-/// Linear sRGB of as many pixels as each band has, by the weights of the bands.
+/// Linear sRGB of the pixels of all bands, by the weights of the bands.
 fn linear_srgb_of_bands(bands: &[&[f32]], weights: &[[f64; 3]]) -> [Vec<f32>; 3] {
     let pixels = bands.first().map_or(0, |band| band.len());
     std::array::from_fn(|channel| {
@@ -196,7 +196,7 @@ fn linear_srgb_of_bands(bands: &[&[f32]], weights: &[[f64; 3]]) -> [Vec<f32>; 3]
     })
 }
 
-/// A 32-bit float; every NaN becomes the same one, since processors differ in the bits of theirs.
+/// 32-bit float; every NaN becomes the same one, since processors differ in the bits of theirs.
 fn single(value: f64) -> f32 {
     if value.is_nan() { f32::NAN } else { value as f32 }
 }

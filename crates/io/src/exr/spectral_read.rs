@@ -1,8 +1,8 @@
-//! Reading spectral images, our own and those of other writers of the layout.
+//! Reader of spectral images: our own and those of other writers of the layout.
 //!
-//! A file of ours states its quantity, unit and band width; a file of another writer is taken as spectral radiance per
-//! nm where `emissiveUnits` says so or is absent, and its evenly spaced wavelengths as band centres. What does not fit
-//! (uneven wavelengths, reflectances, an unknown unit) is refused; what is passed over (polarisation) is noted.
+//! A file of ours states its quantity, unit and band width; a file of another writer is read as spectral radiance per nm if `emissiveUnits` states it or is
+//! absent, and its evenly spaced wavelengths as band centres. Other content (uneven wavelengths, reflectances, an unknown unit) is refused; ignored content
+//! (polarisation) is noted.
 
 use std::{collections::BTreeMap, path::Path};
 
@@ -14,7 +14,7 @@ use super::read::{ExrFile, read_exr};
 use super::spectral::DISTANCE;
 use crate::{Error, Provenance};
 
-/// A cube and the variance of its band means, where the file has one.
+/// Cube, and the variance of its band means if the file has one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WithVariance<Q: Quantity> {
     /// Band means.
@@ -23,25 +23,25 @@ pub struct WithVariance<Q: Quantity> {
     pub variance: Option<SpectralCube<Variance>>,
 }
 
-/// A spectral image by its quantity.
+/// Spectral image by its quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpectralImage {
-    /// W·m⁻²·sr⁻¹·nm⁻¹.
+    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹.
     Radiance(WithVariance<Radiance>),
-    /// W·m⁻²·nm⁻¹.
+    /// Spectral irradiance, W·m⁻²·nm⁻¹.
     Irradiance(WithVariance<Irradiance>),
 }
 
-/// A spectral file: values and facts.
+/// Spectral file: values and facts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectralFile {
     /// Values.
     pub image: SpectralImage,
-    /// Distance (m) along the ray of each pixel of what it sees, where the file says.
+    /// Distance (m) of the scene along the ray of each pixel, if the file states it.
     pub distance: Option<Plane<Length>>,
-    /// What the header says about the origin; `None` in a file of another writer.
+    /// Provenance from the header; `None` in a file of another writer.
     pub provenance: Option<Provenance>,
-    /// What was assumed or passed over, in words.
+    /// Assumptions and ignored content, in words.
     pub notes: Vec<String>,
 }
 
@@ -50,10 +50,10 @@ pub fn read_spectral(file: &Path) -> Result<SpectralFile, Error> {
     spectral_of(file, &read_exr(file)?)
 }
 
-/// The spectral image in `exr`, which was read from `file`.
+/// Returns the spectral image in `exr`, which was read from `file`.
 ///
 /// # Errors
-/// Where it has no emission in evenly spaced bands, or states another unit.
+/// If it has no emission in evenly spaced bands, or states another unit.
 pub fn spectral_of(file: &Path, exr: &ExrFile) -> Result<SpectralFile, Error> {
     let mut notes = Vec::new();
     let image = match stated_quantity(file, exr, &mut notes)? {
@@ -66,7 +66,7 @@ pub fn spectral_of(file: &Path, exr: &ExrFile) -> Result<SpectralFile, Error> {
     Ok(SpectralFile { image, distance, provenance, notes })
 }
 
-/// The facts that a provenance holds: ours, without those that describe the values.
+/// Facts that a provenance holds: ours, without those that describe the values.
 fn own_facts(exr: &ExrFile) -> BTreeMap<String, String> {
     const OF_VALUES: [&str; 6] = ["quantity", "units", "band_width_nm", "preview", "variance", "lengths"];
     let ours = exr.attributes.iter().filter_map(|(name, text)| Some((name.strip_prefix("etendue:")?, text)));

@@ -3,7 +3,7 @@
 use super::encode::ExrImage;
 use crate::Provenance;
 
-/// A picture whose channels of these names hold `value` everywhere.
+/// Image whose channels of these names are `value` everywhere.
 pub(crate) fn picture(width: usize, height: usize, names: &[&str], value: f32) -> Vec<u8> {
     let mut image = ExrImage::new(width, height, &Provenance::default());
     for name in names {

@@ -1,4 +1,4 @@
-//! The boxes of objects in a file that this program has written (`boxes.0000.json`).
+//! Reader of the object boxes written by this program (`boxes.0000.json`).
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use super::drawing::{self, ObjectBox};
 use super::{FileReport, Preview};
 use crate::{Error, ErrorCode, source::read_description_bytes};
 
-/// What is read of the boxes of a frame.
+/// Boxes of a frame.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Boxes {
-    /// Columns of the picture.
+    /// Columns of the image.
     pub width_px: usize,
     /// Its rows.
     pub height_px: usize,
@@ -22,17 +22,17 @@ pub struct Boxes {
 /// Reads the boxes of a frame.
 ///
 /// # Errors
-/// Where the file is none of boxes.
+/// If the file holds no boxes.
 pub fn read_boxes(file: &Path) -> Result<Boxes, Error> {
     serde_json::from_slice(&read_description_bytes(file, "file of boxes")?).map_err(|cause| {
         Error::at(file, cause.line(), format!("no boxes of objects, as boxes.0000.json has them: {cause}"))
     })
 }
 
-/// Draws the boxes of `boxes` over the picture of a report.
+/// Draws the boxes of `boxes` over the image of a report.
 ///
 /// # Errors
-/// Where the file is none of boxes, or is of a picture of another size; where the report has no picture.
+/// If the file holds no boxes or those of an image of another size, or if the report has no image.
 pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
     let found = read_boxes(boxes)?;
     let Some(preview) = &mut report.preview else {

@@ -1,4 +1,4 @@
-//! Drawings of planes that are no light: flow, identities, lengths, vectors, boxes.
+//! Colour images of planes other than light: flow, identities, lengths, vectors, boxes.
 //!
 //! | plane | drawn as |
 //! | --- | --- |
@@ -8,19 +8,19 @@
 //! | vectors | x, y and z as red, green and blue about grey; magenta: NaN |
 //! | boxes | outlines in the objects' identity colours ([`draw_boxes`]) |
 //!
-//! Vectors of the image as colours: the wheel of Baker et al. 2011, "A database and evaluation methodology for optical flow" (IJCV 92), as
-//! their program colorcode.cpp has it. Hue is the direction (right red, down yellow, left cyan, up violet), white is no motion, full
-//! saturation is the length of the scale; longer vectors are darker. What is not known is black.
+//! Vectors of the image as colours: the wheel of Baker et al. 2011, "A database and evaluation methodology for optical flow" (IJCV 92), as in their program
+//! colorcode.cpp. Hue is the direction (right red, down yellow, left cyan, up violet), white is no motion, full saturation is the length of the scale; longer
+//! vectors are darker. Unknown vectors are black.
 //!
-//! A colour for every identity: the same one in every file, and far from that of its neighbours in number.
+//! Every identity has a colour: the same one in every file, and far from those of neighbouring numbers.
 //!
-//! Hues go on by the golden ratio of a turn, which spreads any run of numbers evenly (Knuth, The Art of Computer Programming 3, 6.4), in
-//! three lightnesses by turns, at one chroma of Oklab (Ottosson 2020, "A perceptual color space for image processing").
+//! Hues advance by the golden ratio of a turn, which distributes any run of numbers evenly (Knuth, The Art of Computer Programming 3, 6.4), with three
+//! alternating lightnesses, at one chroma of Oklab (Ottosson 2020, "A perceptual color space for image processing").
 //!
-//! Vectors as colours: x, y and z are red, green and blue, 0 is grey of half the range, the scale is full.
+//! Vectors as colours: x, y and z are red, green and blue, 0 is grey at half the range, the scale is the full range.
 //!
-//! Lengths and disparities as colours: viridis (Smith, van der Walt 2015; in the public domain), whose lightness grows evenly, for people with
-//! colour-blindness as well. Seventeen of its colours, with straight lines between.
+//! Lengths and disparities as colours: viridis (Smith, van der Walt 2015; in the public domain), whose lightness increases uniformly, also for people with
+//! colour-blindness. Seventeen of its colours, linearly interpolated.
 
 use etendue_core::maths::f64::{atan2, ln, sin_cos};
 use etendue_spectra::colour::encode;
@@ -28,7 +28,7 @@ use serde::Deserialize;
 
 use super::Preview;
 
-/// Steps from each of six colours to the next, and which of red, green and blue goes up (or down) on the way.
+/// Steps from each of six colours to the next; the channel of red, green and blue that changes, and its direction.
 const SPANS: [(usize, [i32; 3], usize, i32); 6] = [
     (15, [255, 0, 0], 1, 255),
     (6, [255, 255, 0], 0, -255),
@@ -38,7 +38,7 @@ const SPANS: [(usize, [i32; 3], usize, i32); 6] = [
     (6, [255, 0, 255], 2, -255),
 ];
 
-/// The picture of vectors given by their components, and the length of full saturation: the 99th percentile of the known ones.
+/// Image of vectors given by components, and the length of full saturation: the 99th percentile of the known ones.
 pub(super) fn of_flow(u: &[f32], v: &[f32]) -> (Vec<[u8; 3]>, f32) {
     let lengths = u.iter().zip(v).map(|(u, v)| length(*u, *v));
     let scale = percentile(lengths, 99).filter(|scale| *scale > 0.0).unwrap_or(1.0);
@@ -55,7 +55,7 @@ fn wheel() -> Vec<[f64; 3]> {
     flow_wheel().into_iter().map(|colour| colour.map(|c| f64::from(c) / 255.0)).collect()
 }
 
-/// The 55 colours of the wheel, sRGB bytes: from red (a vector to the right) by yellow (down), cyan (left) and violet (up).
+/// The 55 colours of the wheel, sRGB bytes: from red (a vector to the right) over yellow (down) and cyan (left) to violet (up).
 #[must_use]
 pub fn flow_wheel() -> Vec<[u8; 3]> {
     let step = |(steps, from, channel, way): (usize, [i32; 3], usize, i32)| {
@@ -68,13 +68,13 @@ pub fn flow_wheel() -> Vec<[u8; 3]> {
     SPANS.into_iter().flat_map(step).collect()
 }
 
-/// The colour of a vector whose full length is 1.
+/// Colour of a vector whose full-scale length is 1.
 fn colour(wheel: &[[f64; 3]], u: f64, v: f64) -> [u8; 3] {
     let length = (u * u + v * v).sqrt();
     if !length.is_finite() {
         return [0; 3];
     }
-    // Of the two angles of a vector to the right, π and −π, the latter: the wheel begins there.
+    // A vector to the right has the angles π and −π; the latter is used, as the wheel begins there.
     let opposite = if v == 0.0 && u > 0.0 { -core::f64::consts::PI } else { atan2(-v, -u) };
     let place = (opposite / core::f64::consts::PI + 1.0) / 2.0 * (wheel.len() - 1) as f64;
     let low = place.floor();
@@ -91,7 +91,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 const LIGHTNESS: [f64; 3] = [0.72, 0.56, 0.86];
 const CHROMA: f64 = 0.13;
 
-/// The picture of identities.
+/// Image of identities.
 pub(super) fn of_identities(ids: &[u32]) -> Vec<[u8; 3]> {
     ids.iter().map(|id| identity_colour(*id)).collect()
 }
@@ -122,8 +122,7 @@ fn linear_of_oklab(lightness: f64, a: f64, b: f64) -> [f64; 3] {
     ]
 }
 
-/// The picture of vectors, and the component at full red, green or blue: 1 for unit vectors, else the 99th percentile of the components'
-/// sizes.
+/// Image of vectors, and the component at full red, green or blue: 1 for unit vectors, else the 99th percentile of the components' magnitudes.
 pub(super) fn of_vectors(components: [&[f32]; 3], is_unit: bool) -> (Vec<[u8; 3]>, f32) {
     let [x, y, z] = components;
     let sizes = components.into_iter().flatten().map(|v| v.abs());
@@ -133,7 +132,7 @@ pub(super) fn of_vectors(components: [&[f32]; 3], is_unit: bool) -> (Vec<[u8; 3]
     (x.iter().zip(y).zip(z).map(|((x, y), z)| colour([*x, *y, *z])).collect(), scale)
 }
 
-/// Seventeen colours of viridis at even steps, sRGB bytes.
+/// Seventeen colours of viridis at equal steps, sRGB bytes.
 pub const VIRIDIS: [[u8; 3]; 17] = [
     [0x44, 0x01, 0x54],
     [0x48, 0x18, 0x6a],
@@ -154,11 +153,10 @@ pub const VIRIDIS: [[u8; 3]; 17] = [
     [0xfd, 0xe7, 0x25],
 ];
 
-/// A picture, and the values at the ends of the map.
+/// Image, and the values at the ends of the map.
 type Drawn = (Vec<[u8; 3]>, [f32; 2]);
 
-/// The picture of lengths, near yellow and far violet by the logarithm, and the nearest and farthest that have a colour of their own: the
-/// 1st and 99th percentile of those above 0.
+/// Image of lengths by their logarithm, near yellow and far violet; and the values at the ends of the map: the 1st and 99th percentile of those above 0.
 pub(super) fn of_lengths(lengths: &[f32]) -> Drawn {
     let lit = || lengths.iter().copied().filter(|v| *v > 0.0);
     let [near, far] = [1, 99].map(|percent| percentile(lit(), percent).unwrap_or(1.0));
@@ -167,7 +165,7 @@ pub(super) fn of_lengths(lengths: &[f32]) -> Drawn {
     (lengths.iter().map(|v| viridis_colour(*v, part)).collect(), [near, far])
 }
 
-/// The picture of numbers, small violet and large yellow, and those at the ends: the 1st and 99th percentile.
+/// Image of numbers, small violet and large yellow; and the values at the ends: the 1st and 99th percentile.
 pub(super) fn of_differences(values: &[f32]) -> Drawn {
     let [low, high] = [1, 99].map(|percent| percentile(values.iter().copied(), percent).unwrap_or(1.0));
     let part = |v: f32| share(f64::from(v), f64::from(low), f64::from(high));
@@ -178,7 +176,7 @@ fn share(value: f64, low: f64, high: f64) -> f64 {
     if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
 }
 
-/// White for what is infinite, magenta for NaN.
+/// White for infinite values, magenta for NaN.
 fn viridis_colour(value: f32, part: impl Fn(f32) -> f64) -> [u8; 3] {
     match value {
         v if v.is_nan() => [255, 0, 255],
@@ -197,37 +195,37 @@ fn between(part: f64) -> [u8; 3] {
     })
 }
 
-/// The value of which `percent` of the finite values are not greater; `None` where no value is finite.
+/// Smallest value that is not below `percent` of the finite values; `None` if no value is finite.
 fn percentile(values: impl Iterator<Item = f32>, percent: usize) -> Option<f32> {
     let mut finite: Vec<f32> = values.filter(|v| v.is_finite()).collect();
     let rank = finite.len().checked_sub(1)? * percent / 100;
     Some(*finite.select_nth_unstable_by(rank, f32::total_cmp).1)
 }
 
-/// What is read of one object. Boxes are left, top, right, bottom in raster coordinates, px.
+/// One object as read. Boxes are left, top, right, bottom in raster coordinates, px.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct ObjectBox {
-    /// Its identity.
+    /// Identity.
     pub id: u32,
-    /// Its name; `None` where the scene gives it none.
+    /// Name; `None` if the scene gives none.
     #[serde(default)]
     pub name: Option<String>,
-    /// Its class; `None` where it is of none.
+    /// Class; `None` if it has none.
     #[serde(default)]
     pub class: Option<String>,
-    /// About its pixels; `None` where none is seen.
+    /// Box about its visible pixels; `None` if none is visible.
     pub visible_box_px: Option<[f64; 4]>,
-    /// About its whole projection, within the picture and beyond.
+    /// Box about its whole projection, also outside the image.
     pub amodal_box_px: Option<[f64; 4]>,
-    /// Pixels that show it over those that would if it were alone; `None` where that is not known.
+    /// Visible pixels over those of the object alone; `None` if unknown.
     #[serde(default)]
     pub visible_fraction: Option<f64>,
 }
 
-/// Dots of a dotted line are one pixel of so many.
+/// Pitch of the dots of a dotted line, px.
 const DOT_PITCH: usize = 4;
 
-/// Draws the boxes of objects that are seen.
+/// Draws the boxes of visible objects.
 pub(super) fn draw_boxes(preview: &mut Preview, objects: &[ObjectBox]) {
     for object in objects.iter().filter(|object| object.visible_box_px.is_some()) {
         let colour = identity_colour(object.id);
@@ -240,7 +238,7 @@ pub(super) fn draw_boxes(preview: &mut Preview, objects: &[ObjectBox]) {
     }
 }
 
-/// The outermost pixels within `left, top, right, bottom` (raster coordinates of the edges), as far as the picture has them.
+/// Draws the outermost pixels within `left, top, right, bottom` (raster coordinates of the edges), clipped to the image.
 fn outline(preview: &mut Preview, edges: [f64; 4], colour: [u8; 3], pitch: usize) {
     let (width, height) = (preview.width as f64, preview.height as f64);
     let [left, top, right, bottom] = edges;
@@ -278,7 +276,7 @@ mod tests {
         let at = |i: usize| wheel[i].map(|c| (c * 255.0).round() as u8);
         assert_eq!([at(0), at(15), at(21)], [[255, 0, 0], [255, 255, 0], [0, 255, 0]]);
         assert_eq!([at(25), at(36), at(49)], [[0, 255, 255], [0, 0, 255], [255, 0, 255]]);
-        // 255 · 7 / 15 = 119 in whole numbers, as in their program.
+        // 255 · 7 / 15 = 119 in integers, as in their program.
         assert_eq!(at(7), [255, 119, 0]);
     }
 
@@ -286,9 +284,9 @@ mod tests {
     fn directions_and_lengths_have_their_colours() {
         let wheel = wheel();
         assert_eq!(colour(&wheel, 1.0, 0.0), [255, 0, 0]);
-        // A quarter turn on is place 13.5 of 54, between 13/15 and 14/15 of the way from red to yellow: (221 + 238) / 2 = 229.5.
+        // A quarter turn is position 13.5 of 54, between 13/15 and 14/15 of the way from red to yellow: (221 + 238) / 2 = 229.5.
         assert_eq!(colour(&wheel, 0.0, 1.0), [255, 229, 0]);
-        // Half a turn is place 27: two steps of eleven from cyan to blue, 255 − 46.
+        // Half a turn is position 27: two steps of eleven from cyan to blue, 255 − 46.
         assert_eq!(colour(&wheel, -1.0, 0.0), [0, 209, 255]);
         assert_eq!(colour(&wheel, 0.5, 0.0), [255, 127, 127]);
         assert_eq!(colour(&wheel, 2.0, 0.0), [191, 0, 0]);
@@ -348,7 +346,7 @@ mod tests {
             lab(xyz_from_linear_srgb(linear), xyz_from_linear_srgb([1.0; 3])).l
         };
         let (first, last) = (lightness(0.0), lightness(1.0));
-        // Viridis is even in CAM02-UCS, whose lightness is not quite CIE L*.
+        // Viridis is uniform in CAM02-UCS, whose lightness is not quite CIE L*.
         for i in 0..=64 {
             let part = f64::from(i) / 64.0;
             let even = first + (last - first) * part;
@@ -360,7 +358,7 @@ mod tests {
     fn lengths_go_by_ratios_and_what_is_not_finite_is_marked() {
         let lengths = [1.0, 10.0, 100.0, f32::INFINITY, f32::NAN, 0.0, -3.0];
         let (rgb, range) = of_lengths(&lengths);
-        // Of three values the 99th percentile is the second: ranks are whole.
+        // The 99th percentile of three values is the second: ranks are whole.
         assert_eq!(range, [1.0, 10.0]);
         assert_eq!(rgb[..2], [VIRIDIS[16], VIRIDIS[0]]);
         assert_eq!(rgb[2..5], [VIRIDIS[0], [255; 3], [255, 0, 255]]);

@@ -1,4 +1,4 @@
-//! Looking into EXR files.
+//! Inspection of EXR files.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use super::{FileReport, Preview, layer, report::ChannelReport};
 use crate::exr::{ExrFile, Samples, SpectralImage, decode_exr, linear_srgb, parse_channel_name, spectral_of};
 use crate::{Error, ErrorCode};
 
-/// The report, with a picture of the layer that is asked for.
+/// Report with an image of the requested layer.
 pub(super) fn report(file: &Path, bytes: &[u8], shown: Option<&str>) -> Result<FileReport, Error> {
     let exr = decode_exr(file, bytes)?;
     let mut report = FileReport::new(file, kind(&exr));
@@ -54,7 +54,7 @@ fn channel(name: &str, samples: &Samples) -> ChannelReport {
     }
 }
 
-/// R, G, B where they are there, else the colour of the spectra, else depth, flow or the first channel.
+/// Preview from R, G, B if present, else the colour of the spectra, else depth, flow or the first channel.
 fn preview(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Preview> {
     let pixels = stored_colour(exr).or_else(|| spectral_colour(file, exr, report));
     match pixels {

@@ -1,4 +1,4 @@
-//! Looking into files of optical flow and float maps: `.flo`, KITTI's PNG, PFM.
+//! Inspection of files of optical flow and float maps: `.flo`, KITTI's PNG, PFM.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ fn of_plane(file: &Path, kind: &str, stored_as: &str, flow: &Plane<OpticalFlow>)
     report
 }
 
-/// A PFM: of one channel disparities or depths, of three a linear picture.
+/// PFM: disparities or depths if it has one channel, a linear image if it has three.
 pub(super) fn float_map(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     let map = decode_photograph(file, bytes)?;
     let mut report = FileReport::new(file, "float map, PFM");

@@ -1,13 +1,13 @@
-//! The layers of an EXR, and a picture of one.
+//! Layers of an EXR, and an image of one.
 //!
-//! A layer is a channel by its full name, or what several channels have before their last dot: `flow.forward` of `flow.forward.X` and
+//! A layer is a channel by its full name, or the common part of several channel names before the last dot: `flow.forward` of `flow.forward.X` and
 //! `flow.forward.Y`, `N` of `N.X`, `N.Y`, `N.Z`, `depth` of `depth.Z`.
 
 use super::Preview;
 use super::drawing::{of_differences, of_flow, of_identities, of_lengths, of_vectors};
 use crate::exr::{ExrFile, Samples};
 
-/// The picture of a layer and what it shows, in a sentence; `None` where the file has no such layer.
+/// Image of a layer and a sentence on its content; `None` if the file has no such layer.
 pub(super) fn drawn(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
     let part = |letter: &str| exr.channel(&format!("{name}.{letter}")).map(Samples::to_floats);
     let (rgb, told) = match (part("X"), part("Y"), part("Z")) {
@@ -18,7 +18,7 @@ pub(super) fn drawn(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
     Some((Preview { width: exr.width, height: exr.height, rgb }, told))
 }
 
-/// The names of the layers, sorted, each once.
+/// Names of the layers, sorted, each once.
 pub(super) fn names(exr: &ExrFile) -> Vec<&str> {
     let mut names: Vec<&str> =
         exr.channels.iter().map(|c| c.name.rsplit_once('.').map_or(c.name.as_str(), |(layer, _)| layer)).collect();
@@ -37,7 +37,7 @@ fn flow(name: &str, [u, v]: [&[f32]; 2]) -> (Vec<[u8; 3]>, String) {
     (rgb, wheel_note(name, scale, unit))
 }
 
-/// What a picture of flow says of itself.
+/// Note on an image of flow.
 pub(super) fn wheel_note(name: &str, scale: f32, unit: &str) -> String {
     format!(
         "the picture shows {name} on the colour wheel of Baker et al. 2011 (right red, down yellow, left cyan, up violet), full colour at \
@@ -73,7 +73,7 @@ fn lengths(name: &str, values: &[f32]) -> (Vec<[u8; 3]>, String) {
     (rgb, told)
 }
 
-/// Disparities or other numbers of one channel.
+/// Image of disparities or other numbers of one channel.
 pub(super) fn differences(width: usize, height: usize, values: &[f32]) -> (Preview, String) {
     let (rgb, [low, high]) = of_differences(values);
     let told = format!(

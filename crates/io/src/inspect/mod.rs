@@ -1,7 +1,7 @@
-//! What is in a file, with units, and a picture of it.
+//! Content of a file, with units, and an image of it.
 //!
-//! Any EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo, KITTI), OBJ, side-car JSON, CSV of spectra, refractive indices or retro-reflection, and measured lamp (IES, EULUMDAT). Statistics leave out values that are not finite and
-//! count them.
+//! Supports any EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo, KITTI), OBJ, side-car JSON, CSV of spectra, refractive indices or retro-reflection,
+//! and measured lamp (IES, EULUMDAT). Statistics exclude values that are not finite and count them separately.
 
 mod boxes;
 mod drawing;
@@ -26,28 +26,28 @@ pub use drawing::{ObjectBox, VIRIDIS, flow_wheel, identity_colour};
 pub use lamp::passing_beam;
 pub use report::{ChannelReport, FileReport, Preview};
 
-/// What the picture of a file shows, where the file leaves a choice.
+/// Content of the preview image, if the file allows a choice.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Shown {
-    /// The layer of an EXR: a channel's full name, or what several channels have before their last dot (`flow.forward`, `N`, `instance`).
-    /// `None`: its colours, else depth, flow or the first channel.
+    /// The layer of an EXR: a channel's full name, or the common part of several channel names before the last dot (`flow.forward`, `N`, `instance`). `None`:
+    /// its colours, else depth, flow or the first channel.
     pub layer: Option<String>,
-    /// A file of boxes (`boxes.0000.json`) that are drawn over the picture.
+    /// File of boxes (`boxes.0000.json`) drawn over the image.
     pub boxes: Option<PathBuf>,
 }
 
-/// Looks into `file`.
+/// Inspects `file`.
 ///
 /// # Errors
-/// Where it is missing, damaged, or of no kind that is known.
+/// If it is missing, damaged, or of an unknown kind.
 pub fn inspect(file: &Path) -> Result<FileReport, Error> {
     inspect_showing(file, &Shown::default())
 }
 
-/// Looks into `file`, for a picture of what is asked for.
+/// Inspects `file`, with the requested preview.
 ///
 /// # Errors
-/// As [`inspect()`]; where there is no such layer, or the boxes do not fit the picture.
+/// As [`inspect()`]; if there is no such layer, or the boxes do not fit the image.
 pub fn inspect_showing(file: &Path, shown: &Shown) -> Result<FileReport, Error> {
     let mut report = report(file, shown.layer.as_deref())?;
     if let Some(file) = &shown.boxes {

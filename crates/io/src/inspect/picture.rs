@@ -1,4 +1,4 @@
-//! Looking into PNG, JPEG and HDR files.
+//! Inspection of PNG, JPEG and HDR files.
 
 use std::path::Path;
 
@@ -28,10 +28,10 @@ pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     Ok(report)
 }
 
-/// Pixels that a picture for looking at has at most: larger ones are thinned, so that memory is bounded by the file's own pixels.
+/// Maximum pixels of a preview: larger images are subsampled, so that memory is bounded by the file's own pixels.
 const SHOWN: usize = 32 << 20;
 
-/// Which pixels of which rows are shown: each, or one of so many.
+/// Subsampling step of pixels and rows of the preview; 1 shows all.
 fn thinning(width: usize, height: usize) -> usize {
     (1..).find(|step| width.div_ceil(*step) * height.div_ceil(*step) <= SHOWN).unwrap_or(1)
 }
@@ -45,7 +45,7 @@ fn channel_names(colour: ColorType) -> &'static [&'static str] {
     }
 }
 
-/// How samples are stored.
+/// Storage format of samples.
 struct Stored {
     name: &'static str,
     bytes: usize,
@@ -62,7 +62,7 @@ impl Stored {
     }
 }
 
-/// Bytes as they are; 16-bit grey (raw numbers, depth) and floats are linear and are exposed.
+/// Preview: bytes unchanged; 16-bit grey (raw numbers, depth) and floats are linear and are exposed.
 fn preview(picture: &DynamicImage, stored: &Stored, step: usize) -> Preview {
     let (columns, rows) = (picture.width() as usize, picture.height() as usize);
     let (width, height) = (columns.div_ceil(step), rows.div_ceil(step));

@@ -1,9 +1,9 @@
-//! What is told of one file: its lines of text, statistics of its channels, and a picture for looking at.
+//! Report on one file: lines of text, statistics of its channels, and a preview image.
 //!
-//! Pictures for looking at, 8 bits, sRGB-encoded.
+//! Preview images have 8 bits and are sRGB-encoded.
 //!
-//! Linear values are divided by their 99th percentile of luminance, so that one lamp does not make everything black, and
-//! encoded. NaN becomes magenta, which no exposure hides; +∞ becomes white.
+//! Linear values are divided by their 99th percentile of luminance, so that one bright light does not make everything black, and then encoded. NaN becomes
+//! magenta; +∞ becomes white.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -13,20 +13,20 @@ use serde::Serialize;
 
 use crate::{exr::EncodeError, png::encode_rgb8};
 
-/// What is in a file.
+/// Content of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FileReport {
     /// The file.
     pub file: PathBuf,
-    /// What it is, in words.
+    /// Kind, in words.
     pub kind: String,
     /// Facts in reading order: name and value with its unit.
     pub facts: Vec<(String, String)>,
     /// Channels with their statistics.
     pub channels: Vec<ChannelReport>,
-    /// What is odd, assumed or not used, in sentences.
+    /// Anomalies, assumptions and unused content, in sentences.
     pub notes: Vec<String>,
-    /// A picture of it, where one can be made.
+    /// Image of the content, if possible.
     #[serde(skip)]
     pub preview: Option<Preview>,
 }
@@ -59,27 +59,27 @@ impl fmt::Display for FileReport {
     }
 }
 
-/// A channel and its statistics over finite values.
+/// Channel with its statistics over finite values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChannelReport {
     /// Name.
     pub name: String,
-    /// How samples are stored.
+    /// Storage format of samples.
     pub stored_as: String,
-    /// Least value; `None` without any finite value, as for the next two.
+    /// Minimum; `None` without any finite value, as for the next two.
     pub min: Option<f64>,
     /// Mean.
     pub mean: Option<f64>,
-    /// Greatest value.
+    /// Maximum.
     pub max: Option<f64>,
-    /// Samples that are not a number.
+    /// Number of NaN samples.
     pub nan_count: usize,
-    /// Samples that are infinite.
+    /// Number of infinite samples.
     pub infinite_count: usize,
 }
 
 impl ChannelReport {
-    /// The statistics of `samples`, summed in order.
+    /// Returns the statistics of `samples`, summed in order.
     pub fn of(name: &str, stored_as: &str, samples: impl IntoIterator<Item = f64>) -> Self {
         let (mut min, mut max, mut sum, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0_usize);
         let (mut nan_count, mut infinite_count) = (0, 0);
@@ -113,7 +113,7 @@ impl ChannelReport {
     }
 }
 
-/// The head of the table.
+/// Header of the table.
 fn heading(channels: &[ChannelReport]) -> String {
     let width = widest_name(channels);
     format!(
@@ -122,15 +122,15 @@ fn heading(channels: &[ChannelReport]) -> String {
     )
 }
 
-/// The widest name.
+/// Width of the widest name.
 fn widest_name(channels: &[ChannelReport]) -> usize {
     channels.iter().map(|c| c.name.len()).max().unwrap_or(0).max("channel".len())
 }
 
-/// A small picture of a file's contents.
+/// Preview image of a file's content.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: usize,
     /// Rows.
     pub height: usize,
@@ -147,13 +147,13 @@ impl Preview {
         encode_rgb8(self.width, self.height, self.rgb.as_flattened())
     }
 
-    /// Exposes linear sRGB.
+    /// Exposes a linear sRGB image.
     pub(super) fn of_linear(width: usize, height: usize, pixels: &[[f32; 3]]) -> Self {
         let white = white_level(pixels);
         Self { width, height, rgb: pixels.iter().map(|p| byte_pixel(*p, white)).collect() }
     }
 
-    /// One linear channel as grey, exposed so that its 99th percentile is white.
+    /// Exposes one linear channel as grey: its 99th percentile is white.
     #[must_use]
     pub fn of_grey(width: usize, height: usize, values: &[f32]) -> Self {
         let pixels: Vec<[f32; 3]> = values.iter().map(|v| [*v; 3]).collect();
@@ -161,7 +161,7 @@ impl Preview {
     }
 }
 
-/// The 99th percentile of the luminances that are finite and above 0; 1 where there is none.
+/// 99th percentile of the luminances that are finite and above 0; 1 if there are none.
 fn white_level(pixels: &[[f32; 3]]) -> f32 {
     let mut lit: Vec<f32> = pixels.iter().map(|p| luma(*p)).filter(|y| y.is_finite() && *y > 0.0).collect();
     if lit.is_empty() {

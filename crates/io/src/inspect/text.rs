@@ -1,4 +1,4 @@
-//! Looking into text files: meshes, side-cars, spectra.
+//! Inspection of text files: meshes, side-cars, spectra.
 
 use std::path::Path;
 
@@ -70,8 +70,8 @@ fn fact_text(fact: &Value) -> String {
     fact.as_str().map_or_else(|| fact.to_string(), str::to_owned)
 }
 
-/// A table: of two columns a spectrum; of three whose last row begins above 180, a wavelength and no angle, n and k; else
-/// coefficients of retro-reflection, but for a table of one entrance angle, which looks like a spectrum.
+/// Table. Two columns: a spectrum. Three columns whose last row begins above 180, a wavelength and no angle: n and k. Otherwise: coefficients of
+/// retro-reflection, except that a table of one entrance angle looks like a spectrum.
 pub(super) fn table(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     let text = String::from_utf8_lossy(bytes);
     let row = text.lines().filter_map(first_and_count).next_back();
@@ -82,7 +82,7 @@ pub(super) fn table(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     }
 }
 
-/// The first number of a row, and how many columns there are.
+/// First number of a row, and the number of columns.
 fn first_and_count(line: &str) -> Option<(f64, usize)> {
     let content = line.split('#').next()?;
     let first = content.split(',').next()?.trim().parse().ok()?;

@@ -1,4 +1,4 @@
-//! Looking into TIFF and DNG files.
+//! Inspection of TIFF and DNG files.
 
 use std::path::Path;
 
@@ -28,7 +28,7 @@ fn stored_as(photograph: &Photograph) -> &'static str {
     }
 }
 
-/// Encoded numbers as they are; linear ones are exposed.
+/// Preview: encoded numbers unchanged; linear ones are exposed.
 fn preview(photograph: &Photograph) -> Preview {
     let (width, height) = (photograph.width, photograph.height);
     let channel = |name: &str| photograph.channel(name).map(|c| &c.samples[..]);

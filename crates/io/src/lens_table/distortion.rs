@@ -1,7 +1,7 @@
 //! Zemax's "Field Curvature/Distortion".
 //!
-//! Distortion is (real height − reference height)/reference height; the reference is f tan θ, or f θ where the head speaks of F-Theta, f as the lines above the table or the head say it ("Distortion focal length")
-//! or as the reference heights have it. Of several wavelengths the table nearest to 550 nm is read.
+//! Distortion is (real height − reference height)/reference height; the reference is f tan θ, or f θ if the header mentions F-Theta. f is stated above the
+//! table or in the header ("Distortion focal length"), or follows from the reference heights. Of several wavelengths the table nearest to 550 nm is read.
 
 use etendue_core::maths::f64::tan;
 use etendue_scene::asset::{LensNumbers, LensTableAsset, Undistorted};
@@ -9,11 +9,11 @@ use etendue_scene::asset::{LensNumbers, LensTableAsset, Undistorted};
 use super::listing::{FieldUnit, Listing, Table, wavelength_nm};
 use crate::Error;
 
-/// Where the eye and most sensors see best: the table that is taken.
+/// Wavelength of the selected table, near the peak sensitivity of the eye and of most sensors.
 const GREEN_NM: f64 = 550.0;
-/// Columns of a whole row: field, two shifts of the focus, real and reference height, distortion.
+/// Columns of a complete row: field, two focus shifts, real and reference height, distortion.
 const WHOLE: usize = 6;
-/// The field angle up to which an image by the tangent is told apart from infinity.
+/// Largest field angle at which f tan θ is treated as finite.
 const WIDEST_DEG: f64 = 89.0;
 
 pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
@@ -48,7 +48,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     Ok(LensTableAsset { numbers, points, notes, hash: [0; 32] })
 }
 
-/// Field without its sign, degrees, and real over reference height; the axis first, where there is no distortion.
+/// Absolute field, degrees, and real over reference height; first the axis, without distortion.
 fn points(listing: &Listing<'_>, table: &Table<'_>, kind: Undistorted) -> Result<Vec<(f64, f64)>, Error> {
     const PERCENT: f64 = 0.01;
     let mut points: Vec<(f64, f64)> = Vec::new();
@@ -71,7 +71,7 @@ fn points(listing: &Listing<'_>, table: &Table<'_>, kind: Undistorted) -> Result
     Ok(points)
 }
 
-/// The focal length that the last reference height has.
+/// Focal length from the last reference height.
 fn by_heights(table: &Table<'_>, kind: Undistorted) -> Option<f64> {
     let numbers = &table.rows.last()?.numbers;
     let height = *numbers.get(WHOLE - 2).filter(|_| numbers.len() >= WHOLE)?;

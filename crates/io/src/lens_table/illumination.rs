@@ -34,7 +34,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     Ok(LensTableAsset { numbers, points, notes, hash: [0; 32] })
 }
 
-/// Field without its sign, and ratio.
+/// Absolute field, and ratio.
 fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, Error> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for (field, row) in listing.rows_from_axis(table)? {

@@ -4,27 +4,27 @@ use std::path::Path;
 
 use crate::{Error, ErrorCode, Problem};
 
-/// In what fields are counted.
+/// Unit of fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FieldUnit {
     /// Angles from the axis in front of the lens.
     Degrees,
-    /// Distances from the axis in the picture.
+    /// Distances from the axis in the image.
     Millimetres,
 }
 
-/// A file's text, taken apart.
+/// Parsed text of a file.
 pub(super) struct Listing<'a> {
     file: &'a Path,
-    /// The lines before the first table, with their numbers from 1; none is empty.
+    /// Non-empty lines before the first table, with their numbers from 1.
     pub(super) head: Vec<(usize, &'a str)>,
-    /// Tables, one at least.
+    /// Tables, at least one.
     pub(super) tables: Vec<Table<'a>>,
 }
 
-/// Rows of numbers without any other line between them.
+/// Consecutive rows of numbers.
 pub(super) struct Table<'a> {
-    /// The lines between the table before and this one.
+    /// Lines between the previous table and this one.
     pub(super) above: Vec<(usize, &'a str)>,
     pub(super) rows: Vec<Row>,
 }
@@ -78,12 +78,12 @@ impl<'a> Listing<'a> {
         if line == 0 { Error::new(self.file, what) } else { Error::at(self.file, line, what) }
     }
 
-    /// Whether a line of the head has a word, in small letters.
+    /// Returns true if a line of the header contains a word, in lower case.
     pub(super) fn speaks_of(&self, word: &str) -> bool {
         self.head.iter().any(|(_, line)| line.to_lowercase().contains(word))
     }
 
-    /// The number of a line above a table, or else of the head, that has these words, in small letters, before a colon or an equals sign.
+    /// Number after a colon or an equals sign in a line above a table, else of the header, that contains these words in lower case.
     pub(super) fn stated(&self, table: &Table<'_>, words: &str) -> Option<f64> {
         let value = |line: &str| {
             let (name, value) = line.split_once([':', '='])?;
@@ -93,8 +93,7 @@ impl<'a> Listing<'a> {
         table.above.iter().chain(&self.head).find_map(|(_, line)| value(line))
     }
 
-    /// The rows of a table by their distances from the axis, without the sign of the side to which the fields go: the first is the axis, each lies beyond
-    /// the one before it.
+    /// Rows of a table by absolute distance from the axis, whichever side the fields lie on: the first is the axis, and distances increase.
     pub(super) fn rows_from_axis<'t>(&self, table: &'t Table<'_>) -> Result<Vec<(f64, &'t Row)>, Error> {
         let side = table.rows.iter().map(|row| row.numbers[0]).find(|field| *field != 0.0).map_or(1.0, f64::signum);
         let mut made: Vec<(f64, &Row)> = Vec::new();
@@ -115,7 +114,7 @@ impl<'a> Listing<'a> {
         Ok(made)
     }
 
-    /// In what the fields of a table are counted, whose titles stand right above it.
+    /// Unit of the fields of a table, whose titles are directly above it.
     pub(super) fn unit_of(&self, table: &Table<'_>) -> Result<FieldUnit, Error> {
         let titles = table.above.last().copied();
         let stated = self.head.iter().copied().filter(|(_, line)| line.to_lowercase().starts_with("field"));
@@ -143,17 +142,17 @@ impl<'a> Listing<'a> {
     }
 }
 
-/// The wavelength that a line which begins so states, nm: its first number, in micrometres.
+/// Wavelength, nm, in a line that begins with these words: its first number, in micrometres.
 pub(super) fn wavelength_nm(lines: &[(usize, &str)]) -> Option<f64> {
     const NM_PER_UM: f64 = 1000.0;
     let about = lines.iter().filter(|(_, line)| line.to_lowercase().contains("wavelength"));
-    // Of "Wavelength 2: 0.5876 µm" the first number is its index.
+    // In "Wavelength 2: 0.5876 µm" the first number is an index.
     let stated = |line: &str| line.split_once([':', '=']).map_or(line, |(_, stated)| stated).to_owned();
     let number = |line: &str| stated(line).split([' ', '\t']).find_map(|word| word.parse::<f64>().ok());
     about.filter_map(|(_, line)| number(line)).map(|um| um * NM_PER_UM).find(|nm| (100.0..20_000.0).contains(nm))
 }
 
-/// The numbers of a line that holds nothing else, two at least; a sign of percent may follow each.
+/// Numbers of a line that holds nothing else, at least two; a percent sign may follow each.
 fn numbers(line: &str) -> Option<Vec<f64>> {
     let words = line.split_whitespace().filter(|word| *word != "%");
     let numbers: Option<Vec<f64>> = words.map(|word| word.trim_end_matches('%').parse().ok()).collect();

@@ -2,13 +2,13 @@
 //!
 //! | export | columns that are read | fields |
 //! | --- | --- | --- |
-//! | Relative Illumination | field, `Rel. Ill.` | degrees, or mm of the picture |
+//! | Relative Illumination | field, `Rel. Ill.` | degrees, or mm in the image |
 //! | Field Curvature/Distortion | field, `Ref. Height`, distortion | degrees |
-//! | Huygens and FFT PSF | all: samples of one field ([`read_point_spread`]) | degrees, or mm of the picture |
+//! | Huygens and FFT PSF | all: samples of one field ([`read_point_spread`]) | degrees, or mm in the image |
 //! | FFT, Huygens and Geometric MTF | spatial frequency, tangential, sagittal | the first |
 //!
-//! The unit of the fields is what the line of the head that begins with "Field" or the title of the first column says. A table of one direction from
-//! the axis is read, to either side of it. What else the file says (its lens, its date, further columns) is passed over.
+//! The unit of the fields is stated by the header line that begins with "Field" or by the title of the first column. A table of one direction from the axis is
+//! read, to either side. Other content (lens, date, further columns) is ignored.
 
 mod distortion;
 mod illumination;
@@ -27,7 +27,7 @@ use listing::Listing;
 /// Reads a table of a lens.
 ///
 /// # Errors
-/// The first fault of the file, with its line.
+/// The first error of the file, with its line.
 pub fn read_lens_table(file: &Path, quantity: LensQuantity) -> Result<LensTableAsset, Error> {
     let bytes = read_description_bytes(file, "lens table")?;
     let text = decode_lens_text(file, &bytes)?;
@@ -41,10 +41,10 @@ pub fn read_lens_table(file: &Path, quantity: LensQuantity) -> Result<LensTableA
     Ok(table)
 }
 
-/// Reads a point's light at one place of the field.
+/// Reads the point spread at one field point.
 ///
 /// # Errors
-/// The first fault of the file, with its line.
+/// The first error of the file, with its line.
 pub fn read_point_spread(file: &Path) -> Result<PointSpreadAsset, Error> {
     let bytes = read_bytes(file, "point spread")?;
     let text = decode_lens_text(file, &bytes)?;

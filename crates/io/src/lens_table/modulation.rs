@@ -1,15 +1,16 @@
-//! Zemax's "FFT MTF" (also "Huygens MTF" and "Geometric MTF"), or any table of spatial frequency and modulation under a head that says both.
+//! Zemax's "FFT MTF" (also "Huygens MTF" and "Geometric MTF"), or any table of spatial frequency and modulation with a header that states both.
 //!
-//! A column is read as it is; of two, tangential and sagittal, the mean. Of several fields the first is read, which is the axis; a table of the diffraction limit is passed over.
+//! A single column is read as it is; of two, tangential and sagittal, the mean. Of several fields the first, the axis, is read; a table of the diffraction
+//! limit is ignored.
 
 use etendue_scene::asset::{LensNumbers, LensTableAsset};
 
 use super::listing::{Listing, Table};
 use crate::Error;
 
-/// How far from one the modulation at 0 may be.
+/// Tolerance of the modulation at frequency 0 from 1.
 const WHOLE: f64 = 1e-3;
-/// How heads say in what frequencies are.
+/// Spellings of the unit of frequencies in headers.
 const PER_MM: [&str; 5] = ["cycles per mm", "cycles/mm", "cycles per millimet", "lp/mm", "line pairs per mm"];
 
 pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {

@@ -10,23 +10,24 @@
 //! Values are relative intensity.                   Values are not normalized.
 //! ```
 //!
-//! and rows of numbers, their columns with rising x. **The first row has the greatest y** in both. Of Huygens listings the centre's column counts from the left and its row
-//! **from the last row** upwards, of FFT listings, which say "row" and "column", the row counts from the first. Found from the listings in the test data of batoid
-//! (github.com/jmeyers314/batoid, `tests/testdata/LSST_hpsf_*`, `LSST_fftpsf_*`, `HSC_huygensPSF.txt`): counted so, centroids are those that
-//! the Huygens heads state beside them ("Centroid offset", +3.408 µm of y at 1.225°, +1.612 µm of x and y at 1.176° both ways) to 5 nm, those on the axis are even about the
-//! centre, and the FFT listings of the same fields agree; batoid's own functions agree after it turns the rows over. Older versions write one field, of y ("0.5500 µm at -27.38 deg.").
+//! and rows of numbers, their columns with rising x. **The first row has the largest y** in both. Of Huygens listings the centre's column counts from the left
+//! and its row **from the last row** upwards, of FFT listings, which state "row" and "column", the row counts from the first. Determined from the listings in
+//! the test data of batoid (github.com/jmeyers314/batoid, `tests/testdata/LSST_hpsf_*`, `LSST_fftpsf_*`, `HSC_huygensPSF.txt`): with this rule centroids agree
+//! with those that the Huygens heads also state ("Centroid offset", +3.408 µm of y at 1.225°, +1.612 µm of x and y at 1.176° both ways) to 5 nm, those on the
+//! axis are symmetric about the centre, and the FFT listings of the same fields agree; batoid's own functions agree after it flips the rows. Older versions
+//! write one field, of y ("0.5500 µm at -27.38 deg.").
 //!
-//! Fields in mm are taken for places in the picture. What is not read: Strehl ratio, pupil grid, area.
+//! Fields in mm are taken as positions in the image. Not read: Strehl ratio, pupil grid, area.
 
 use etendue_scene::asset::{FieldPoint, PointSpreadAsset};
 
 use super::listing::{Listing, Table};
 use crate::Error;
 
-/// Light at the border over the greatest from which on it is said that the listing ends within it.
+/// Ratio of border to largest value from which on a note states that the listing is truncated.
 const CUT_OFF: f64 = 0.01;
 
-/// Which of the two analyses.
+/// Kind of analysis.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Analysis {
     Huygens,
@@ -61,7 +62,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<PointSpreadAsset, Error> {
     Ok(checked(asset, listing))
 }
 
-/// Columns and rows, which are those that the head states.
+/// Columns and rows, checked against the header.
 fn size(listing: &Listing<'_>, table: &Table<'_>) -> Result<[usize; 2], Error> {
     let found = [table.rows[0].numbers.len(), table.rows.len()];
     let stated = said(listing, "image grid size").map(|(line, text)| (line, numbers(text)));
@@ -97,7 +98,7 @@ fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
         return Err(listing
             .fault(line, format!("found wavelengths from {} to {} nm; expected 100 … 20 000, rising", nm[0], nm[1])));
     }
-    // One number is y.
+    // A single number is y.
     let at = if let [y] = field[..] { [0.0, y] } else { [field[0], field[1]] };
     let words = words.to_lowercase();
     let field = if words.contains("deg") {
@@ -125,7 +126,7 @@ fn spacing_um(listing: &Listing<'_>) -> Result<f64, Error> {
     })
 }
 
-/// Where the point is on the sensor.
+/// Position of the point on the sensor.
 fn place_mm(listing: &Listing<'_>, notes: &mut Vec<String>) -> Option<[f64; 2]> {
     let (_, text) = said(listing, "center coordinates").or_else(|| said(listing, "reference coordinates"))?;
     let unit = lens_unit_mm(text);
@@ -138,7 +139,7 @@ fn place_mm(listing: &Listing<'_>, notes: &mut Vec<String>) -> Option<[f64; 2]> 
     }
 }
 
-/// The sample at the point, from 0: its column from the left, its row from the first.
+/// Sample index of the point, from 0: column from the left, row from the first.
 fn point(
     listing: &Listing<'_>,
     analysis: Analysis,
@@ -185,7 +186,7 @@ fn light(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<f32>, Error> {
     Ok(light)
 }
 
-/// Notes on what the samples do not hold, and where they are not as the head says.
+/// Adds notes on missing light, and on samples that disagree with the header.
 fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAsset {
     let (width, height) = (asset.width, asset.light.len() / asset.width);
     let (mut sum, mut centroid, mut most, mut border) = (0.0, [0.0; 2], 0.0_f32, 0.0_f32);
@@ -221,7 +222,7 @@ fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAss
     asset
 }
 
-/// The line of the head that begins with some words, in small letters, and what follows them.
+/// Header line that begins with some words, in lower case, and the text after them.
 fn said<'a>(listing: &Listing<'a>, words: &str) -> Option<(usize, &'a str)> {
     listing.head.iter().find_map(|(line, text)| {
         let begins = text.get(..words.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(words));
@@ -235,7 +236,7 @@ fn numbers(text: &str) -> Vec<f64> {
     words.filter_map(|word| word.parse().ok()).filter(|number: &f64| number.is_finite()).collect()
 }
 
-/// How many µm the unit has that a line names.
+/// Micrometres per unit that a line names.
 fn length_um(text: &str) -> Option<f64> {
     let words = text.split([' ', '\t']).map(|word| word.trim_end_matches(['.', ',']).to_lowercase());
     words
@@ -243,14 +244,14 @@ fn length_um(text: &str) -> Option<f64> {
             "mm" | "millimeters" | "millimetres" => Some(1e3),
             "nm" | "nanometers" => Some(1e-3),
             "um" | "microns" | "micrometers" | "micrometres" => Some(1.0),
-            // Micro: two letters of Unicode, or what became of them.
+            // Micro: two letters of Unicode, or a damaged form of them.
             word if word.ends_with('m') && word.chars().count() == 2 && !word.is_ascii() => Some(1.0),
             _ => None,
         })
         .next()
 }
 
-/// How many mm the lens's unit has that a line names.
+/// Millimetres per lens unit that a line names.
 fn lens_unit_mm(text: &str) -> Option<f64> {
     let units = [("millimet", 1.0), ("centimet", 10.0), ("inch", 25.4), ("meter", 1e3), ("metre", 1e3)];
     let text = text.to_lowercase();

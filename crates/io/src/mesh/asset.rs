@@ -1,4 +1,4 @@
-//! Polygons as tobj reads them to triangles, and a file of a mesh whose vertices move, corner by corner.
+//! Conversion of tobj's polygons to triangles, and reading of a file of a mesh with moving vertices, corner by corner.
 
 use std::{cell::LazyCell, path::Path};
 
@@ -13,7 +13,7 @@ use super::{gltf::read_gltf, texture_option::UvLayout};
 use crate::source::{decode_text, name_notes, read_bytes};
 use crate::{Error, Sandbox, hash};
 
-/// Reads a mesh by its ending: a Wavefront OBJ file with the material libraries it names, a glTF file with its buffers and pictures, or a PLY file.
+/// Reads a mesh by its ending: a Wavefront OBJ file with the material libraries it names, a glTF file with its buffers and images, or a PLY file.
 ///
 /// # Errors
 /// The first fault, with its line.
@@ -21,7 +21,7 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
     read_mesh_in(file, &Sandbox::NONE)
 }
 
-/// The same, whose further files must lie in `sandbox`.
+/// Reads the same; further files must lie in `sandbox`.
 pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
     if is_gltf(file) {
         return read_gltf(file, sandbox);
@@ -55,14 +55,14 @@ pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, 
     Ok(mesh)
 }
 
-/// The mesh as far as it is made.
+/// Mesh under construction.
 #[derive(Default)]
 struct Builder {
     has_normals: bool,
     has_uvs: bool,
     mesh: MeshAsset,
     faces: usize,
-    /// Where the vertices of the current part stand in the mesh.
+    /// Index in the mesh of each vertex of the current part.
     placed: Vec<Option<u32>>,
     flat_corners: usize,
     bare_corners: usize,
@@ -78,11 +78,11 @@ impl Builder {
         }
     }
 
-    /// Takes a part of one material, whose vertices all have a normal or none, and so texture coordinates.
+    /// Adds a part of one material, whose vertices either all have a normal or none, and the same for texture coordinates.
     fn part(&mut self, part: &tobj::Mesh, slot: u16, layout: &UvLayout) -> Result<(), String> {
         self.placed = vec![None; part.positions.len() / 3];
         let mut rest = &part.indices[..];
-        // tobj tells the numbers of corners unless all are triangles.
+        // tobj states the numbers of corners unless all are triangles.
         let arity = |face: usize| part.face_arities.get(face).map_or(3, |n| *n as usize);
         for corners in (0..).map(arity).map_while(|count| rest.split_off(..count)) {
             match corners {
@@ -112,8 +112,7 @@ impl Builder {
         Ok(())
     }
 
-    /// The vertex `index` of a part. Without a usable normal it belongs to this polygon alone, which faces `facing`, where
-    /// others have one.
+    /// The vertex `index` of a part. Without a usable normal, if others have one, it belongs to this polygon alone, which faces `facing`.
     fn vertex<F: FnOnce() -> [f64; 3]>(
         &mut self,
         part: &tobj::Mesh,
@@ -165,8 +164,8 @@ fn notes(obj: &Obj) -> Vec<String> {
     notes
 }
 
-/// Reads the faces of a Wavefront OBJ file as it says them. The triangles of the file itself are those that [`super::read_mesh`] makes
-/// of it; another file's polygons, bent otherwise, are to be cut as these.
+/// Reads the faces of a Wavefront OBJ file unchanged. Its triangles are those of [`super::read_mesh`]. The polygons of another file of the mesh, in another
+/// pose, must be cut like these.
 pub fn read_mesh_frame(file: &Path) -> Result<MeshFrameAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
     let obj = scan(file, decode_text(file, &bytes)?)?;
@@ -178,7 +177,7 @@ pub fn read_mesh_frame(file: &Path) -> Result<MeshFrameAsset, Error> {
 
 fn part_of(part: tobj::Mesh, materials: &[String]) -> MeshFramePart {
     let corners = part.indices.len();
-    // tobj tells the numbers of corners unless all are triangles.
+    // tobj states the numbers of corners unless all are triangles.
     let arities = if part.face_arities.is_empty() { vec![3; corners / 3] } else { part.face_arities };
     MeshFramePart {
         material: materials.get(part.material_id.unwrap_or(0)).cloned().unwrap_or_default(),
@@ -195,8 +194,8 @@ fn normal(normal: &[f64; 3]) -> [f32; 3] {
     if *normal == [0.0; 3] { [0.0; 3] } else { unit(*normal) }
 }
 
-/// The triangles of all faces. A polygon that crosses itself gives none: [`super::read_mesh`] refuses it in the file whose triangles are
-/// those of all, and in other files it does not matter.
+/// Triangles of all faces. A polygon that crosses itself gives none: [`super::read_mesh`] refuses it in the file that defines the triangles; in other files it
+/// does not matter.
 fn triangles(parts: &[MeshFramePart]) -> Vec<[u32; 3]> {
     let (mut triangles, mut begin) = (Vec::new(), 0_u32);
     for part in parts {

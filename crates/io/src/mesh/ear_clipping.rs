@@ -1,11 +1,10 @@
 //! Points of a plane.
 //!
-//! Ear clipping (Meisters 1975, "Polygons have ears"): the first corner that can be cut off is, until three are left.
+//! Ear clipping (Meisters 1975, "Polygons have ears"): cuts off the first possible corner until three are left.
 //!
-//! A corner that cannot be cut off for another one in its triangle waits for that one to go; what else could change is
-//! only the corners beside one that is cut off. With the corners in a tree of boxes the whole takes about n log n steps
-//! on outlines as they are drawn. Corners that coincide (bridges to holes, outlines that touch themselves) block each
-//! other where an edge of one leads into the triangle of the other.
+//! A corner blocked by another one in its triangle waits for that one to be cut. Otherwise only the neighbours of a cut corner can change. With the corners in
+//! a tree of boxes, typical outlines take about n log n steps. Corners that coincide (bridges to holes, outlines that touch themselves) block each other where
+//! an edge of one leads into the triangle of the other.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::{cmp::Ordering, rc::Rc};
@@ -18,15 +17,15 @@ pub(super) fn turn(a: Point, b: Point, c: Point) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Corners a leaf holds at most.
+/// Maximum corners per leaf.
 const LEAF: usize = 8;
 
-/// A binary tree of boxes over points, from which points are taken out.
+/// Binary tree of boxes over points that supports removal.
 pub(super) struct CornerTree<'p> {
     points: &'p [Point],
     /// Points in the order of leaves.
     order: Vec<usize>,
-    /// The place of each point in `order`.
+    /// Position of each point in `order`.
     place: Vec<usize>,
     is_left: Vec<bool>,
     /// The root at 1, the children of `n` at 2n and 2n + 1.
@@ -47,8 +46,8 @@ impl Bounds {
         Self { low: pick(f64::min, self.low, other.low), high: pick(f64::max, self.high, other.high) }
     }
 
-    /// Whether every point of the box is to the right of the line from `a` to `b`. The rounding of [`turn`] keeps the
-    /// order of points, so no point of the box is to the left by it.
+    /// Returns true if every point of the box is to the right of the line from `a` to `b`. The rounding of [`turn`] keeps the order of points, so no point of
+    /// the box is to the left by it.
     fn is_right_of(&self, a: Point, b: Point) -> bool {
         let x = if b[1] >= a[1] { self.low[0] } else { self.high[0] };
         let y = if b[0] >= a[0] { self.high[1] } else { self.low[1] };
@@ -79,7 +78,7 @@ impl<'p> CornerTree<'p> {
         self.boxes.len() / 2
     }
 
-    /// Where the points of a leaf begin in `order`.
+    /// Position in `order` at which the points of a leaf begin.
     fn start(&self, leaf: usize) -> usize {
         leaf * self.order.len() / self.leaves()
     }
@@ -113,14 +112,14 @@ impl<'p> CornerTree<'p> {
         self.boxes[node] = self.boxes[2 * node].around(self.boxes[2 * node + 1]);
     }
 
-    /// The leaf that holds a point.
+    /// Leaf that holds a point.
     fn leaf_of(&self, point: usize) -> usize {
         let (place, leaves) = (self.place[point], self.leaves());
         let near = place * leaves / self.order.len();
         (near..leaves).find(|leaf| place < self.start(leaf + 1)).unwrap_or(leaves - 1)
     }
 
-    /// Takes a point out.
+    /// Removes a point.
     pub(super) fn remove(&mut self, point: usize) {
         self.is_left[point] = false;
         let leaf = self.leaf_of(point);
@@ -132,7 +131,7 @@ impl<'p> CornerTree<'p> {
         }
     }
 
-    /// A point that is left in the closed counter-clockwise triangle of three others, and that coincides with none.
+    /// Remaining point in the closed counter-clockwise triangle of three others that coincides with none of them.
     pub(super) fn inside(&self, corners: [usize; 3]) -> Option<usize> {
         let triangle = corners.map(|i| self.points[i]);
         let [a, b, c] = triangle;
@@ -160,7 +159,7 @@ impl<'p> CornerTree<'p> {
     }
 }
 
-/// Triangles of a counter-clockwise polygon whose edges do not cross; `None` where none of several corners can be cut off.
+/// Triangles of a counter-clockwise polygon whose edges do not cross; `None` if several corners remain and none can be cut off.
 pub(super) fn clip_ears(flat: &[Point]) -> Option<Vec<[usize; 3]>> {
     let n = flat.len();
     let mut outline = Outline {
@@ -183,32 +182,31 @@ pub(super) fn clip_ears(flat: &[Point]) -> Option<Vec<[usize; 3]>> {
     Some(triangles)
 }
 
-/// What is left of a polygon.
+/// Remaining outline of a polygon.
 struct Outline<'p> {
     flat: &'p [Point],
     before: Vec<usize>,
     after: Vec<usize>,
     tree: CornerTree<'p>,
     is_left: Vec<bool>,
-    /// Corners that can be cut off, before all others those between two that coincide: what is left of an outline that
-    /// touches itself has nothing inside there.
+    /// Corners that can be cut off; those between two coinciding corners come first: the rest of an outline that touches itself has no inside there.
     ears: BTreeSet<(bool, usize)>,
-    /// For each corner, those that cannot be cut off for it.
+    /// For each corner, the corners that it blocks.
     waiting: Vec<Waiting>,
-    /// For each corner that coincides with others, those and it.
+    /// For each corner that coincides with others, the group of them.
     twins: BTreeMap<usize, Rc<[usize]>>,
 }
 
-/// Corners that cannot be cut off for one corner.
+/// Corners blocked by one corner.
 #[derive(Clone, Debug, Default)]
 struct Waiting {
-    /// For where it stands.
+    /// Blocked by its position.
     place: Vec<usize>,
-    /// For where its edges lead; they coincide with it.
+    /// Blocked by the direction of its edges; they coincide with it.
     edges: Vec<usize>,
 }
 
-/// The corners that coincide, for each of them.
+/// Groups of coinciding corners, for each of them.
 fn twins(flat: &[Point]) -> BTreeMap<usize, Rc<[usize]>> {
     let mut order: Vec<usize> = (0..flat.len()).collect();
     let by_place = |&i: &usize, &j: &usize| flat[i].partial_cmp(&flat[j]).unwrap_or(Ordering::Equal).then(i.cmp(&j));
@@ -236,8 +234,8 @@ impl Outline<'_> {
         Some([before, tip, after])
     }
 
-    /// Whether a corner can be cut off: it turns left or is straight, and none of the other corners lies in its
-    /// triangle. A straight corner gives a triangle of no area and leaves the outline unchanged.
+    /// Tests whether a corner can be cut off: it turns left or is straight, and none of the other corners lies in its triangle. A straight corner gives a
+    /// triangle of zero area and leaves the outline unchanged.
     fn look_at(&mut self, tip: usize) {
         let corners @ [before, _, after] = [self.before[tip], tip, self.after[tip]];
         self.ears.remove(&(false, tip));
@@ -254,7 +252,7 @@ impl Outline<'_> {
         }
     }
 
-    /// A corner where `tip` stands, from which an edge leads into the triangle.
+    /// Corner at the position of `tip` from which an edge leads into the triangle.
     fn leads_inside(&self, [before, tip, after]: [usize; 3]) -> Option<usize> {
         let [a, b, c] = [before, tip, after].map(|corner| self.flat[corner]);
         let enters = |end: usize| turn(a, b, self.flat[end]) > 0.0 && turn(b, c, self.flat[end]) > 0.0;

@@ -1,8 +1,7 @@
 //! Material libraries (MTL).
 //!
-//! `Kd` is linear sRGB, the picture of `map_Kd` sRGB-encoded. What each field becomes is told in
-//! `etendue_scene::asset`; a value that is no number of its field is refused with its line, a field that is not used is
-//! reported with its line.
+//! `Kd` is linear sRGB, the image of `map_Kd` sRGB-encoded. `etendue_scene::asset` describes the conversion of each field. An invalid value is refused with its
+//! line; an unused field is reported with its line.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,24 +12,24 @@ use super::statement::{Statement, TobjInput, statements};
 use super::texture_option::{UvLayout, parse as parse_texture};
 use crate::Error;
 
-/// The materials of one library, by name, and what of it is not used.
+/// Materials of one library, by name, and notes on unused content.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Library {
     pub(super) materials: BTreeMap<String, LibraryMaterial>,
     pub(super) report: Vec<String>,
 }
 
-/// A material and where it begins.
+/// Material with its place.
 #[derive(Clone, Debug)]
 pub(super) struct LibraryMaterial {
     pub(super) fields: MtlFields,
-    /// How the texture lies on the surface, where the library says so.
+    /// Texture layout, if the library states one.
     pub(super) layout: UvLayout,
     /// `file:line` of `newmtl`.
     pub(super) place: String,
 }
 
-/// Reads the text of `file`.
+/// Parses the text of `file`.
 pub(super) fn parse(file: &Path, text: &str) -> Result<Library, Error> {
     let mut scan =
         Scan { file, input: TobjInput::default(), places: Vec::new(), first: BTreeMap::new(), report: Vec::new() };
@@ -43,13 +42,13 @@ pub(super) fn parse(file: &Path, text: &str) -> Result<Library, Error> {
     Ok(Library { materials: materials.collect(), report: scan.report })
 }
 
-/// The lines of a library: what tobj is given of them, and what is not used.
+/// Lines of a library: those given to tobj, and notes on unused ones.
 struct Scan<'a> {
     file: &'a Path,
     input: TobjInput,
-    /// The materials in order, with `file:line` of their `newmtl`.
+    /// Materials in order, with `file:line` of their `newmtl`.
     places: Vec<(String, String)>,
-    /// Where each was begun, by name.
+    /// First place of each, by name.
     first: BTreeMap<String, String>,
     report: Vec<String>,
 }
@@ -82,7 +81,7 @@ impl Scan<'_> {
     }
 }
 
-/// Checks a field: the value for tobj, which panics at colours of fewer than three numbers, and what of it is not used.
+/// Checks a field. Returns the value for tobj, which panics at colours of fewer than three numbers, and notes on unused parts.
 fn field(statement: &Statement<'_>) -> Result<(Option<String>, Vec<String>), String> {
     let (keyword, rest) = (statement.keyword(), statement.rest());
     let value = match keyword {
@@ -102,7 +101,7 @@ fn field(statement: &Statement<'_>) -> Result<(Option<String>, Vec<String>), Str
     Ok((Some(value), note.into_iter().collect()))
 }
 
-/// `count` numbers from 0 to `high`, as text; one number stands for all.
+/// `count` numbers from 0 to `high`, as text; a single number is repeated.
 fn numbers(statement: &Statement<'_>, count: usize, high: f64) -> Result<String, String> {
     let expected = match (count, high) {
         (3, _) => "three numbers of 0 or more".to_owned(),
@@ -121,7 +120,7 @@ fn numbers(statement: &Statement<'_>, count: usize, high: f64) -> Result<String,
 }
 
 impl LibraryMaterial {
-    /// What tobj read, whose texture and physically based fields are still text. All is checked.
+    /// Converts the result of tobj, whose texture and physically based fields are still text. All is checked.
     fn new(file: &Path, material: &tobj::Material, place: String) -> Self {
         let number = |key: &str| material.unknown_param.get(key).and_then(|text| text.parse::<f64>().ok());
         let texture = material.diffuse_texture.as_deref().and_then(|text| parse_texture(text).ok());
@@ -140,7 +139,7 @@ impl LibraryMaterial {
         Self { fields, layout: texture.map_or(UvLayout::PLAIN, |t| t.layout), place }
     }
 
-    /// The material in terms of a scene, and what has no place there.
+    /// The material in terms of a scene, and notes on what it cannot represent.
     pub(super) fn slot(&self, name: &str) -> (SlotMaterial, Vec<String>) {
         let (material, mut notes) = self.fields.to_slot(name);
         if self.fields.diffuse_map.is_some() && self.fields.diffuse.is_some_and(|kd| kd != [1.0; 3]) {

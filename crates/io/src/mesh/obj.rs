@@ -1,8 +1,8 @@
-//! The lines of an OBJ file: what tobj is given of them, and what it would pass over.
+//! Checks the lines of an OBJ file and selects those that tobj reads.
 //!
-//! tobj accepts coordinates that are not finite, takes the index 0 for none, lines for faces and colours for part of a
-//! vertex, and loses which corners have no normal where some have: its vertex data stay in step only where all faces of
-//! a model have the same form. So each line is checked here, and a group begins wherever the form changes.
+//! tobj accepts coordinates that are not finite, reads the index 0 as none, lines as faces and colours as part of a vertex, and loses the information which
+//! corners have no normal if some have: its vertex data are consistent only if all faces of a model have the same form. So each line is checked here, and a new
+//! group begins wherever the form changes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -13,10 +13,10 @@ use super::statement::{Statement, TobjInput, statements};
 use super::vertex::check_range;
 use crate::{Error, ErrorCode, Problem};
 
-/// What a corner names, in order.
+/// Parts of a corner, in order.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// What is known of an OBJ file before tobj reads it.
+/// Result of the check of an OBJ file, before tobj reads it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Obj {
     pub(super) input: TobjInput,
@@ -25,13 +25,13 @@ pub(super) struct Obj {
     known: BTreeSet<String>,
     /// Material libraries with their lines, as written.
     pub(super) libraries: Vec<(String, usize)>,
-    /// What is not read, by keyword: how often, and on which line first.
+    /// Unread content by keyword: count, and first line.
     pub(super) unread: BTreeMap<String, (usize, usize)>,
     /// First line that switches smoothing on.
     pub(super) smoothing_line: Option<usize>,
-    /// How many of each of [`KINDS`] are read.
+    /// Number of each of [`KINDS`] read so far.
     pub(super) counts: [usize; 3],
-    /// Indices that point ahead, with their kind and line.
+    /// Forward references, with their kind and line.
     ahead: Vec<(usize, isize, usize)>,
     corners: u32,
     form: [bool; 3],
@@ -58,13 +58,12 @@ pub(super) fn scan(file: &Path, text: &str) -> Result<Obj, Error> {
 }
 
 impl Obj {
-    /// The polygons by material and form, each part with vertices of its own. A part's material is an index to
-    /// `materials`.
+    /// Polygons by material and form, each part with its own vertices. A part's material is an index into `materials`.
     pub(super) fn parts(&self, file: &Path) -> Result<Vec<tobj::Mesh>, Error> {
         self.parts_with(file, true)
     }
 
-    /// The same, with indices of their own for texture coordinates and normals.
+    /// The same, with separate indices for texture coordinates and normals.
     pub(super) fn parts_by_corners(&self, file: &Path) -> Result<Vec<tobj::Mesh>, Error> {
         self.parts_with(file, false)
     }
@@ -114,7 +113,7 @@ impl Obj {
         Ok(())
     }
 
-    /// Texture coordinates or a normal: given to tobj as `parts` if its numbers are finite. Too few are left to tobj.
+    /// Texture coordinates or a normal: given to tobj as `parts` if its numbers are finite. Too few numbers are left to tobj.
     fn coordinates(&mut self, kind: usize, statement: &Statement<'_>, parts: &[&str]) -> Result<(), Problem> {
         let found = statement.numbers()?.len();
         if found > 3 {
@@ -124,7 +123,7 @@ impl Obj {
         Ok(())
     }
 
-    /// Gives tobj one of `kind`.
+    /// Gives tobj one item of `kind`.
     fn feed(&mut self, kind: usize, line: usize, parts: &[&str]) {
         self.counts[kind] += 1;
         self.input.push_parts(line, parts);
@@ -165,7 +164,7 @@ impl Obj {
         Ok(())
     }
 
-    /// Which of [`KINDS`] a corner names, each in range. What is no index at all is left to tobj.
+    /// The parts ([`KINDS`]) of a corner, each in range. A word that is no index is left to tobj.
     fn corner(&mut self, word: &str, line: usize) -> Result<[bool; 3], String> {
         let mut form = [false; 3];
         for (kind, text) in word.split('/').enumerate().take(3) {

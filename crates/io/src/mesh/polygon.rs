@@ -1,10 +1,9 @@
-//! Polygons to triangles.
+//! Triangulation of polygons.
 //!
-//! Convex polygons become a fan about their first corner. Concave ones are cut by ear clipping in the projection along
-//! their Newell normal, in 64 bits. A polygon that crosses itself has no answer and is refused.
+//! Convex polygons become a fan about their first corner. Concave ones are cut by ear clipping in the projection along their Newell normal, in 64 bits. A
+//! polygon that crosses itself has no triangulation and is refused.
 //!
-//! Whether the edges of a polygon cross, by a line that sweeps over them (Shamos and Hoey 1976, "Geometric intersection
-//! problems"): in n log n steps.
+//! Crossing edges are found by a sweep line (Shamos and Hoey 1976, "Geometric intersection problems") in n log n steps.
 
 #[cfg(test)]
 mod tests;
@@ -13,15 +12,15 @@ use std::{cmp::Ordering, collections::BTreeSet};
 
 use super::ear_clipping::{Point, clip_ears, turn};
 
-/// Why a polygon has no triangles.
+/// Reason for which a polygon has no triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PolygonFault {
-    /// Its edges cross, or it encloses nothing although its corners are not on one line.
+    /// Its edges cross, or it encloses no area although its corners are not collinear.
     CrossesItself,
 }
 
 impl PolygonFault {
-    /// The fault of a polygon of so many corners, in words.
+    /// Description of the error, for a polygon of the given number of corners.
     pub(super) fn of(self, corners: usize) -> String {
         match self {
             Self::CrossesItself => {
@@ -31,8 +30,7 @@ impl PolygonFault {
     }
 }
 
-/// Triangles of the polygon `corners`, as indices into it, in its winding. Corners on one line give triangles of no
-/// area, which the tracer counts and drops.
+/// Triangles of the polygon `corners`, as indices into it, in its winding. Collinear corners give triangles of zero area, which the tracer counts and drops.
 pub(super) fn triangulate(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, PolygonFault> {
     if corners.len() == 3 || on_one_line(corners) {
         return Ok(fan(corners.len()));
@@ -47,7 +45,7 @@ pub(super) fn triangulate(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, Polyg
     clip_ears(&flat).ok_or(PolygonFault::CrossesItself)
 }
 
-/// Triangles of a polygon of three corners or more, as indices into it, in its winding; `None` where it crosses itself.
+/// Triangles of a polygon of three corners or more, as indices into it, in its winding; `None` if it crosses itself.
 #[must_use]
 pub fn polygon_triangles(corners: &[[f64; 3]]) -> Option<Vec<[usize; 3]>> {
     match corners.len() {
@@ -81,7 +79,7 @@ pub(super) fn newell(corners: &[[f64; 3]]) -> [f64; 3] {
     })
 }
 
-/// The scale below which a doubled area is rounding: 1e-12 of the squared extent.
+/// Threshold below which a doubled area counts as rounding: 1e-12 of the squared extent.
 fn negligible_area(corners: &[[f64; 3]]) -> f64 {
     1e-12 * corners.iter().map(|&c| dot(sub(c, corners[0]), sub(c, corners[0]))).fold(0.0, f64::max)
 }
@@ -96,7 +94,7 @@ fn on_one_line(corners: &[[f64; 3]]) -> bool {
     })
 }
 
-/// The polygon in the coordinate plane that sees most of it, counter-clockwise. `None` where it encloses nothing.
+/// Projection of the polygon to the coordinate plane with the largest projected area, counter-clockwise. `None` if it encloses no area.
 fn project(corners: &[[f64; 3]]) -> Option<Vec<Point>> {
     let normal = newell(corners);
     let largest = (0..3).max_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()))?;
@@ -110,15 +108,15 @@ fn project(corners: &[[f64; 3]]) -> Option<Vec<Point>> {
     Some(corners.iter().map(|&c| sub(c, corners[0])).map(|c| [c[u], c[v]]).collect())
 }
 
-/// Whether a counter-clockwise polygon turns left everywhere, and once round in all: a pentagram turns left at each
-/// corner but twice round, which its fan's triangles show by turning right somewhere.
+/// Returns true if a counter-clockwise polygon turns left everywhere, and once in all: a pentagram turns left at each corner but twice in all, which its fan's
+/// triangles show by turning right somewhere.
 fn is_convex(flat: &[Point]) -> bool {
     let n = flat.len();
     let left = |a: usize, b: usize, c: usize| turn(flat[a % n], flat[b % n], flat[c % n]) >= 0.0;
     (0..n).all(|i| left(i, i + 1, i + 2)) && (1..n - 1).all(|i| left(0, i, i + 1))
 }
 
-/// Whether two edges of the closed polygon cross in a point inside both.
+/// Returns true if two edges of the closed polygon cross at an interior point of both.
 pub(super) fn edges_cross(flat: &[Point]) -> bool {
     let edges: Vec<Edge> = (0..flat.len()).filter_map(|i| Edge::new(i, flat[i], flat[(i + 1) % flat.len()])).collect();
     let mut met = BTreeSet::new();
@@ -127,7 +125,7 @@ pub(super) fn edges_cross(flat: &[Point]) -> bool {
     })
 }
 
-/// An edge from the corner that the sweep meets first to the other.
+/// Edge from the corner that the sweep reaches first to the other.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     first: Point,
@@ -150,19 +148,19 @@ impl Edge {
         parts(self, other) && parts(other, self)
     }
 
-    /// Whether an edge that begins later lies above this one.
+    /// Compares with an edge that begins later: less if that edge lies above this one.
     fn is_under(&self, later: &Self) -> Ordering {
         let side = |p: Point| turn(self.first, self.last, p).partial_cmp(&0.0).unwrap_or(Ordering::Equal);
         side(later.first).then_with(|| side(later.last))
     }
 }
 
-/// The order in which the sweep meets points: by the first coordinate, then by the second.
+/// Order of points in the sweep: by the first coordinate, then by the second.
 fn along(a: &Point, b: &Point) -> Ordering {
     a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
 }
 
-/// The ends of all edges in the sweep's order, where an edge ends before others begin.
+/// Ends of all edges in sweep order; an edge ends before others begin at the same point.
 fn events(edges: &[Edge]) -> Vec<(Point, bool, usize)> {
     let both = |(i, e): (usize, &Edge)| [(e.first, false, i), (e.last, true, i)];
     let mut events: Vec<_> = edges.iter().enumerate().flat_map(both).collect();
@@ -170,7 +168,7 @@ fn events(edges: &[Edge]) -> Vec<(Point, bool, usize)> {
     events
 }
 
-/// Edges are in order from below to above, as the sweep meets them at one time.
+/// Edges are ordered from bottom to top, as the sweep intersects them at one time.
 impl Ord for Edge {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_height = match along(&self.first, &other.first) {
@@ -204,14 +202,14 @@ fn above<'e>(met: &BTreeSet<&'e Edge>, edge: &'e Edge) -> Option<&'e Edge> {
     met.range::<Edge, _>((Excluded(edge), Unbounded)).next().copied()
 }
 
-/// Takes an edge in; whether it crosses a neighbour.
+/// Inserts an edge; returns true if it crosses a neighbour.
 fn meet_at_the_start<'e>(met: &mut BTreeSet<&'e Edge>, edge: &'e Edge) -> bool {
     let crossed = [below(met, edge), above(met, edge)].into_iter().flatten().any(|n| n.crosses(edge));
     met.insert(edge);
     crossed
 }
 
-/// Lets an edge go; whether those that it kept apart cross.
+/// Removes an edge; returns true if the edges that it separated cross.
 fn meet_at_the_end<'e>(met: &mut BTreeSet<&'e Edge>, edge: &'e Edge) -> bool {
     met.remove(edge);
     below(met, edge).zip(above(met, edge)).is_some_and(|(b, a)| b.crosses(a))

@@ -10,7 +10,7 @@ use super::{obj::Obj, texture_option::UvLayout};
 use crate::source::{decode_text, read_description_bytes};
 use crate::{Error, Sandbox};
 
-/// The slots, their texture layouts, what of the libraries is not used, and the libraries' bytes in order.
+/// Slots, their texture layouts, notes on unused content of the libraries, and the libraries' bytes in order.
 #[derive(Default)]
 pub(super) struct Slots {
     pub(super) materials: Vec<SlotMaterial>,
@@ -30,7 +30,7 @@ pub(super) fn slots(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<Slots, 
         let bytes = read_description_bytes(&path, "material library")?;
         let library = parse(&path, decode_text(&path, &bytes)?)?;
         for (name, material) in library.materials {
-            known.entry(name).or_insert(material); // the first library counts
+            known.entry(name).or_insert(material); // the first library takes precedence
         }
         slots.report.extend(library.report);
         slots.library_bytes.push(bytes);
@@ -41,7 +41,7 @@ pub(super) fn slots(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<Slots, 
             slots.report.extend(notes);
             (material, found.layout)
         } else {
-            // The scene says what it is, or is told that nobody does.
+            // The scene states the material, or reports that it is missing.
             (SlotMaterial { name: name.clone(), surface: None }, UvLayout::PLAIN)
         };
         slots.materials.push(material);
@@ -50,8 +50,8 @@ pub(super) fn slots(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<Slots, 
     Ok(slots)
 }
 
-/// The library files, each once, and a sentence for each that does not exist. A name may hold blanks, and one statement may name several files: the whole is tried
-/// as one name first.
+/// Library files, each once, and a sentence for each that does not exist. A name may contain blanks, and one statement may name several files: the whole is
+/// tried as one name first.
 fn library_paths(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<(Vec<PathBuf>, Vec<String>), Error> {
     let (mut paths, mut missing): (Vec<PathBuf>, Vec<String>) = (Vec::new(), Vec::new());
     let (mut statements, mut known) = (BTreeSet::new(), BTreeSet::new());

@@ -1,11 +1,10 @@
 //! Lines of OBJ and MTL files as statements: a keyword and its words, with the line they begin on.
 //!
-//! Blanks are those of Unicode, as tobj has them.
+//! Blanks are those of Unicode, as in tobj.
 //!
-//! The text that tobj is given: a statement a line, with the line of the file that each comes from.
+//! Text for tobj: one statement per line, with the line of the file that each comes from.
 //!
-//! tobj's errors name no line. It reads a line at a time and stops at the first that it refuses, so what it has taken
-//! of the text tells which one that is.
+//! tobj's errors name no line. It reads line by line and stops at the first that it refuses, so the amount of text read identifies that line.
 
 use std::{borrow::Cow, path::Path};
 
@@ -14,10 +13,10 @@ use crate::{Error, Problem};
 /// One statement: a line without its comment and outer blanks, never empty.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Statement<'a> {
-    /// Line it begins on, from 1.
+    /// Line on which it begins, from 1.
     pub(super) line: usize,
     text: Cow<'a, str>,
-    /// Where the first word ends.
+    /// End of the first word.
     keyword_end: usize,
 }
 
@@ -37,12 +36,12 @@ impl<'a> Statement<'a> {
         self.text[self.keyword_end..].trim()
     }
 
-    /// The words behind the keyword.
+    /// Words after the keyword.
     pub(super) fn words(&self) -> impl Iterator<Item = &str> {
         self.rest().split_whitespace()
     }
 
-    /// The words as numbers; the fault in words where one is none.
+    /// The words as numbers; an error if one is no number.
     pub(super) fn numbers(&self) -> Result<Vec<f64>, Problem> {
         self.words().map(number).collect()
     }
@@ -54,7 +53,7 @@ pub(super) fn number(word: &str) -> Result<f64, Problem> {
     if value.is_finite() { Ok(value) } else { Err(format!("`{word}` is not finite; expected a finite number").into()) }
 }
 
-/// The statements of `text`: comments and empty lines left out, lines that end in a backslash joined.
+/// Statements of `text`: without comments and empty lines, with continued lines joined.
 pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
     let mut lines = text.lines().enumerate();
     std::iter::from_fn(move || {
@@ -84,7 +83,7 @@ fn joined<'a>(first: &str, lines: &mut impl Iterator<Item = (usize, &'a str)>) -
     if whole.starts_with(' ') { whole.trim_start().to_owned() } else { whole }
 }
 
-/// A line without blanks at its ends and without what follows a `#` that begins a word: names may hold one inside.
+/// Line without blanks at its ends and without a comment. A comment begins with a `#` at the start of a word: names may contain one inside.
 fn trimmed(line: &str) -> &str {
     let begins = |&(at, _): &(usize, &str)| at == 0 || line[..at].ends_with(char::is_whitespace);
     let end = line.match_indices('#').find(begins).map_or(line.len(), |(at, _)| at);
@@ -104,7 +103,7 @@ impl TobjInput {
         self.push_parts(line, &[statement]);
     }
 
-    /// Adds a statement of line `line`, given in parts with a blank between them.
+    /// Adds a statement of line `line`, given in parts that are joined by blanks.
     pub(super) fn push_parts(&mut self, line: usize, parts: &[&str]) {
         for part in parts {
             self.text.push_str(part);
@@ -115,7 +114,7 @@ impl TobjInput {
         self.lines.push(line);
     }
 
-    /// What `read`, a function of tobj, makes of the text; its error with the line of `file`.
+    /// Result of `read`, a function of tobj, on the text; its error with the line of `file`.
     pub(super) fn read<T>(
         &self,
         file: &Path,
@@ -129,7 +128,7 @@ impl TobjInput {
         })
     }
 
-    /// The line of the `index`-th face.
+    /// Line of the `index`-th face.
     pub(super) fn line_of_face(&self, index: usize) -> usize {
         let faces = self.text.lines().zip(&self.lines).filter(|(statement, _)| statement.starts_with("f "));
         faces.map(|(_, line)| *line).nth(index).unwrap_or_default()
@@ -159,7 +158,7 @@ mod tests {
         assert_eq!(read("v 1 \\"), [(1, "v".to_owned(), "1".to_owned())]);
     }
 
-    /// Copying the whole for each line would move 10¹² bytes here.
+    /// A copy of the whole for each line would move 10¹² bytes here.
     #[test]
     fn a_statement_goes_over_many_lines() {
         let text = format!("f{}", " 1\\\n".repeat(1_000_000));

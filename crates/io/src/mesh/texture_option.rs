@@ -12,26 +12,26 @@ pub(super) struct UvLayout {
 }
 
 impl UvLayout {
-    /// Texture coordinates as they are.
+    /// Identity.
     pub(super) const PLAIN: Self = Self { scale: [1.0; 2], offset: [0.0; 2] };
 
-    /// The coordinates by which the picture is read.
+    /// Coordinates at which the image is read.
     pub(super) fn apply(&self, uv: [f64; 2]) -> [f64; 2] {
         std::array::from_fn(|i| uv[i] * self.scale[i] + self.offset[i])
     }
 }
 
-/// A texture as a material library names it.
+/// Texture reference of a material library.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextureReference {
     /// File name, with forward slashes.
     pub(super) file: String,
     pub(super) layout: UvLayout,
-    /// What of the text is not used or read otherwise.
+    /// Notes on unused options and other differences.
     pub(super) notes: Vec<String>,
 }
 
-/// Reads everything behind the keyword.
+/// Parses everything after the keyword.
 pub(super) fn parse(text: &str) -> Result<TextureReference, String> {
     let mut texture = TextureReference { file: String::new(), layout: UvLayout::PLAIN, notes: Vec::new() };
     let mut rest = text;
@@ -49,7 +49,7 @@ pub(super) fn parse(text: &str) -> Result<TextureReference, String> {
     Ok(texture)
 }
 
-/// An option at the head of `rest`, with what follows it. A name that begins with `-` and is no known option is a file.
+/// Option at the start of `rest`, and the text after it. A name that begins with `-` and is no known option is a file.
 fn next_option(rest: &str) -> Option<(&str, &str)> {
     let (word, after) = first_word(rest)?;
     let known = [
@@ -65,7 +65,7 @@ fn first_word(text: &str) -> Option<(&str, &str)> {
 }
 
 impl TextureReference {
-    /// Reads an option; what follows it.
+    /// Reads an option; returns the text after it.
     fn take<'a>(&mut self, option: &str, after: &'a str) -> Result<&'a str, String> {
         match option {
             "-s" => vector(option, after, &mut self.layout.scale),
@@ -94,7 +94,7 @@ impl TextureReference {
     }
 }
 
-/// Reads the first two of up to three numbers into `field`; what follows them.
+/// Reads the first two of up to three numbers into `field`; returns the text after them.
 fn vector<'a>(option: &str, after: &'a str, field: &mut [f64; 2]) -> Result<&'a str, String> {
     let (values, rest) = numbers(after, 3);
     if values.is_empty() {
@@ -104,7 +104,7 @@ fn vector<'a>(option: &str, after: &'a str, field: &mut [f64; 2]) -> Result<&'a 
     Ok(rest)
 }
 
-/// Up to `most` numbers at the head of `text`, and what follows them.
+/// Up to `most` numbers at the start of `text`, and the text after them.
 fn numbers(text: &str, most: usize) -> (Vec<f64>, &str) {
     let mut values = Vec::new();
     let mut rest = text;

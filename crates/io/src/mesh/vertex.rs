@@ -1,10 +1,10 @@
-//! Numbers of vertices: unit normals, and what positions are stored relative to.
+//! Vertex data: unit normals, and the origin relative to which positions are stored.
 
 use etendue_scene::limits::CORNERS;
 
 use crate::{ErrorCode, Problem};
 
-/// A unit vector in 32 bits; z for a face without area, which no ray meets.
+/// Unit vector in 32 bits; z for a face of zero area, which no ray hits.
 pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
     let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     if largest == 0.0 {
@@ -15,7 +15,7 @@ pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
     scaled.map(|c| (c / length) as f32)
 }
 
-/// Refuses more corners of faces than are read.
+/// Refuses too many corners of faces.
 pub(super) fn check_corners(corners: u64) -> Result<(), Problem> {
     let most = CORNERS.most().min(u64::from(u32::MAX));
     if corners <= most {
@@ -34,13 +34,13 @@ pub(super) fn check_range(coordinates: &[f64]) -> Result<(), String> {
     }
 }
 
-/// A place of a file as a mesh stores it, relative to its origin.
+/// Position of a file relative to the mesh's origin, as a mesh stores it.
 pub(super) fn relative(place: [f64; 3], origin: [f64; 3]) -> [f32; 3] {
     std::array::from_fn(|axis| (place[axis] - origin[axis]) as f32)
 }
 
-/// The middle of a mesh that lies further from the file's origin than twice its extent, as maps and surveys have them; zero for
-/// others. About it 32 bits hold every vertex to 3e-8 of the extent.
+/// Centre of a mesh that lies further from the file's origin than twice its extent, as in maps and surveys; zero for others. Relative to it 32 bits hold every
+/// vertex to 3e-8 of the extent.
 pub(super) fn middle_of_far<I: Iterator<Item = f64>>(coordinates: impl Fn(usize) -> I) -> [f64; 3] {
     let bound = |axis: usize, pick: fn(f64, f64) -> f64| coordinates(axis).reduce(pick).unwrap_or(0.0);
     let bounds = [0, 1, 2].map(|axis| [bound(axis, f64::min), bound(axis, f64::max)]);

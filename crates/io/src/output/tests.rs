@@ -1,4 +1,4 @@
-//! The contract of an output folder: what has its name when, what stays, what is refused.
+//! Contract of an output folder: final names, remaining files, refusals.
 
 use super::*;
 
@@ -96,7 +96,7 @@ fn one_run_at_a_time_has_a_folder() {
     OutputFolder::open(place.path(), Existing::Refuse).expect("free");
 }
 
-/// Runs of parts that make one folder together, and remove it, as they end without results.
+/// Runs of parts that create one folder together, and remove it, as they end without results.
 #[test]
 fn parts_of_a_folder_that_others_make_and_remove_are_each_had() {
     let place = tempfile::tempdir().expect("temporary folder");

@@ -1,10 +1,9 @@
-//! A photograph in memory, what its channels are, and its files: PNG, JPEG, Radiance HDR, and portable float maps.
+//! Photograph in memory, its channels, and its files: PNG, JPEG, Radiance HDR, and portable float maps.
 //!
-//! Portable float maps, as stereo benchmarks keep disparities and depths (Debevec's format; Middlebury 2014).
+//! Portable float maps, as stereo benchmarks use for disparities and depths (Debevec's format; Middlebury 2014).
 //!
-//! A header of three lines: `Pf` (one channel) or `PF` (three); width and height; a number whose sign tells the byte order
-//! (negative: little-endian) and whose size is not used. Then floats of 32 bits, rows from the **bottom** up. Infinite
-//! numbers and NaN are kept: they mark what is not known.
+//! A header of three lines: `Pf` (one channel) or `PF` (three); width and height; a number whose sign gives the byte order (negative: little-endian) and whose
+//! magnitude is not used. Then floats of 32 bits, rows from the **bottom** up. Infinite numbers and NaN are kept: they mark unknown values.
 
 use std::path::Path;
 
@@ -15,7 +14,7 @@ use crate::encoding::{Encoding, Stated};
 use crate::picture::{Kept, decode_raster};
 use crate::{Error, ErrorCode, png};
 
-/// All kinds of file that are read.
+/// Supported kinds of file.
 pub(crate) const KINDS: &str = "PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR, PFM or OpenEXR";
 
 /// One channel, row by row from the top left.
@@ -27,27 +26,27 @@ pub struct Channel {
     pub samples: Vec<f32>,
 }
 
-/// A picture to be measured.
+/// Image to be measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Photograph {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: usize,
     /// Rows.
     pub height: usize,
     /// Channels of equal size, in the order of the file.
     pub channels: Vec<Channel>,
-    /// The largest number that the file can hold; `None` for floats.
+    /// Largest number that the file can hold; `None` for floats.
     pub full_scale: Option<f64>,
-    /// What the numbers are taken for, and why; a caller who is told otherwise changes it.
+    /// Encoding of the numbers, with its source; a caller with better information changes it.
     pub stated: Stated,
-    /// What a side-car states of a raw picture.
+    /// Facts that a side-car states of a raw image.
     pub raw: Option<RawFacts>,
-    /// Pixels of a rendered picture whose errors may be equal, because their paths shared what they found; 1: none are.
+    /// Pixels of a rendered image whose errors may be correlated, because their paths shared samples; 1: none.
     pub correlated_block_px: u32,
 }
 
 impl Photograph {
-    /// The channel of that name.
+    /// Channel of that name.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<&Channel> {
         self.channels.iter().find(|c| c.name == name)
@@ -60,12 +59,12 @@ impl Photograph {
     }
 }
 
-/// Floats are in proportion to light.
+/// Floats are proportional to light.
 pub(super) fn of_floats() -> Stated {
     Stated::new(Encoding::Linear, "floats")
 }
 
-/// What numbers up to `full_scale` are taken for where nothing says it.
+/// Default encoding of numbers up to `full_scale`, if nothing states it.
 pub(super) fn guess(full_scale: Option<f64>, colour: bool) -> Stated {
     match full_scale {
         None => of_floats(),
@@ -78,7 +77,7 @@ pub(super) fn guess(full_scale: Option<f64>, colour: bool) -> Stated {
     }
 }
 
-/// Y, or R, G, B, each with A where there is one more.
+/// Y, or R, G, B, each with A if there is one more.
 pub(super) fn channel_names(count: usize) -> Option<&'static [&'static str]> {
     match count {
         1 => Some(&["Y"]),
@@ -89,7 +88,7 @@ pub(super) fn channel_names(count: usize) -> Option<&'static [&'static str]> {
     }
 }
 
-/// Channels of samples that lie side by side.
+/// Channels of interleaved samples.
 pub(super) fn separated(names: &[&str], samples: &[f32]) -> Vec<Channel> {
     let channel = |(i, name): (usize, &&str)| Channel {
         name: (*name).to_owned(),
@@ -118,7 +117,7 @@ pub(super) fn decode_grid(file: &Path, bytes: &[u8]) -> Result<Photograph, Error
     })
 }
 
-/// What a PNG says of itself, or else the guess, with the name of what it says and is not understood.
+/// Encoding that a PNG states, else the guess with the names of unsupported statements.
 fn stated(bytes: &[u8], guess: Stated) -> Stated {
     let said = png::said(bytes);
     let named = |name| format!("{name} is not understood: {}", guess.reason);
@@ -126,7 +125,7 @@ fn stated(bytes: &[u8], guess: Stated) -> Stated {
     said.stated.unwrap_or(Stated { reason, ..guess })
 }
 
-/// All samples, channels side by side, and the largest number that fits.
+/// All samples, channels interleaved, and the largest number of the format.
 fn samples(picture: &DynamicImage) -> (Vec<f32>, Option<f64>) {
     let (bytes, colour) = (picture.as_bytes(), picture.color());
     match colour.bytes_per_pixel() / colour.channel_count() {
@@ -151,7 +150,7 @@ pub(super) fn decode_pfm(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
         let start = rest.iter().position(|b| !b.is_ascii_whitespace())?;
         let length = rest[start..].iter().position(u8::is_ascii_whitespace)?;
         let text = std::str::from_utf8(&rest[start..start + length]).ok()?;
-        // One white space ends the header: what follows may look like another.
+        // A single white space ends the header: the data may look like more.
         rest = &rest[start + length + 1..];
         Some(text)
     };

@@ -1,6 +1,6 @@
-//! Photographs to be measured: channels as stored, and what is known of them.
+//! Photographs to be measured: channels as stored, and known facts.
 //!
-//! | file | channels | numbers | taken for, where nothing says otherwise |
+//! | file | channels | numbers | default encoding |
 //! | --- | --- | --- | --- |
 //! | PNG, JPEG, TIFF of 8 bits | Y, or R, G, B; A | 0–255 | sRGB-encoded |
 //! | colour PNG, TIFF of 16 bits | R, G, B; A | 0–65 535 | sRGB-encoded |
@@ -8,11 +8,10 @@
 //! | TIFF of floats, Radiance HDR, PFM | Y, or R, G, B; A | as stored | linear |
 //! | OpenEXR | all, by their full names | as stored | linear |
 //!
-//! What a side-car of this program or a chunk of a PNG says goes before ([`Encoding`]).
-//! A grey picture that a side-car `camera.json` beside it lists as digital numbers is raw: linear, with the levels and the
-//! colour filters that the side-car states. Numbers are not scaled; whole numbers above 2²⁴ are rounded to the nearest float.
-//! The kind is told by the first bytes, not by the name. Left out: compressed DNG and other raw
-//! files of cameras, TIFF of several pictures, of separate planes, or in CMYK, Lab or a palette (refused).
+//! A side-car of this program or a chunk of a PNG takes precedence ([`Encoding`]). A grey image that a side-car `camera.json` next to it lists as digital
+//! numbers is raw: linear, with the levels and the colour filters that the side-car states. Numbers are not scaled; whole numbers above 2²⁴ are rounded to the
+//! nearest float. The kind is identified by the first bytes, not by the name. Not supported: compressed DNG and other raw files of cameras, TIFF of several
+//! images, of separate planes, or in CMYK, Lab or a palette (refused).
 
 mod channels;
 mod side_car;
@@ -30,10 +29,10 @@ pub use side_car::{FilterTile, RawFacts, RawFrame, StatedRows, StatedTiming, sta
 pub(crate) use channels::{KINDS, is_pfm};
 pub(crate) use tiff::is_tiff;
 
-/// Reads a photograph and what a side-car beside it says of it.
+/// Reads a photograph and the statements of a side-car next to it.
 ///
 /// # Errors
-/// Where the file is missing, of another kind, damaged or not finite, or the side-car beside it is unreadable.
+/// If the file is missing, of another kind, damaged or not finite, or the side-car is unreadable.
 pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
     let mut photograph = decode_photograph(file, &read_bytes(file, "picture")?)?;
     let Some(beside) = side_car::beside(file)? else { return Ok(photograph) };
@@ -50,7 +49,7 @@ pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
     Ok(photograph)
 }
 
-/// The photograph in the bytes of `file`, without a side-car.
+/// Decodes a photograph from the bytes of `file`, without a side-car.
 ///
 /// # Errors
 /// As [`read_photograph`].
@@ -74,7 +73,7 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     Ok(photograph)
 }
 
-/// The attribute of an EXR that states [`Photograph::correlated_block_px`].
+/// EXR attribute that states [`Photograph::correlated_block_px`].
 const ALIKE: &str = "etendue:correlated_block_px";
 
 fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {

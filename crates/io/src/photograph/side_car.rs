@@ -1,4 +1,4 @@
-//! The side-car of this program beside a picture.
+//! Side-car of this program next to an image.
 
 use std::path::{Path, PathBuf};
 
@@ -11,17 +11,17 @@ use crate::{Error, sidecar};
 /// Names of side-cars: of a render, and of a development.
 const NAMES: [&str; 2] = ["camera.json", "develop.json"];
 
-/// A side-car that lists a picture.
+/// Side-car that lists an image.
 pub(super) struct SideCar {
     /// Its file.
     pub file: PathBuf,
-    /// All that it says.
+    /// Its content.
     pub said: Value,
-    /// The picture's name in its list.
+    /// Name of the image in its list.
     pub picture: String,
 }
 
-/// The side-car that lists `file`: in its folder, or in the folder around it, as that of undistorted pictures is.
+/// Side-car that lists `file`: in its folder, or in the parent folder, as for undistorted images.
 pub(super) fn beside(file: &Path) -> Result<Option<SideCar>, Error> {
     let Some(name) = file.file_name().and_then(|name| name.to_str()) else { return Ok(None) };
     let folder = file.parent().unwrap_or(Path::new(""));
@@ -39,17 +39,17 @@ pub(super) fn beside(file: &Path) -> Result<Option<SideCar>, Error> {
 }
 
 impl SideCar {
-    /// The name of its file.
+    /// Name of its file.
     pub(super) fn name(&self) -> String {
         self.file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
     }
 
-    /// What it says of the picture.
+    /// Entry of the image.
     pub(super) fn entry(&self) -> &Value {
         &self.said["files"][&self.picture]
     }
 
-    /// Pixels whose errors may be equal, because their paths shared what they found.
+    /// Pixels whose errors may be correlated, because their paths shared samples.
     pub(super) fn correlated_block_px(&self) -> Result<u32, Error> {
         let stated = &self.said["sampling"]["correlated_block_px"];
         if stated.is_null() {
@@ -64,7 +64,7 @@ impl SideCar {
         number.ok_or_else(|| Error::new(&self.file, strange()))
     }
 
-    /// How the picture's numbers are encoded, where it says so.
+    /// Encoding of the image's numbers, if stated.
     pub(super) fn encoding(&self) -> Result<Option<Encoding>, Error> {
         let said = &self.entry()["encoding"];
         let strange = || {
@@ -84,39 +84,39 @@ pub struct FilterTile {
     pub channels: Vec<String>,
 }
 
-/// Levels and filters of a raw picture.
+/// Levels and filters of a raw image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawFacts {
-    /// Digital number of no charge.
+    /// Digital number at zero charge.
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
     /// Exposure, s.
     pub exposure_s: f64,
-    /// The colour filters; one channel of one column where there are none.
+    /// Colour filters; one channel of one column if there are none.
     pub filters: FilterTile,
-    /// What is stated of the frame; `None` where the side-car does not say which frame the picture is.
+    /// Facts of the frame; `None` if the side-car does not state which frame the image is.
     pub frame: Option<RawFrame>,
 }
 
-/// What a side-car states of one frame. The levels and the exposure of [`RawFacts`] are the frame's, too.
+/// Facts that a side-car states of one frame. The levels and the exposure of [`RawFacts`] are also those of the frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawFrame {
-    /// Its number.
+    /// Frame number.
     pub number: u32,
-    /// The seed of its noise.
+    /// Seed of its noise.
     pub seed: u64,
-    /// The camera's place in its job.
+    /// Index of the camera in its job.
     pub camera_index: u32,
     /// Bits of its numbers.
     pub bits: u32,
-    /// The part that light reached: first column, first row, columns, rows.
+    /// Light-sensitive part of the image: first column, first row, columns, rows.
     pub picture_px: [usize; 4],
-    /// Linear and companded numbers at the ends of the lines by which numbers were put into fewer bits, without (0, 0).
+    /// Knees of the companding curve, without (0, 0): linear and companded numbers.
     pub companding_knees_dn: Option<Vec<[f64; 2]>>,
 }
 
-/// The facts of a side-car that lists the picture as digital numbers; `None` where it lists it otherwise.
+/// Facts of a side-car that lists the image as digital numbers; `None` if it lists it otherwise.
 pub(super) fn facts(beside: &SideCar) -> Result<Option<RawFacts>, Error> {
     if beside.entry()["quantity"] != DigitalNumber::NAME {
         return Ok(None);
@@ -168,41 +168,41 @@ fn frame(said: &Value, entry: &Value) -> Option<RawFrame> {
     })
 }
 
-/// When the rows of a picture were exposed, as far as its side-car says.
+/// Exposure timing of an image's rows, as far as its side-car states it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatedTiming {
-    /// The side-car.
+    /// Side-car file.
     pub file: PathBuf,
-    /// The picture's frame.
+    /// Frame of the image.
     pub frame: Option<u32>,
-    /// From one row of the picture to the next.
+    /// Timing from one row of the image to the next.
     pub rows: StatedRows,
     /// Exposure of a row, s.
     pub exposure_s: Option<f64>,
-    /// From frame to frame, s.
+    /// Period from frame to frame, s.
     pub frame_period_s: Option<f64>,
 }
 
-/// How the rows of a picture follow each other.
+/// Order in which the rows of an image are exposed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StatedRows {
-    /// It is not said.
+    /// Not stated.
     Unknown,
-    /// All together.
+    /// All simultaneously.
     Together,
-    /// Downwards, each this many seconds after the one above.
+    /// Downwards, each by this time later than the one above.
     Downwards {
-        /// Seconds from row to row.
+        /// Time from row to row, s.
         row_time_s: f64,
     },
     /// In another order or with unequal exposures, in words.
     Otherwise(String),
 }
 
-/// The timing of a picture; `None` where no side-car lists it.
+/// Timing of an image; `None` if no side-car lists it.
 ///
 /// # Errors
-/// Where a side-car cannot be read.
+/// If a side-car cannot be read.
 pub fn stated_timing(file: &Path) -> Result<Option<StatedTiming>, Error> {
     let Some(found) = beside(file)? else { return Ok(None) };
     let said = &found.said;
@@ -218,7 +218,7 @@ pub fn stated_timing(file: &Path) -> Result<Option<StatedTiming>, Error> {
     }))
 }
 
-/// The frame in a name such as `picture.0007.png`.
+/// Frame number in a name such as `picture.0007.png`.
 fn number(name: &str) -> Option<u64> {
     name.rsplit('.').nth(1)?.parse().ok()
 }
@@ -240,7 +240,7 @@ fn rows(shutter: &Value, frame: Option<&Value>) -> StatedRows {
     }
     let read = shutter["rows"].as_f64();
     let written = frame.and_then(|frame| frame["picture_in_raw_px"][3].as_f64()).filter(|rows| *rows > 0.0);
-    // Binned rows of the picture are several of the sensor.
+    // Binned rows of the image correspond to several rows of the sensor.
     let binned = read.zip(written).map_or(1.0, |(read, written)| (read / written).floor().max(1.0));
     let row_time_s = shutter["row_time_s"].as_f64();
     row_time_s.map_or(StatedRows::Unknown, |s| StatedRows::Downwards { row_time_s: s * binned })

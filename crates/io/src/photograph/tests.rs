@@ -110,7 +110,7 @@ fn a_digital_negative_of_ours_is_grey_of_its_numbers() {
         assert_eq!(photograph.stated.encoding, Encoding::Linear);
         assert!(photograph.channels[0].samples.iter().map(|v| *v as u32).eq(numbers), "{photograph:?}");
     }
-    // A file that ends in its directory is told, whatever it says before.
+    // A file that ends within its directory is reported as truncated, whatever precedes it.
     let cut = crate::tiff::encode_dng(&etendue_core::Plane::new(2, 2), &facts(12)).expect("a file");
     assert!((4..60).all(|length| read(&cut[..length]).is_err()));
 }

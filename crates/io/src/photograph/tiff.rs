@@ -1,5 +1,5 @@
-//! TIFF of one picture (TIFF 6.0, Adobe 1992), as the tiff crate reads it; a DNG of one plain picture, as this program
-//! writes it (Digital Negative 1.4, Adobe 2012), is read as the grey TIFF that it is but for its kind of picture.
+//! TIFF of one image (TIFF 6.0, Adobe 1992), as the tiff crate reads it; a DNG of one plain image, as this program writes it (Digital Negative 1.4, Adobe
+//! 2012), is read as a grey TIFF: only its photometric interpretation differs.
 
 use std::{borrow::Cow, io::Cursor, path::Path};
 
@@ -9,7 +9,7 @@ use ::tiff::{ColorType, tags::Tag};
 use super::{Photograph, channel_names, guess, separated};
 use crate::{Error, ErrorCode, error::guarded, texture_memory};
 
-/// Whether the bytes begin as a TIFF, of either byte order, plain or big.
+/// Returns true if the bytes begin as a TIFF, of either byte order, plain or BigTIFF.
 pub(crate) fn is_tiff(bytes: &[u8]) -> bool {
     let beginnings: [&[u8]; 4] = [b"II\x2a\0", b"MM\0\x2a", b"II\x2b\0", b"MM\0\x2b"];
     beginnings.iter().any(|b| bytes.starts_with(b))
@@ -73,8 +73,7 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     })
 }
 
-/// The same file with the kind of picture "colour filter array" or "linear raw" replaced by grey, which the tiff crate
-/// knows.
+/// The same file with the photometric interpretation "colour filter array" or "linear raw" replaced by grey, which the tiff crate supports.
 fn digital_negative_as_grey(bytes: &[u8]) -> Cow<'_, [u8]> {
     const FILTER_ARRAY: u16 = 32_803;
     const LINEAR_RAW: u16 = 34_892;
@@ -90,7 +89,7 @@ fn digital_negative_as_grey(bytes: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(grey)
 }
 
-/// Where the first directory of a plain TIFF states the kind of picture, and which it is.
+/// Offset of the photometric interpretation in the first directory of a plain TIFF, and its value.
 fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
     const KIND: u16 = 262;
     const ENTRY: usize = 12;
@@ -105,17 +104,17 @@ fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
     Some((entry + 8, short(entry + 8)?))
 }
 
-/// Room for what [`texture_memory::check`] lets through, in numbers of up to 64 bits.
+/// Decoder limits for images that pass [`texture_memory::check`], in numbers of up to 64 bits.
 fn limits(packed: usize) -> Limits {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = usize::try_from(2 * texture_memory::most(packed)).unwrap_or(usize::MAX);
-    // Tables of offsets and what a strip is packed to are parts of the file.
+    // Tables of offsets and packed strips are parts of the file.
     limits.ifd_value_size = packed.max(1 << 16);
     limits.intermediate_buffer_size = usize::try_from(texture_memory::most(packed)).unwrap_or(usize::MAX);
     limits
 }
 
-/// The samples, and the largest number that fits.
+/// Samples, and the largest number of the format.
 fn numbers(file: &Path, samples: DecodingResult) -> Result<(Vec<f32>, Option<f64>), Error> {
     let (samples, full_scale): (Vec<f32>, _) = match samples {
         DecodingResult::U8(v) => (v.into_iter().map(f32::from).collect(), Some(f64::from(u8::MAX))),

@@ -1,8 +1,6 @@
-//! Numbers one after the other, each with its line.
+//! Sequential numbers of photometric files, each with its line.
 //!
-//! The text of old files: UTF-8 where it is, else Latin-1 (ISO 8859-1), which every byte is.
-//!
-//! Factors for lamps that burn at a tilt (LM-63, TILT=).
+//! Also the decoding of old text files (UTF-8 if valid, else Latin-1, ISO 8859-1), and the factors for tilted lamps (LM-63, TILT=).
 
 use std::{borrow::Cow, ops::RangeInclusive, path::Path};
 
@@ -10,23 +8,23 @@ use etendue_scene::asset::{PhotometryAxes, Tilt};
 
 use crate::{Error, Problem, Sandbox, source::read_description_bytes};
 
-/// The numbers of a text from some line on.
+/// Numbers of a text from some line on.
 pub(super) struct Fields<'a> {
     file: &'a Path,
     /// Lines, counted from 1, and words.
     words: std::vec::IntoIter<(usize, &'a str)>,
-    /// The line of the last word that was taken.
+    /// Line of the last word read.
     line: usize,
     decimal_comma: bool,
 }
 
 impl<'a> Fields<'a> {
-    /// Numbers divided by blanks, commas and line ends.
+    /// Numbers separated by blanks, commas and line ends.
     pub(super) fn divided_by_commas(file: &'a Path, lines: impl Iterator<Item = (usize, &'a str)>) -> Self {
         Self::new(file, lines, false)
     }
 
-    /// Numbers divided by blanks and line ends, whose decimal sign may be a comma.
+    /// Numbers separated by blanks and line ends, whose decimal separator may be a comma.
     pub(super) fn with_decimal_commas(file: &'a Path, lines: impl Iterator<Item = (usize, &'a str)>) -> Self {
         Self::new(file, lines, true)
     }
@@ -39,12 +37,12 @@ impl<'a> Fields<'a> {
         Self { file, words: words.into_iter(), line, decimal_comma }
     }
 
-    /// A fault at the number that was taken last.
+    /// Returns an error at the last number read.
     pub(super) fn fault(&self, what: impl Into<Problem>) -> Error {
         Error::at(self.file, self.line, what)
     }
 
-    /// The next number; `what` says in words what it is.
+    /// Reads the next number; `what` names it in messages.
     pub(super) fn number(&mut self, what: &str) -> Result<f64, Error> {
         let Some((line, word)) = self.words.next() else {
             return Err(self.fault(format!(
@@ -56,19 +54,19 @@ impl<'a> Fields<'a> {
             .ok_or_else(|| self.fault(format!("found \"{}\"; expected {what}: a number", short(word))))
     }
 
-    /// The next number, 0 or more.
+    /// Reads the next number, 0 or more.
     pub(super) fn amount(&mut self, what: &str) -> Result<f64, Error> {
         let value = self.number(what)?;
         if value >= 0.0 { Ok(value) } else { Err(self.fault(format!("found {value}; expected {what}: 0 or more"))) }
     }
 
-    /// The next number, above 0.
+    /// Reads the next number, above 0.
     pub(super) fn positive(&mut self, what: &str) -> Result<f64, Error> {
         let value = self.number(what)?;
         if value > 0.0 { Ok(value) } else { Err(self.fault(format!("found {value}; expected {what}: above 0"))) }
     }
 
-    /// The next number, whole, of `range`.
+    /// Reads the next number, an integer of `range`.
     pub(super) fn whole(&mut self, what: &str, range: std::ops::RangeInclusive<u32>) -> Result<u32, Error> {
         let value = self.number(what)?;
         let (low, high) = (*range.start(), *range.end());
@@ -78,7 +76,7 @@ impl<'a> Fields<'a> {
         Err(self.fault(format!("found {value}; expected {what}: a whole number from {low} to {high}")))
     }
 
-    /// The next `count` numbers, which are there: no more is allocated than the file holds.
+    /// Reads the next `count` numbers; allocates no more than the file holds.
     pub(super) fn list(
         &mut self,
         count: usize,
@@ -96,7 +94,7 @@ impl<'a> Fields<'a> {
         Ok(values)
     }
 
-    /// The next `count` intensities.
+    /// Reads the next `count` intensities.
     pub(super) fn intensities(&mut self, count: usize) -> Result<Vec<f64>, Error> {
         self.list(count, "intensity", |_, value| {
             (value < 0.0)
@@ -104,7 +102,7 @@ impl<'a> Fields<'a> {
         })
     }
 
-    /// Refuses anything more.
+    /// Refuses any further word.
     pub(super) fn end(&mut self, expected: &str) -> Result<(), Error> {
         let count = self.words.len();
         match self.words.next() {
@@ -122,7 +120,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// A finite number.
+/// Parses a finite number.
 pub(super) fn parse(word: &str, decimal_comma: bool) -> Option<f64> {
     let is_number = |c: char| c.is_ascii_digit() || "+-.eE,".contains(c);
     if !word.chars().all(is_number) {
@@ -132,17 +130,17 @@ pub(super) fn parse(word: &str, decimal_comma: bool) -> Option<f64> {
     value.ok().filter(|v: &f64| v.is_finite())
 }
 
-/// The start of a word for a message.
+/// Start of a word, for a message.
 pub(super) fn short(word: &str) -> String {
     const TOLD: usize = 24;
     let start: String = word.chars().take(TOLD).collect();
     if start.len() < word.len() { format!("{start}…") } else { start }
 }
 
-/// The greatest count of angles of one kind: 0.01° over a full turn.
+/// Maximum count of angles of one kind: 0.01° over a full turn.
 pub(super) const MOST: u32 = 36_001;
 
-/// The legal vertical angles, degrees.
+/// Legal vertical angles, degrees.
 pub(super) fn vertical_range(axes: PhotometryAxes) -> RangeInclusive<f64> {
     match axes {
         PhotometryAxes::A => -90.0..=90.0,
@@ -151,7 +149,7 @@ pub(super) fn vertical_range(axes: PhotometryAxes) -> RangeInclusive<f64> {
     }
 }
 
-/// The legal horizontal angles, degrees.
+/// Legal horizontal angles, degrees.
 pub(super) fn horizontal_range(axes: PhotometryAxes) -> RangeInclusive<f64> {
     match axes {
         PhotometryAxes::A => -180.0..=180.0,
@@ -160,7 +158,7 @@ pub(super) fn horizontal_range(axes: PhotometryAxes) -> RangeInclusive<f64> {
     }
 }
 
-/// The next `count` angles: rising, each once, in `range`.
+/// Reads the next `count` angles: increasing, each once, in `range`.
 pub(super) fn read(
     fields: &mut Fields<'_>,
     count: u32,
@@ -183,14 +181,14 @@ pub(super) fn read(
     })
 }
 
-/// What a grid leaves out: a sentence, where it does not end where grids of these axes do.
+/// Note on the missing part of a grid that does not end where grids of these axes do.
 pub(super) fn dark_beyond(which: &str, grid: &[f64], firsts: &[f64], lasts: &[f64]) -> Option<String> {
     let (first, last) = (*grid.first()?, *grid.last()?);
     let whole = firsts.contains(&first) && lasts.contains(&last);
     (!whole).then(|| format!("{which} angles from {first}° to {last}° were measured; beyond them the lamp is dark"))
 }
 
-/// The same of vertical angles. Type C may stop at the horizon: many lamps give light to one side alone.
+/// The same for vertical angles. Type C may stop at the horizon: many lamps emit to one side only.
 pub(super) fn dark_above_or_below(axes: PhotometryAxes, vertical: &[f64]) -> Option<String> {
     match axes {
         PhotometryAxes::C => dark_beyond("vertical", vertical, &[0.0, 90.0], &[90.0, 180.0]),
@@ -219,7 +217,7 @@ pub(super) fn decode<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, E
     Ok(if text.contains('\n') { text } else { Cow::Owned(text.replace('\r', "\n")) })
 }
 
-/// What the line says behind `TILT=`.
+/// Content of the `TILT=` line.
 pub(super) enum Statement<'a> {
     None,
     Include,
@@ -236,7 +234,7 @@ impl<'a> Statement<'a> {
     }
 }
 
-/// The next numbers as a table of tilts.
+/// Reads the next numbers as a table of tilts.
 pub(super) fn table(fields: &mut Fields<'_>) -> Result<Tilt, Error> {
     let geometry = fields.whole("the lamp-to-luminaire geometry", 1..=3)? as u8;
     let count = fields.whole("the count of tilts", 1..=MOST)?;
@@ -247,7 +245,7 @@ pub(super) fn table(fields: &mut Fields<'_>) -> Result<Tilt, Error> {
     Ok(Tilt::Table { geometry, factors: tilts.into_iter().zip(factors).collect() })
 }
 
-/// The table in the file of that name beside `file`, and its bytes.
+/// Table in the file of that name next to `file`, and its bytes.
 pub(super) fn from_file(file: &Path, line: usize, name: &str, sandbox: &Sandbox) -> Result<(Tilt, Vec<u8>), Error> {
     let path = file.parent().unwrap_or(Path::new("")).join(name.replace('\\', "/"));
     let place = format!("{}:{line}: TILT", file.display());
@@ -263,7 +261,7 @@ pub(super) fn from_file(file: &Path, line: usize, name: &str, sandbox: &Sandbox)
     read().map_err(|error: Error| error.named_at(place))
 }
 
-/// What the user has to know of a table.
+/// Note for the user on a table.
 pub(super) fn remark(tilt: &Tilt) -> Option<String> {
     match tilt {
         Tilt::None => None,

@@ -1,15 +1,14 @@
 //! ANSI/IES LM-63: the editions of 1986, 1991, 1995, 2002 and 2019.
 //!
-//! A line of identification (none in 1986; see `ies/edition.rs`), `[KEYWORD] text` lines, `TILT=`, then numbers in any arrangement: lamps,
-//! lumens a lamp (−1: absolute photometry), multiplier, counts of vertical and horizontal angles, type (1 C, 2 B, 3 A),
-//! unit (1 feet, 2 metres), width, length and height of the luminous opening, ballast factor, one more, watts, the
-//! angles, and the intensities plane by plane. The one more is the ballast-lamp photometric factor up to 1995, reserved
-//! in 2002, the type of file generation in 2019: only the first is a factor.
+//! A line of identification (none in 1986; see `ies/edition.rs`), `[KEYWORD] text` lines, `TILT=`, then numbers in any arrangement: lamps, lumens per lamp (−1:
+//! absolute photometry), multiplier, counts of vertical and horizontal angles, type (1 C, 2 B, 3 A), unit (1 feet, 2 metres), width, length and height of the
+//! luminous opening, ballast factor, one more, watts, the angles, and the intensities plane by plane. The extra number is the ballast-lamp photometric factor
+//! up to 1995, reserved in 2002, the type of file generation in 2019: only the first is a factor.
 //!
-//! Horizontal angles tell the symmetry. Type C: 0 alone, 0–90, 0–180, 90–270 (about the C90 plane), 0–360. Types A
-//! and B: from 0 on (the left is the mirror image of the right), or both sides.
+//! Horizontal angles determine the symmetry. Type C: 0 alone, 0–90, 0–180, 90–270 (about the C90 plane), 0–360. Types A and B: from 0 on (the left is the
+//! mirror image of the right), or both sides.
 //!
-//! The luminous opening by the signs of its sizes (LM-63-2002, annex D): what is negative is round.
+//! The shape of the luminous opening follows from the signs of its sizes (LM-63-2002, annex D): negative sizes are round.
 
 mod edition;
 
@@ -22,16 +21,16 @@ use super::symmetry::{self, Symmetry};
 use crate::{Error, Sandbox};
 use edition::{Edition, Identification};
 
-/// What stands before the numbers.
+/// Content before the numbers.
 struct Head<'a> {
     identification: Identification,
     texts: Vec<(String, String)>,
     tilt: fields::Statement<'a>,
-    /// The line of TILT, counted from 1.
+    /// Line of TILT, counted from 1.
     line: usize,
 }
 
-/// The numbers between TILT and the angles.
+/// Numbers between TILT and the angles.
 struct Body {
     lamps: u32,
     lumens: f64,
@@ -46,7 +45,7 @@ struct Body {
     watts: f64,
 }
 
-/// Reads a text, and tells the bytes of a file of tilts, where it names one.
+/// Parses a text; also returns the bytes of a tilt file, if it names one.
 pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(PhotometryAsset, Option<Vec<u8>>), Error> {
     let head = head(file, text)?;
     let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line)).skip(head.line);
@@ -107,7 +106,7 @@ fn head<'a>(file: &Path, text: &'a str) -> Result<Head<'a>, Error> {
     Err(Error::new(file, what))
 }
 
-/// What follows `TILT=`, blanks around it left out.
+/// Text after `TILT=`, trimmed.
 fn after_tilt(line: &str) -> Option<&str> {
     let (name, word) = line.split_once('=')?;
     name.trim().eq_ignore_ascii_case("tilt").then(|| word.trim())
@@ -162,7 +161,7 @@ fn size(fields: &mut Fields<'_>, which: &str) -> Result<f64, Error> {
 }
 
 impl Body {
-    /// What the numbers of the file are multiplied by.
+    /// Factor of the intensities.
     fn factor(&self, edition: Edition) -> f64 {
         let lamp = if edition <= Edition::Of1995 { self.further } else { 1.0 };
         self.multiplier * self.ballast * lamp
@@ -177,7 +176,7 @@ impl Body {
         notes.into_iter().filter(|(is, _)| *is).map(|(_, note)| note).collect()
     }
 
-    /// The symmetry that the horizontal angles tell.
+    /// Symmetry determined by the horizontal angles.
     fn symmetry(&self, horizontal: &[f64]) -> Result<Symmetry, String> {
         let (first, last) = (horizontal[0], horizontal[horizontal.len() - 1]);
         match (self.axes, horizontal.len()) {
@@ -190,7 +189,7 @@ impl Body {
     }
 }
 
-/// The symmetry of planes about a vertical axis.
+/// Symmetry of planes about a vertical axis.
 fn turn(first: f64, last: f64, horizontal: &[f64]) -> Result<Symmetry, String> {
     let step = horizontal.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
     if first == 0.0 && last == 90.0 {
@@ -209,7 +208,7 @@ fn turn(first: f64, last: f64, horizontal: &[f64]) -> Result<Symmetry, String> {
     }
 }
 
-/// The vertical angles, and the planes with every factor applied.
+/// Vertical angles, and the planes with every factor applied.
 fn grid(
     file: &Path,
     fields: &mut Fields<'_>,
@@ -240,7 +239,7 @@ fn grid(
     Ok((vertical, planes))
 }
 
-/// The opening of a width, length and height, m.
+/// Opening from a width, length and height, m.
 fn of([width, length, height]: [f64; 3]) -> Opening {
     let round = [width < 0.0, length < 0.0, height < 0.0];
     let shape = match round {

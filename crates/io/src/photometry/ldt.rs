@@ -1,9 +1,8 @@
 //! EULUMDAT (A. W. Stockmar, "EULUMDAT, ein Leuchtendatenformat für den europäischen Beleuchtungsplaner", 1990): lines of fixed meaning, then numbers.
 //!
-//! Intensities are cd per 1 000 lm of the lamps: cd = number × conversion factor × total lumens / 1 000. A negative
-//! count of lamps says absolute photometry: the lumens are then the luminaire's own, the rule is the same. Of several
-//! sets of lamps (what a luminaire can be equipped with) the first is used. Sizes are mm. The length of a luminaire lies
-//! across its C0 plane. What depends on the room (direct ratios) is passed over.
+//! Intensities are cd per 1 000 lm of the lamps: cd = number × conversion factor × total lumens / 1 000. A negative count of lamps means absolute photometry:
+//! the lumens are then the luminaire's own; the rule is the same. Of several sets of lamps (equipment options of a luminaire) the first is used. Sizes are in
+//! mm. The length of a luminaire lies across its C0 plane. Data that depend on the room (direct ratios) are ignored.
 
 use std::path::Path;
 
@@ -13,7 +12,7 @@ use super::fields::{self, Fields};
 use super::symmetry::{self, Symmetry};
 use crate::Error;
 
-/// Lines before the sets of lamps, and lines of a set.
+/// Lines before the sets of lamps, and lines per set.
 const HEAD_LINES: usize = 26;
 const SET_LINES: usize = 6;
 
@@ -39,7 +38,7 @@ impl<'a> Lines<'a> {
         })
     }
 
-    /// A number that may be left out, which is 0.
+    /// Optional number; 0 if absent.
     fn optional(&self, line: usize, what: &str) -> Result<f64, Error> {
         if self.text(line, what)?.is_empty() { Ok(0.0) } else { self.number(line, what) }
     }
@@ -59,7 +58,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// A set of lamps.
+/// Set of lamps.
 struct Lamps {
     /// Below 0 for absolute photometry.
     count: i32,
@@ -67,7 +66,7 @@ struct Lamps {
     watts: f64,
 }
 
-/// Reads a text.
+/// Parses a text.
 pub(super) fn read(file: &Path, text: &str) -> Result<PhotometryAsset, Error> {
     let lines = Lines { file, lines: text.lines().collect() };
     lines.whole(2, "the type of the luminaire (1, 2 or 3)", 0, 3)?;
@@ -158,7 +157,7 @@ fn texts(lines: &Lines<'_>) -> Result<Vec<(String, String)>, Error> {
     Ok(texts)
 }
 
-/// What is said of the grid before it comes.
+/// Description of the grid that precedes it.
 #[derive(Clone, Copy)]
 struct Table {
     code: i32,
@@ -178,7 +177,7 @@ impl Table {
         }
     }
 
-    /// The angles of the planes that are stored, in their order, of all that are listed.
+    /// Angles of the stored planes, in order, from all listed angles.
     fn stored(self, all: &[f64]) -> Result<Vec<f64>, String> {
         let (count, half, quarter) = (self.planes, self.planes / 2, self.planes / 4);
         let take = |first: usize, planes: usize| (0..planes).map(|i| all[(first + i) % count]).collect::<Vec<f64>>();
@@ -201,7 +200,7 @@ impl Table {
     }
 }
 
-/// The vertical angles, and all planes in cd.
+/// Vertical angles, and all planes in cd.
 fn grid(file: &Path, fields: &mut Fields<'_>, table: Table) -> Result<(Vec<f64>, Vec<symmetry::Plane>), Error> {
     fields.list(10, "direct ratio", |_, _| None)?;
     let all = fields::read(fields, table.planes as u32, "C", &(0.0..=360.0))?;

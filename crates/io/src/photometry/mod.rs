@@ -5,9 +5,8 @@
 //! | `.ies` | ANSI/IES LM-63, 1986 to 2019 | cd × multiplier × ballast factors | types A, B and C |
 //! | `.ldt` | EULUMDAT (A. W. Stockmar, 1990) | cd per 1 000 lm of the lamps × conversion factor | type C |
 //!
-//! Both become a [`PhotometryAsset`]: cd on a complete grid. Texts are UTF-8 or Latin-1; lines end in any way; a
-//! byte-order mark and the end-of-file character of DOS are passed over. Every fault is told with its line. Numbers are
-//! never allocated for before they are there, so that an absurd count costs nothing.
+//! Both become a [`PhotometryAsset`]: cd on a complete grid. Texts are UTF-8 or Latin-1; lines end in any way; a byte-order mark and the end-of-file character
+//! of DOS are ignored. Every error states its line. Memory is allocated only for numbers that are present, so an absurd count costs nothing.
 
 mod fields;
 mod ies;
@@ -21,15 +20,15 @@ use etendue_scene::asset::PhotometryAsset;
 use crate::source::{name_notes, read_description_bytes};
 use crate::{Error, ErrorCode, Sandbox, hash};
 
-/// Reads a measured lamp; the kind of file is told by its name.
+/// Reads a measured lamp; the file name determines its kind.
 ///
 /// # Errors
-/// The first fault of the file, with its line.
+/// The first error of the file, with its line.
 pub fn read_photometry(file: &Path) -> Result<PhotometryAsset, Error> {
     read_photometry_in(file, &Sandbox::NONE)
 }
 
-/// The same, whose table of tilts must lie in `sandbox`.
+/// Reads the same; a tilt file must lie in `sandbox`.
 pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<PhotometryAsset, Error> {
     let bytes = read_description_bytes(file, "lamp")?;
     let text = fields::decode(file, &bytes)?;

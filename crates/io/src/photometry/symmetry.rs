@@ -1,11 +1,10 @@
-//! Symmetries written out.
+//! Expansion of symmetries, and check of a lamp's flux.
 //!
-//! The flux of a lamp against what its file says it is.
+//! The flux of a lamp is compared with the flux stated in its file.
 //!
-//! ∫ I dΩ over the grid is exact for what is rendered. An IES file rates the lamps, not the luminaire, so that less
-//! light is the luminaire's light output ratio; EULUMDAT states that ratio. Beyond 2 % a sentence goes to the report.
-//! A lamp that gives more than 3 times what it should, or by EULUMDAT less than a third, has a wrong unit somewhere and
-//! is refused.
+//! ∫ I dΩ over the grid is exact for the rendered intensities. An IES file rates the lamps, not the luminaire, so that less light is the luminaire's light
+//! output ratio; EULUMDAT states that ratio. A difference beyond 2 % is noted in the report. A flux of more than 3 times the stated one, or for EULUMDAT less
+//! than a third, means a wrong unit and is refused.
 
 use std::path::Path;
 
@@ -13,23 +12,23 @@ use etendue_scene::asset::PhotometryAsset;
 
 use crate::{Error, ErrorCode};
 
-/// A plane: its horizontal angle, degrees, and its intensities.
+/// Plane: horizontal angle, degrees, and intensities.
 pub(super) type Plane = (f64, Vec<f64>);
 
-/// How a lamp is told by a part of its planes.
+/// Symmetry by which a part of the planes describes a lamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Symmetry {
-    /// All planes are there.
+    /// None: all planes are present.
     None,
-    /// One plane stands for all.
+    /// Rotational: one plane describes all.
     Round,
-    /// Angle H stands for 360° − H: planes from 0° to 180°.
+    /// Angle H equals 360° − H: planes from 0° to 180°.
     AboutC0,
-    /// Angle H stands for 180° − H: planes from 90° to 270°, or from 270° over 0° to 90°.
+    /// Angle H equals 180° − H: planes from 90° to 270°, or from 270° over 0° to 90°.
     AboutC90,
     /// Both: planes from 0° to 90°.
     Quadrants,
-    /// Angle H stands for −H: planes from 0° on (types A and B).
+    /// Angle H equals −H: planes from 0° on (types A and B).
     LeftRight,
 }
 
@@ -39,7 +38,7 @@ pub(super) fn planes(angles: &[f64], intensities: &[f64]) -> Vec<Plane> {
     angles.iter().copied().zip(intensities.chunks_exact(rows).map(<[f64]>::to_vec)).collect()
 }
 
-/// All planes of type C, 0° and 360° among them, by rising angle.
+/// All planes of type C, 0° and 360° included, by increasing angle.
 pub(super) fn full_turn(file: &Path, planes: Vec<Plane>, symmetry: Symmetry) -> Result<Vec<Plane>, Error> {
     if symmetry == Symmetry::Round {
         return planes
@@ -61,7 +60,7 @@ pub(super) fn full_turn(file: &Path, planes: Vec<Plane>, symmetry: Symmetry) -> 
     Ok(all)
 }
 
-/// Planes of types A and B by rising angle.
+/// Planes of types A and B by increasing angle.
 pub(super) fn fan(planes: Vec<Plane>, symmetry: Symmetry) -> Vec<Plane> {
     let mut all = planes;
     if symmetry == Symmetry::LeftRight {
@@ -76,14 +75,14 @@ fn mirror(planes: &mut Vec<Plane>, image: impl Fn(f64) -> f64) {
     planes.extend(images);
 }
 
-/// By rising angle, each once. −0° is 0°.
+/// Sorts by increasing angle, each once. −0° is 0°.
 fn sort(planes: &mut Vec<Plane>) {
     planes.iter_mut().for_each(|(angle, _)| *angle += 0.0);
     planes.sort_by(|a, b| a.0.total_cmp(&b.0));
     planes.dedup_by(|a, b| a.0 == b.0);
 }
 
-/// Adds 0° and 360°: the same plane, or between the last and the first where neither is there.
+/// Adds 0° and 360°: the same plane, or interpolated between the last and the first if neither is present.
 fn close(planes: &mut Vec<Plane>) {
     let (Some(first), Some(last)) = (planes.first().cloned(), planes.last().cloned()) else { return };
     match (first.0 == 0.0, last.0 == 360.0) {
@@ -99,7 +98,7 @@ fn close(planes: &mut Vec<Plane>) {
     }
 }
 
-/// Refuses a turn with a gap of more than half of it: what lies between was not measured.
+/// Refuses a turn with a gap of more than half of it: that part was not measured.
 fn check_gaps(file: &Path, planes: &[Plane]) -> Result<(), Error> {
     let gap = planes.windows(2).map(|pair| (pair[0].0, pair[1].0)).find(|(a, b)| b - a > 180.0);
     gap.map_or(Ok(()), |(a, b)| {
@@ -110,13 +109,13 @@ fn check_gaps(file: &Path, planes: &[Plane]) -> Result<(), Error> {
     })
 }
 
-/// The greatest difference that is not told: numbers in files have three or four digits, grids have steps of degrees.
+/// Relative difference beyond which a note is written: numbers in files have three or four digits, grids have steps of degrees.
 const TOLD_BEYOND: f64 = 0.02;
 
-/// The greatest ratio of what is found to what is stated, or the other way round.
+/// Maximum ratio of computed to stated flux, or its inverse.
 const ABSURD_BEYOND: f64 = 3.0;
 
-/// Checks, and reports.
+/// Checks the flux, and reports a difference.
 pub(super) fn check(file: &Path, asset: &mut PhotometryAsset) -> Result<(), Error> {
     let flux = asset.flux_lm();
     if flux.is_nan() || flux <= 0.0 {

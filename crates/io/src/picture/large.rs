@@ -1,6 +1,6 @@
-//! Pictures that are not held: their sizes from their heads, their pixels row by row.
+//! Images not held in memory: size from the header, pixels row by row.
 //!
-//! PNG of 8 bits that is not interlaced is decoded a few rows at a time. Other pictures are decoded whole, handed over and dropped.
+//! PNG of 8 bits that is not interlaced is decoded a few rows at a time. Other images are decoded whole, passed on and dropped.
 
 use std::path::{Path, PathBuf};
 use std::{fs::File, io::Cursor, sync::Arc};
@@ -11,10 +11,10 @@ use image::{ImageDecoder as _, ImageReader};
 use super::{EXR_MAGIC, Kept, decode_picture, raster::stored_format};
 use crate::{Error, ErrorCode, error::guarded, hash, source::read_bytes, texture_memory};
 
-/// Pixels that are handed over at a time, about.
+/// Approximate number of pixels passed on at a time.
 const STRIP_PIXELS: usize = 1 << 17;
 
-/// The head of a picture: its size, px, and the format of its pixels.
+/// Image header: size, px, and pixel format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PictureHead {
     pub(crate) width: u32,
@@ -22,7 +22,7 @@ pub(crate) struct PictureHead {
     pub(crate) format: PixelFormat,
 }
 
-/// Reads the head of a picture; `None` where the head cannot be read, which reading the picture explains.
+/// Reads the header of an image; `None` if it cannot be read, which the full reader then explains.
 pub(crate) fn head(file: &Path) -> Option<PictureHead> {
     if !std::fs::metadata(file).ok()?.is_file() {
         return None;
@@ -46,7 +46,7 @@ fn exr_head(file: &Path) -> Option<PictureHead> {
     Some(PictureHead { width: u32::try_from(size.width()).ok()?, height: u32::try_from(size.height()).ok()?, format })
 }
 
-/// What makes the colours of an EXR those of Rec. 709; `None` where they are, and of other pictures.
+/// Matrix from the colours of an EXR to Rec. 709; `None` if they are in it, and for other images.
 fn exr_colours(file: &Path, bytes: &[u8]) -> Result<Option<ColourMatrix>, Error> {
     if !bytes.starts_with(&EXR_MAGIC) {
         return Ok(None);
@@ -69,7 +69,7 @@ fn raster_head(file: &Path) -> Option<PictureHead> {
     (Kept::Stored.bytes(&decoder) <= texture_memory::most(packed)).then_some(PictureHead { width, height, format })
 }
 
-/// A picture whose head has been read.
+/// Large image whose header has been read.
 pub(crate) fn large_picture(file: &Path, head: PictureHead) -> Result<LargeImage, Error> {
     let PictureHead { width, height, format } = head;
     let bytes = read_bytes(file, "picture")?;
@@ -79,7 +79,7 @@ pub(crate) fn large_picture(file: &Path, head: PictureHead) -> Result<LargeImage
     Ok(LargeImage { width, height, format, to_rec_709, hash, rows })
 }
 
-/// A picture in its file.
+/// Image in its file.
 #[derive(Debug)]
 struct PictureFile {
     path: PathBuf,
@@ -103,7 +103,7 @@ impl PixelRows for PictureFile {
             match rows.read(&self.path, take) {
                 Ok(()) => return Ok(()),
                 Err(Stop::Taker(error)) => return Err(error),
-                // What is wrong is told as of any picture.
+                // The error is reported as for any image.
                 Err(Stop::Damaged) => {}
             }
         }
@@ -133,13 +133,13 @@ fn format(pixels: &ImagePixels) -> PixelFormat {
     }
 }
 
-/// Why reading rows ended early.
+/// Reason for an early end of row reading.
 enum Stop {
     Damaged,
     Taker(String),
 }
 
-/// A PNG that can be decoded by rows.
+/// PNG that can be decoded by rows.
 struct PngRows<'a> {
     reader: png::Reader<Cursor<&'a [u8]>>,
     colours: png::ColorType,
@@ -147,10 +147,10 @@ struct PngRows<'a> {
 }
 
 impl<'a> PngRows<'a> {
-    /// `None` of what is no such PNG.
+    /// `None` if it is no such PNG.
     fn new(bytes: &'a [u8], width: u32, height: u32) -> Option<Self> {
         let mut decoder = png::Decoder::new(Cursor::new(bytes));
-        // As the decoder of small pictures does: palettes as colours, less than 8 bits as 8.
+        // As in the decoder of small images: palettes as colours, less than 8 bits as 8.
         decoder.set_transformations(png::Transformations::EXPAND);
         let reader = decoder.read_info().ok()?;
         let (colours, bits) = reader.output_color_type();
@@ -189,7 +189,7 @@ impl<'a> PngRows<'a> {
     }
 }
 
-/// Samples of a byte as pixels; of grey with opacity as of colours.
+/// 8-bit samples as pixels; grey with opacity as colours.
 fn pixels(colours: png::ColorType, samples: &[u8]) -> ImagePixels {
     match colours {
         png::ColorType::Rgb => ImagePixels::Rgb8(samples.as_chunks().0.to_vec()),
@@ -217,7 +217,7 @@ mod tests {
         Ok(all)
     }
 
-    /// Of all strips.
+    /// Pixels of all strips.
     fn joined(strips: &[ImagePixels]) -> ImagePixels {
         let mut all = strips[0].clone();
         for strip in &strips[1..] {

@@ -1,15 +1,15 @@
-//! Pictures: textures and environments.
+//! Images: textures and environments.
 //!
 //! | file | becomes |
 //! | --- | --- |
 //! | PNG, JPEG of 8 bits | bytes as stored |
 //! | grey PNG of 16 bits | numbers as stored |
-//! | other PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; opacity where it is there |
+//! | other PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; with opacity if present |
 //! | Radiance HDR | floats |
-//! | OpenEXR with R, G, B (of its `chromaticities`, Rec. 709 without) or Y, and A where it is there; cube maps are refused | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
+//! | OpenEXR with R, G, B (of its `chromaticities`, Rec. 709 without) or Y, and A if present; cube maps are refused | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
 //!
-//! The kind is told by the first bytes, not by the name. What the numbers mean (sRGB-encoded or linear) is told by the
-//! description that names the file. Numbers that are not finite are refused with their pixel.
+//! The kind is identified by the first bytes, not by the name. The description that names the file states the encoding (sRGB or linear). Non-finite numbers are
+//! refused with their pixel.
 
 mod large;
 mod raster;
@@ -28,15 +28,15 @@ pub(crate) use raster::{Kept, decode_raster};
 /// The first bytes of every OpenEXR file.
 pub(crate) const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
-/// Reads a picture.
+/// Reads an image.
 pub fn read_picture(file: &Path) -> Result<ImageAsset, Error> {
     decode_picture(file, &read_bytes(file, "picture")?)
 }
 
-/// Reads the bytes of `file`.
+/// Decodes the bytes of `file`.
 ///
 /// # Errors
-/// As [`read_picture`] has them.
+/// As [`read_picture`].
 pub fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
     let (width, height, pixels, to_rec_709) = if bytes.starts_with(&EXR_MAGIC) {
         raster::of_exr(file, decode_exr_as_stored(file, bytes)?)?

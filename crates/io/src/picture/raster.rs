@@ -1,4 +1,4 @@
-//! PNG, JPEG and Radiance HDR, and pictures of floats.
+//! Decoder of PNG, JPEG and Radiance HDR, and of float images.
 
 use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;
@@ -9,13 +9,13 @@ use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, Imag
 use crate::exr::{ExrChannel, ExrFile};
 use crate::{Error, ErrorCode, error::guarded, texture_memory};
 
-/// Decodes `bytes` by their first bytes.
+/// Decodes `bytes`, identified by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
     let (_, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", Kept::Stored)?;
     Ok((picture.width(), picture.height(), as_pixels(picture), None))
 }
 
-/// The picture as stored, with its format; a file of none is told that it should be one of `kinds`.
+/// Image as stored, with its format; the error for other files names the supported `kinds`.
 pub(crate) fn decode_raster(
     file: &Path,
     bytes: &[u8],
@@ -49,17 +49,17 @@ fn decode_unguarded(
     Ok((format, DynamicImage::from_decoder(decoder).map_err(explained)?))
 }
 
-/// How the numbers of a picture are kept.
+/// Storage of an image's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kept {
-    /// As pixels of a texture: of 8 bits, grey of 16 bits, else 32-bit floats.
+    /// As texture pixels: 8 bits, grey of 16 bits, else 32-bit floats.
     Stored,
     /// As 32-bit floats.
     Floats,
 }
 
 impl Kept {
-    /// Bytes of a picture that is not yet decoded.
+    /// Bytes of an image before it is decoded.
     pub(crate) fn bytes(self, decoder: &impl ImageDecoder) -> u128 {
         match self {
             Self::Stored => pixels(decoder) * u128::from(stored_format(decoder.color_type()).bytes()),
@@ -75,7 +75,7 @@ fn pixels(decoder: &impl ImageDecoder) -> u128 {
     u128::from(width) * u128::from(height)
 }
 
-/// As what a picture of these colours is kept.
+/// Storage format of an image with this colour type.
 pub(super) fn stored_format(colours: ColorType) -> PixelFormat {
     match colours {
         ColorType::L8 => PixelFormat::Gray8,
@@ -97,7 +97,7 @@ fn explain(cause: &ImageError) -> String {
     }
 }
 
-/// Whether an end marker follows the last scan: the decoder would fill a truncated picture with grey.
+/// Returns true if an end marker follows the last scan: the decoder would fill a truncated image with grey.
 fn jpeg_is_whole(bytes: &[u8]) -> bool {
     let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
     last([0xff, 0xd9]) > last([0xff, 0xda])
@@ -120,29 +120,29 @@ fn as_pixels(picture: DynamicImage) -> ImagePixels {
     }
 }
 
-/// A number of 16 bits as a share of the greatest.
+/// 16-bit number as a fraction of the largest.
 fn share(stored: u16) -> f32 {
     f32::from(stored) / 65_535.0
 }
 
-/// Whether a picture has three or four channels of 8 bits each, as pictures of encoded colours have; of palettes, what they lead to. `false` where its head cannot be
-/// read. `file` names it in messages.
+/// Returns true if an image has three or four channels of 8 bits each, as images of encoded colours have (for palettes: their colours). `false` if its header
+/// cannot be read. `file` names it in messages.
 pub fn has_colours_of_8_bits(file: &Path, bytes: impl BufRead + Seek) -> bool {
     let colours = || Some(ImageReader::new(bytes).with_guessed_format().ok()?.into_decoder().ok()?.color_type());
     let found = guarded(file, || Ok(colours())).ok().flatten();
     matches!(found, Some(ColorType::Rgb8 | ColorType::Rgba8))
 }
 
-/// Width, height, pixels, and what makes their colours those of Rec. 709.
+/// Width, height, pixels, and the matrix from their colours to Rec. 709.
 pub(super) type Picture = (u32, u32, ImagePixels, Option<ColourMatrix>);
 
-/// R, G, B of an EXR file, or Y for all three; with A where it is there.
+/// R, G, B of an EXR file, or Y for all three; with A if present.
 pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
     exr.check_is_no_cube_map(file)?;
     let (width, height) = (size(file, exr.width)?, size(file, exr.height)?);
     let names: Vec<String> = exr.channels.iter().map(|channel| channel.name.clone()).take(8).collect();
     let to_rec_709 = exr.to_rec_709;
-    // What the picture does not need goes before it is put together.
+    // Unused channels are dropped before the image is assembled.
     let mut planes = ["R", "G", "B", "Y", "A"].map(|_| None);
     for ExrChannel { name, samples } in exr.channels {
         let place = ["R", "G", "B", "Y", "A"].iter().position(|wanted| name == *wanted);
@@ -175,7 +175,7 @@ fn size(file: &Path, pixels: usize) -> Result<u32, Error> {
         .map_err(|_| Error::coded(ErrorCode::TooLarge, file, format!("a side of {pixels} pixels is too long")))
 }
 
-/// Refuses the first pixel that is not finite.
+/// Refuses the first non-finite pixel.
 pub(super) fn check_finite(file: &Path, width: u32, pixels: &ImagePixels) -> Result<(), Error> {
     match pixels {
         ImagePixels::Rgb32F(values) => check(file, width, values),

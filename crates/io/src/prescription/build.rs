@@ -1,4 +1,4 @@
-//! What both kinds of file come to: how far a lens opens, and surfaces in their own unit, made into a prescription in mm.
+//! Common result of both file kinds: aperture and surfaces in the file's unit, converted to a prescription in mm.
 
 use std::path::Path;
 
@@ -9,14 +9,14 @@ use etendue_spectra::glass;
 use super::text::Words;
 use crate::Error;
 
-/// An opening, and the line that states it.
+/// Aperture, and the line that states it.
 #[derive(Clone, Copy)]
 pub(super) struct Opening {
     pub(super) stated: LensOpening,
     pub(super) line: usize,
 }
 
-/// No image in air is brighter than that of f/0.5: the numerical aperture is 1 there.
+/// No image in air is brighter than at f/0.5: the numerical aperture is 1 there.
 const FASTEST: f64 = 0.5;
 
 impl Opening {
@@ -60,7 +60,7 @@ impl Opening {
         Self { stated, line: w.line }
     }
 
-    /// An f-number as CODE V means it: that of the image, wherever the object stands.
+    /// f-number as CODE V defines it: that of the image, wherever the object is.
     pub(super) fn of_image(self) -> Self {
         match self.stated {
             LensOpening::FNumber { f_number } => {
@@ -80,28 +80,28 @@ fn wrong(w: &Words<'_>, expected: &str) -> Error {
     w.fault(format!("{} is {}; expected a number {expected}", w.word(0), w.word(1)))
 }
 
-/// A lens as it is read: object and image are surfaces too, lengths in the file's unit.
+/// Lens as read: object and image are surfaces too, lengths in the file's unit.
 #[derive(Default)]
 pub(super) struct Raw {
     pub(super) title: String,
-    /// The file's unit, mm.
+    /// Unit of the file, mm.
     pub(super) unit_mm: Option<f64>,
     pub(super) surfaces: Vec<RawSurface>,
     pub(super) opening: Option<Opening>,
     pub(super) fields: Option<LensFields>,
-    /// By field: how much of the pupil is taken off at its upper and its lower end.
+    /// By field: fraction of the pupil vignetted at its upper and its lower end.
     pub(super) vignetting: [Vec<f64>; 2],
     pub(super) wavelengths_nm: Vec<f64>,
     pub(super) primary: Option<Primary>,
-    /// The image is where the program finds it: the last distance is no statement.
+    /// True if the program computes the image position: the last distance is then not stated.
     pub(super) image_is_found: bool,
     pub(super) notes: Vec<String>,
 }
 
-/// The wavelength of a file's first-order figures.
+/// Wavelength of a file's first-order data.
 #[derive(Clone, Copy)]
 pub(super) struct Primary {
-    /// Its place among the file's wavelengths, from 1.
+    /// Index among the file's wavelengths, from 1.
     number: f64,
     line: usize,
 }
@@ -112,7 +112,7 @@ impl Primary {
         Ok(Self { number: w.number(1)?, line: w.line })
     }
 
-    /// The wavelength, nm; `None` where the file states no wavelengths at all.
+    /// Wavelength, nm; `None` if the file states no wavelengths.
     fn nm(self, file: &Path, wavelengths_nm: &[f64]) -> Result<Option<f64>, Error> {
         let count = wavelengths_nm.len();
         let place = self.number as usize;
@@ -140,12 +140,12 @@ pub(super) struct RawSurface {
     /// Coefficients of r², r⁴ …; `None`: all are 0.
     pub(super) asphere: Option<Box<[f64; ASPHERE_TERMS]>>,
     pub(super) semi_aperture: Option<f64>,
-    /// Whether the opening stops light, and is not a size for drawing.
+    /// True if the clear aperture stops light, and is not only a size for drawing.
     pub(super) rim: bool,
     pub(super) thickness: f64,
     pub(super) glass: GlassAsset,
     pub(super) stop: bool,
-    /// Zemax: whether parameters are coefficients.
+    /// Zemax: true if parameters are coefficients.
     pub(super) aspheric: bool,
 }
 
@@ -175,21 +175,20 @@ impl RawSurface {
     }
 }
 
-/// A glass by the name that a file has for it: hyphens and capitals differ between programs, and a catalogue may follow
-/// after an underscore.
+/// Glass by its name in a file: hyphens and capitals differ between programs, and a catalogue may follow after an underscore.
 pub(super) fn named(name: &str) -> Option<GlassAsset> {
     catalogue_glass(name).map(|name| GlassAsset::Named(name.to_owned()))
 }
 
-/// The catalogue's own name of such a glass.
+/// Catalogue name of such a glass.
 fn catalogue_glass(name: &str) -> Option<&'static str> {
     let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
     let wanted = plain(name.split('_').next().unwrap_or(name));
     glass::catalogue().iter().find(|known| plain(known.name) == wanted).map(|known| known.name)
 }
 
-/// The catalogue glass that took the place of an older one of that name, with its name: Schott's N-SK16 for the lead glass SK16, Ohara's S-LAH66
-/// for LAH66. Of a name with its catalogue (SK16_SCHOTT) that maker's alone.
+/// Catalogue glass that replaced an older one of that name, with its name: Schott's N-SK16 for the lead glass SK16, Ohara's S-LAH66 for LAH66. For a name with
+/// its catalogue (SK16_SCHOTT) only that maker's.
 pub(super) fn successor(name: &str) -> Option<(GlassAsset, String)> {
     let (plain, maker) = name.split_once('_').unwrap_or((name, ""));
     let prefixes: &[&str] = match maker.to_ascii_uppercase().as_str() {
@@ -201,7 +200,7 @@ pub(super) fn successor(name: &str) -> Option<(GlassAsset, String)> {
     Some((GlassAsset::Named(found.to_owned()), found.to_owned()))
 }
 
-/// A glass by its number: digits of n_d − 1, then those of V_d, as six digits or parted by a point.
+/// Glass by its number: digits of n_d − 1, then those of V_d, as six digits or separated by a point.
 pub(super) fn by_number(text: &str) -> Option<GlassAsset> {
     let (index, abbe) = text.split_once('.').or_else(|| (text.len() == 6).then(|| text.split_at_checked(3))?)?;
     let digits = |part: &str| part.len() >= 3 && part.bytes().all(|b| b.is_ascii_digit());
@@ -211,7 +210,7 @@ pub(super) fn by_number(text: &str) -> Option<GlassAsset> {
 }
 
 impl Raw {
-    /// Scales every length as it stands.
+    /// Scales every length.
     pub(super) fn scale(&mut self, factor: f64) {
         for surface in &mut self.surfaces {
             surface.curvature /= factor;
@@ -223,7 +222,7 @@ impl Raw {
         self.fields = self.fields.take().map(|fields| scaled_fields(fields, factor));
     }
 
-    /// The prescription of at least object, one surface and image.
+    /// Converts at least an object, one surface and an image to a prescription.
     pub(super) fn finish(mut self, file: &Path) -> Result<PrescriptionAsset, Error> {
         let unit = self.unit_mm.unwrap_or(1.0);
         let [object, surfaces @ .., image] = &self.surfaces[..] else {
@@ -262,7 +261,7 @@ impl Raw {
     }
 }
 
-/// Refuses a cone of light from an object that has none.
+/// Refuses a cone of light from an object at infinity.
 fn near_enough(file: &Path, opening: Opening, object_distance_mm: f64) -> Result<(), Error> {
     let near = object_distance_mm.is_finite() && object_distance_mm > 0.0;
     match opening.stated {
@@ -276,7 +275,7 @@ fn near_enough(file: &Path, opening: Opening, object_distance_mm: f64) -> Result
     }
 }
 
-/// Takes a mask in the image plane off, and says so: no plane stands in the sensor's.
+/// Removes a mask in the image plane, with a note: no plane may coincide with the sensor.
 fn without_image_mask(surfaces: &mut Vec<SurfaceAsset>) -> Option<String> {
     let [.., before, last] = &surfaces[..] else { return None };
     let mask = last.glass == before.glass && !last.stop && last.thickness_mm == 0.0;
@@ -284,8 +283,8 @@ fn without_image_mask(surfaces: &mut Vec<SurfaceAsset>) -> Option<String> {
     Some(format!("line {}: an aperture in the image plane is not modelled; it would limit the field", last.line))
 }
 
-/// Surfaces in mm without those that do nothing, and the distance from the first of all to the first of them. A surface that does not refract
-/// stays where it is the stop or has a rim: a baffle, a field stop.
+/// Surfaces in mm without those that have no effect, and the distance from the first of all to the first of them. A non-refracting surface stays if it is the
+/// stop or has a clear aperture: a baffle, a field stop.
 fn kept(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
     let (mut before_mm, mut list) = (0.0, Vec::<SurfaceAsset>::new());
     let mut before = GlassAsset::Air;
@@ -315,7 +314,7 @@ fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
     }
 }
 
-/// Coefficients of r², r⁴ … of a surface enlarged by a factor: αᵢ has the unit of length to the 1 − 2i.
+/// Coefficients of r², r⁴ … of a surface enlarged by a factor: αᵢ has the unit of length to the power 1 − 2i.
 fn scaled_asphere(terms: [f64; ASPHERE_TERMS], factor: f64) -> [f64; ASPHERE_TERMS] {
     let mut power = 1.0;
     terms.map(|a| {

@@ -5,8 +5,8 @@
 //! | `.zmx` (Zemax, UTF-8 or UTF-16) | UNIT, SURF, TYPE STANDARD and EVENASPH, CURV, CONI, PARM, DISZ, GLAS (catalogue, number, model, picked up; else by its successor, else by its n_d and V_d), DIAM, CLAP, STOP, ENPD, FNUM, OBNA, FLOA, FTYP, YFLN, WAVM, PWAV | mirrors, other surfaces, tilts, other apertures, working f-numbers, non-sequential parts |
 //! | `.seq` (CODE V) | RDM, DIM, S, SO, SI, RDY, CUY, THI, GLA, STO, K, A–H, J, CIR (of the current surface or of named ones), SCA, EPD, FNO, NA, NAO, PIM, PRV, WL, REF, YAN, YOB, YIM, VUY, VLY, TITLE | mirrors, tilts and decentres, other surface forms, zooms, solves of named surfaces, surfaces inserted or deleted |
 //!
-//! Both become a [`PrescriptionAsset`] in mm. What else these files hold (tolerances, plots, solves, merit functions) says
-//! nothing about the lens as it stands and is passed over. Nothing of the programs is run.
+//! Both become a [`PrescriptionAsset`] in mm. Other content (tolerances, plots, solves, merit functions) does not describe the lens itself and is ignored. No
+//! program of the files is run.
 
 mod build;
 mod private;
@@ -22,10 +22,10 @@ use etendue_scene::asset::PrescriptionAsset;
 use crate::source::{decode_lens_text, read_description_bytes};
 use crate::{Error, ErrorCode, hash};
 
-/// Reads a prescription; the kind of file is told by its name.
+/// Reads a prescription; the file name determines its kind.
 ///
 /// # Errors
-/// The first fault of the file, with its line.
+/// The first error of the file, with its line.
 pub fn read_prescription(file: &Path) -> Result<PrescriptionAsset, Error> {
     let bytes = read_description_bytes(file, "lens")?;
     let text = decode_lens_text(file, &bytes)?;

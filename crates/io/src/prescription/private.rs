@@ -7,8 +7,8 @@
 //! END
 //! ```
 //!
-//! PWL gives wavelengths in nm, a line beneath it a glass with its index at each. The glass becomes one of n_d and V_d: those of Cauchy's
-//! n = A + B/λ² (+ C/λ⁴) through its first, middle and last index; one index is a medium without dispersion.
+//! PWL gives wavelengths in nm; a line below it gives a glass with its index at each. The glass becomes one of n_d and V_d: those of Cauchy's n = A + B/λ² (+
+//! C/λ⁴) through its first, middle and last index; one index is a medium without dispersion.
 
 use etendue_scene::asset::GlassAsset;
 use etendue_spectra::glass::{Dispersion, LINE_D_NM};
@@ -16,7 +16,7 @@ use etendue_spectra::glass::{Dispersion, LINE_D_NM};
 use super::text::Words;
 use crate::Error;
 
-/// The private glasses of a file, as far as it is read.
+/// Private glasses of a file, as far as it is read.
 #[derive(Default)]
 pub(super) struct PrivateGlasses {
     inside: bool,
@@ -25,7 +25,7 @@ pub(super) struct PrivateGlasses {
 }
 
 impl PrivateGlasses {
-    /// Takes a command of a private catalogue; false for others.
+    /// Handles a command of a private catalogue; returns false for others.
     pub(super) fn reads(&mut self, w: &Words<'_>) -> Result<bool, Error> {
         match w.word(0).to_ascii_uppercase().as_str() {
             "PRV" => self.inside = true,
@@ -67,14 +67,14 @@ fn plain(name: &str) -> String {
     name.trim_matches(['\'', '"']).to_ascii_uppercase()
 }
 
-/// A refractive index at a wavelength.
+/// Refractive index at a wavelength.
 #[derive(Clone, Copy, PartialEq)]
 struct IndexSample {
     nm: f64,
     index: f64,
 }
 
-/// Cauchy's curve through three points, or through two where the middle one is an end.
+/// Cauchy's curve through three points, or through two if the middle one is an end.
 fn cauchy(a: IndexSample, m: IndexSample, b: IndexSample) -> Option<Dispersion> {
     let x = |point: IndexSample| 1e6 / (point.nm * point.nm);
     let slope = |p: IndexSample, q: IndexSample| (q.index - p.index) / (x(q) - x(p));

@@ -1,15 +1,13 @@
 //! CODE V sequence files.
 //!
-//! Commands stand one a line or are parted by semicolons; `!` begins a comment, `&` at a line's end continues it. S gives
-//! radius (in radius mode), thickness and glass of the next surface, SO those of the object, SI of the image; what follows
-//! belongs to the last of them. A glass is a catalogue name, perhaps with its catalogue after an underscore, or a number:
-//! `517642` and `516800.641673` are n_d = 1.517 (1.5168) and V_d = 64.2 (64.1673); or it is of the file's own private
-//! catalogue (PRV … END). FNO and NA are those of the image, wherever the object stands (as rayoptics reads them). A … H and J are the
+//! There is one command per line, or several separated by semicolons; `!` begins a comment, `&` at a line's end continues it. S gives radius (in radius mode),
+//! thickness and glass of the next surface, SO those of the object, SI of the image; later commands apply to the last of them. A glass is a catalogue name,
+//! optionally with its catalogue after an underscore, or a number: `517642` and `516800.641673` are n_d = 1.517 (1.5168) and V_d = 64.2 (64.1673); or it is
+//! from the file's own private catalogue (PRV … END). FNO and NA are those of the image, wherever the object is (as in rayoptics). A … H and J are the
 //! coefficients of r⁴ … r²⁰. The thickness of SI is a defocus; PIM leaves the image to be found. REF counts the wavelengths of WL.
 //!
-//! What a command changes it changes from its line on: a surface that is named (`RDY S1 25`, `THI S2..4 8`, `S3 25 8`; see `seq_edit.rs`), or the
-//! whole lens as it stands there (`SCA 2`). Commands that would change the lens in a way that is not modelled are refused with their line; those
-//! that are not known here are noted.
+//! A command takes effect from its line on, on a named surface (`RDY S1 25`, `THI S2..4 8`, `S3 25 8`; see `seq_edit.rs`), or on the whole lens as defined
+//! there (`SCA 2`). Commands that would change the lens in a way that is not modelled are refused with their line; unknown ones are noted.
 
 use std::path::Path;
 
@@ -19,15 +17,14 @@ use super::build::{Opening, Primary, Raw, RawSurface, by_number, named, successo
 use super::{private::PrivateGlasses, text::Words};
 use crate::{Error, ErrorCode};
 
-/// Commands that change the lens in a way that is not modelled.
+/// Commands that change the lens in an unsupported way.
 const REFUSED: &[&str] = &[
     "XDE", "YDE", "ZDE", "ADE", "BDE", "CDE", "DAR", "BEN", "REV", "RET", "GRT", "DIF", "HOE", "SPS", "XTO", "YTO",
     "CYL", "AAS", "ZOO", "NSS", "REFL", "GRX", "DOE", "REX", "REY", "ELX", "ELY", "ADX", "ADY", "ARO", "RDX", "CUX",
     "KX", "RMD", "INS", "DEL", "COP", "FLI", "UDS", "XYP", "ZRN", "ZFR", "SPL", "TOR", "GRN",
 ];
 
-/// Commands that leave the lens as it stands: weights and variables of optimisation, labels, the form of surfaces that their terms tell, and the end
-/// of input.
+/// Commands without an effect on the lens: weights and variables of optimisation, labels, surface forms that follow from their terms, and the end of input.
 const PASSED_OVER: &[&str] = &[
     "GO", "LEN", "INI", "SLB", "DDM", "UID", "CCY", "CCX", "THC", "GLC", "KC", "AC", "BC", "CC", "DC", "EC", "FC",
     "GC", "HC", "JC", "ASP", "SPH", "CON", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "HIN", "EVA", "CA", "END",
@@ -44,7 +41,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> 
     reader.finish(file)
 }
 
-/// Commands with the line each begins at.
+/// Commands, with the line on which each begins.
 fn commands(text: &str) -> Vec<(usize, String)> {
     let mut list: Vec<(usize, String)> = Vec::new();
     let mut continued = false;
@@ -65,7 +62,7 @@ fn commands(text: &str) -> Vec<(usize, String)> {
     list
 }
 
-/// Words of a command; a quoted text is one word, with its first quote.
+/// Words of a command; a quoted text is one word, including its first quote.
 fn words(command: &str) -> Vec<&str> {
     let mut words = Vec::new();
     let mut rest = command.trim();
@@ -85,13 +82,13 @@ fn words(command: &str) -> Vec<&str> {
 pub(super) struct Reader {
     pub(super) raw: Raw,
     glasses: PrivateGlasses,
-    /// Whether S lines give radii (RDM) or curvatures.
+    /// True if S lines give radii (RDM), false for curvatures.
     radii: Option<bool>,
-    /// The surface that commands without a surface are about.
+    /// Surface that commands without a surface apply to.
     pub(super) current: usize,
-    /// Whether the image has been given.
+    /// True once the image is given.
     pub(super) has_image: bool,
-    /// Commands that are not known here, with their lines.
+    /// Unknown commands, with their lines.
     unknown: Vec<(String, usize)>,
 }
 
@@ -151,7 +148,7 @@ impl Reader {
         Ok(())
     }
 
-    /// `SCA 2`: lengths as they stand at this line.
+    /// `SCA 2`: scales the lengths defined before this line.
     fn scale(&mut self, w: &Words<'_>) -> Result<(), Error> {
         let factor = w.word(1).parse::<f64>().ok().filter(|factor| factor.is_finite() && *factor > 0.0);
         match factor {
@@ -166,7 +163,7 @@ impl Reader {
         }
     }
 
-    /// S, SO, SI or S3: the next surface, or one that stands there already.
+    /// S, SO, SI or S3: the next surface, or an existing one.
     fn surface(&mut self, name: &str, w: &Words<'_>) -> Result<(), Error> {
         let count = self.raw.surfaces.len();
         let place = match name {
@@ -247,7 +244,7 @@ fn unit(w: &Words<'_>) -> Result<f64, Error> {
     }
 }
 
-/// A distance; CODE V writes 1e13 for an infinite one.
+/// Distance; CODE V writes 1e13 for an infinite one.
 pub(super) fn thickness(value: f64) -> f64 {
     if value.abs() >= 1e10 { f64::INFINITY } else { value }
 }

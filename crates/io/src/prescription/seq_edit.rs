@@ -1,7 +1,7 @@
-//! What CODE V commands say of one surface or of several: of the current one, or of those that they name (`RDY S1 25`, `CIR S2..4 6`).
+//! CODE V commands for surfaces: the current one, or those that they name (`RDY S1 25`, `CIR S2..4 6`).
 //!
-//! SO is the object, SI the image, SA all between them. A solve (`CUY UMY -0.1`) of the current surface leaves the value that its line states, and
-//! is noted; one of a named surface is refused, as that value may be another.
+//! SO is the object, SI the image, SA all between them. A solve (`CUY UMY -0.1`) of the current surface leaves the value that its line states, and is noted; a
+//! solve of a named surface is refused, as its value may differ.
 
 use core::ops::RangeInclusive;
 
@@ -9,7 +9,7 @@ use super::seq::{Reader, is_count, thickness};
 use super::{build::RawSurface, text::Words};
 use crate::{Error, ErrorCode};
 
-/// The surfaces that a command is about, and the place of its first value.
+/// Surfaces of a command, and the index of its first value.
 struct Target {
     surfaces: RangeInclusive<usize>,
     named: bool,
@@ -17,7 +17,7 @@ struct Target {
 }
 
 impl Reader {
-    /// Takes a command about surfaces; false for others.
+    /// Handles a command about surfaces; returns false for others.
     pub(super) fn edit(&mut self, name: &str, w: &Words<'_>) -> Result<bool, Error> {
         let known = ["RDY", "CUY", "THI", "GLA", "CIR", "STO", "K"].contains(&name) || order(name).is_some();
         if !known {
@@ -56,7 +56,7 @@ impl Reader {
                 .fault(format!("{name} of a zoom position: zooms are not modelled"))
                 .with_code(ErrorCode::UnsupportedFile));
         }
-        // A glass may have a name like that of a surface.
+        // A glass may have the name of a surface.
         let lone_glass = name == "GLA" && w.words.len() == 2;
         match Named::parse(w.word(1)).filter(|_| !lone_glass) {
             Some(named) => {
@@ -97,7 +97,7 @@ impl Named {
         }
     }
 
-    /// Their places in the list; `None` where they are not there.
+    /// Indices in the list; `None` if they do not exist.
     fn places(&self, count: usize, has_image: bool) -> Option<RangeInclusive<usize>> {
         let (first, last) = match *self {
             Self::Object => (0, 0),
@@ -110,7 +110,7 @@ impl Named {
     }
 }
 
-/// The place of a coefficient in the list of r², r⁴ …: A is r⁴, H r¹⁸ and J r²⁰.
+/// Index of a coefficient in the list of r², r⁴ …: A is r⁴, H r¹⁸ and J r²⁰.
 fn order(name: &str) -> Option<usize> {
     ["A", "B", "C", "D", "E", "F", "G", "H", "J"].iter().position(|letter| *letter == name).map(|place| place + 1)
 }

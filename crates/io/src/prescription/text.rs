@@ -1,10 +1,10 @@
-//! Lines of lens files, and numbers in them.
+//! Lines of lens files, and their numbers.
 
 use std::path::Path;
 
 use crate::{Error, Problem};
 
-/// A line's command: where it stands, and its words.
+/// Command of a line: place and words.
 pub(super) struct Words<'a> {
     pub(super) file: &'a Path,
     pub(super) line: usize,
@@ -16,12 +16,12 @@ impl Words<'_> {
         Error::at(self.file, self.line, what)
     }
 
-    /// The word at a place, from 0; empty where there is none.
+    /// Word at an index, from 0; empty if there is none.
     pub(super) fn word(&self, place: usize) -> &str {
         self.words.get(place).copied().unwrap_or("")
     }
 
-    /// The finite number at a place.
+    /// Finite number at an index.
     pub(super) fn number(&self, place: usize) -> Result<f64, Error> {
         let number = self.word(place).parse::<f64>().ok().filter(|n| n.is_finite());
         number.ok_or_else(|| {
@@ -30,7 +30,7 @@ impl Words<'_> {
         })
     }
 
-    /// All numbers from a place on.
+    /// All numbers from an index on.
     pub(super) fn numbers(&self, from: usize) -> Result<Vec<f64>, Error> {
         (from..self.words.len()).map(|place| self.number(place)).collect()
     }

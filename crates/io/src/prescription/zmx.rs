@@ -1,16 +1,16 @@
 //! Zemax lens files.
 //!
-//! A line is a keyword and its values; those of a surface follow its SURF. GLAS names a catalogue glass, or (second value 1)
-//! gives index and Abbe number of a model glass. PARM i of an EVENASPH is the coefficient of r²ⁱ. FTYP holds the kind of
-//! field and the numbers of fields and wavelengths, for YFLN and WAVM are filled up. PWAV counts the wavelengths.
+//! A line is a keyword and its values; those of a surface follow its SURF. GLAS names a catalogue glass, or (second value 1) gives index and Abbe number of a
+//! model glass. PARM i of an EVENASPH is the coefficient of r²ⁱ. FTYP holds the kind of field and the numbers of fields and wavelengths, as YFLN and WAVM are
+//! padded. PWAV counts the wavelengths.
 //!
-//! GLAS lines of Zemax files.
+//! Glasses are those of GLAS lines.
 //!
-//! `GLAS name mode surface n_d V_d …`: mode 0 names a glass of a catalogue, 1 is a model glass of n_d and V_d, 2 picks the glass of an
-//! earlier surface up. With mode 0 the two numbers mean nothing: Zemax writes 1.5 and 40, or leaves those of the model glass that stood there
-//! before. A glass of mode 0 is therefore, in this order, a catalogue glass of that name, a glass by its number (517642), the catalogue's
-//! successor of that name (N-SK2 for SK2, S-LAH66 for LAH66; noted), and only then n_d and V_d of its line (noted). Of these two numbers
-//! one name has one pair in a file: another pair shows that one of them is left over, and is refused.
+//! `GLAS name mode surface n_d V_d …`: mode 0 names a glass of a catalogue, 1 is a model glass of n_d and V_d, 2 picks up the glass of an earlier surface. With
+//! mode 0 the two numbers are meaningless: Zemax writes 1.5 and 40, or leaves those of an earlier model glass. A glass of mode 0 is therefore, in this order, a
+//! catalogue glass of that name, a glass by its number (517642), the catalogue's successor of that name (N-SK2 for SK2, S-LAH66 for LAH66; noted), and only
+//! then n_d and V_d of its line (noted). A name must have one pair of these numbers in a file: a second pair shows that one of them is a leftover, and is
+//! refused.
 
 use std::{collections::BTreeSet, path::Path};
 
@@ -43,8 +43,8 @@ struct Reader {
     unknown: BTreeSet<String>,
 }
 
-/// Keywords of a surface, which are indented below its SURF: those that are read, and those without an effect on images: of drawing (HIDE, MIRR, SLAB,
-/// COMM), propagation by diffraction (POPS), mounting (MEMA, OEMA, FIMP) and search (MAZH).
+/// Keywords of a surface, indented below its SURF: those that are read, and those without an effect on images: drawing (HIDE, MIRR, SLAB, COMM), propagation by
+/// diffraction (POPS), mounting (MEMA, OEMA, FIMP) and search (MAZH).
 const SURFACE_KEYWORDS: [&str; 26] = [
     "TYPE", "CURV", "CONI", "PARM", "DISZ", "CLAP", "FLAP", "DIAM", "STOP", "OBDC", "GLAS", "SQAP", "ELAP", "OBSC",
     "SQOB", "ELOB", "UDAD", "COMM", "HIDE", "MIRR", "SLAB", "POPS", "FIMP", "MEMA", "OEMA", "MAZH",
@@ -165,7 +165,7 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         // A STANDARD surface has no parameters.
         "PARM" if surface.aspheric => coefficient(surface, w)?,
         "DISZ" => surface.thickness = if w.word(1) == "INFINITY" { f64::INFINITY } else { w.number(1)? },
-        // A clear aperture overrides the diameter that the program keeps for drawing.
+        // A clear aperture overrides the diameter for drawing.
         "CLAP" if w.number(1)? != 0.0 => {
             return Err(w
                 .fault("an obscuration; only round, open apertures are modelled")
@@ -187,12 +187,12 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Micrometres in nm, to the digits that files have.
+/// Micrometres in nm, to the precision of files.
 fn nanometres(um: f64) -> f64 {
     (1e9 * um).round() / 1e6
 }
 
-/// Parameters of an EVENASPH that are coefficients.
+/// Number of parameters of an EVENASPH that are coefficients.
 const EVEN_TERMS: f64 = 8.0;
 
 fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
@@ -205,7 +205,7 @@ fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// How far the lens opens; `None` where the stop's own size says it (FLOA).
+/// Aperture of the lens; `None` if the stop's own size defines it (FLOA).
 fn opening(w: &Words<'_>) -> Result<Option<Opening>, Error> {
     match (w.word(0), w.word(2)) {
         ("ENPD", _) => Opening::pupil(w).map(Some),
@@ -219,12 +219,12 @@ fn opening(w: &Words<'_>) -> Result<Option<Opening>, Error> {
     }
 }
 
-/// What Zemax writes where the numbers of a glass stand in a catalogue.
+/// Numbers that Zemax writes for a glass of a catalogue.
 const CATALOGUE_NUMBERS: [f64; 2] = [1.5, 40.0];
-/// Half a unit of the last digit to which catalogues round n_d and V_d at least.
+/// Half a unit of the last digit of the coarsest catalogue values of n_d and V_d.
 const ROUNDING: [f64; 2] = [5e-5, 0.05];
 
-/// The glasses of a file that are known by the numbers of their lines.
+/// Glasses of a file defined by the numbers of their lines.
 #[derive(Default)]
 pub(super) struct Glasses {
     by_line: Vec<GlassOfLine>,
@@ -237,7 +237,7 @@ struct GlassOfLine {
 }
 
 impl Glasses {
-    /// The glass of a GLAS line, and what is to be said of it.
+    /// Glass of a GLAS line, and a note on it.
     pub(super) fn read(
         &mut self,
         w: &Words<'_>,
@@ -300,7 +300,7 @@ impl Glasses {
     }
 }
 
-/// n_d and V_d of a line, where they are those of a glass and not Zemax's fill.
+/// n_d and V_d of a line, if they are those of a glass and not Zemax's placeholder.
 fn own_numbers(w: &Words<'_>) -> Option<[f64; 2]> {
     let numbers = [w.number(4).ok()?, w.number(5).ok()?];
     (numbers[0] > 1.0 && numbers[1] > 0.0 && numbers != CATALOGUE_NUMBERS).then_some(numbers)

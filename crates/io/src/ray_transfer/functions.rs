@@ -1,22 +1,22 @@
-//! The functions of one wavelength.
+//! Ray-transfer functions of one wavelength.
 
 use etendue_scene::asset::{PassAsset, TermAsset, TransferAsset};
 
 use crate::ErrorCode;
 use crate::tree::{Fault, Node, Read, passed_over};
 
-/// The highest power that is read, and the most terms of a polynomial.
+/// Maximum power, and maximum number of terms of a polynomial.
 const MAX_POWER: u8 = 32;
 const MAX_TERMS: usize = 20_000;
 
 const OUTPUTS: [&[&str]; 6] =
     [&["outx"], &["outy"], &["outz"], &["outdx", "outu"], &["outdy", "outv"], &["outdz", "outw"]];
 
-/// What the functions know beyond the keys that are used.
+/// Keys of the functions that are used.
 const USED: [&str; 7] =
     ["wavelength_nm", "passnopass", "raypass", "circleRadii", "circleSensitivities", "circlePlaneZ", "poly"];
 
-/// The functions, and what was passed over.
+/// Functions, and the ignored keys.
 pub(super) fn read(node: &Node, output_offset_mm: f64, with_dz: bool) -> Read<(TransferAsset, Vec<String>)> {
     let wavelength = node.key("wavelength_nm")?;
     let wavelength_nm = wavelength.number()?;
@@ -86,7 +86,7 @@ fn powers(node: &Node) -> Read<Vec<u8>> {
     node.numbers()?.into_iter().map(power).collect()
 }
 
-/// The plane of what passes, and the region.
+/// Plane of the ray-pass function, and the region.
 fn pass(node: &Node) -> Read<(f64, PassAsset)> {
     let Some(pass) = node.find("raypass").or_else(|| node.find("passnopass")) else {
         let (radii, sensitivities) = (node.key("circleRadii")?, node.key("circleSensitivities")?);
@@ -105,7 +105,7 @@ fn pass(node: &Node) -> Read<(f64, PassAsset)> {
     }
 }
 
-/// Ellipses or circles of a wavelength at most: some ten times what files have.
+/// Maximum ellipses or circles per wavelength: some ten times the number in real files.
 const MAX_REGIONS: usize = 4096;
 
 fn ellipses(pass: &Node) -> Read<PassAsset> {

@@ -5,14 +5,14 @@
 //! | key | is |
 //! | --- | --- |
 //! | `thickness`, `planeoffsetinput`, `planeoffsetoutput` | mm; `planeoffset` of older files is both offsets |
-//! | `useDZpolynomial` | whether the sign of dz is that of `outdz`; otherwise all rays go forwards |
-//! | `polynomials` | one a wavelength |
+//! | `useDZpolynomial` | true if the sign of dz is that of `outdz`; otherwise all rays travel forwards |
+//! | `polynomials` | one per wavelength |
 //! | `wavelength_nm` | nm |
-//! | `passnopass` or `raypass` | what passes, by its `method`: `minimalellipse` (`positions`, `radiiX`, `radiiY`, `centersX`, `centersY`) or `circles` (`radii`, `sensitivities`), and `intersectPlaneDistance` |
+//! | `passnopass` or `raypass` | the ray-pass function, by its `method`: `minimalellipse` (`positions`, `radiiX`, `radiiY`, `centersX`, `centersY`) or `circles` (`radii`, `sensitivities`), and `intersectPlaneDistance` |
 //! | `circleRadii`, `circleSensitivities`, `circlePlaneZ` | circles in older files |
 //! | `poly` | `outputname` (`outx`, `outy`, `outz`, `outdx` or `outu`, `outdy` or `outv`, `outdz` or `outw`), `coeff` and its powers `termr`, `termdx` or `termu`, `termdy` or `termv` |
 //!
-//! Without `outz` rays leave from the output plane. Other keys are passed over, and the notes name them.
+//! Without `outz` rays leave from the output plane. Other keys are ignored, and the notes name them.
 
 mod functions;
 
@@ -35,13 +35,13 @@ const KEYS: [&str; 8] = [
     "polynomials",
 ];
 
-/// Wavelengths of a file at most: some hundred times what files have.
+/// Maximum wavelengths of a file: some hundred times the number in real files.
 const MAX_WAVELENGTHS: usize = 512;
 
 /// Reads a ray-transfer file.
 ///
 /// # Errors
-/// The first fault of the file, with its line.
+/// The first error of the file, with its line.
 pub fn read_ray_transfer(file: &Path) -> Result<RayTransferAsset, Error> {
     let bytes = read_description_bytes(file, "ray-transfer")?;
     let text = decode_text(file, &bytes)?;
@@ -57,7 +57,7 @@ fn read(text: &str) -> Read<RayTransferAsset> {
     let with_dz = root.find("useDZpolynomial").map_or(Ok(false), flag)?;
     let polynomials = root.key("polynomials")?;
     let mut notes = passed_over(&root.others(&KEYS));
-    // A list of one is written as its only item by some programs.
+    // Some programs write a list of one as its only item.
     let items = polynomials.items().unwrap_or(std::slice::from_ref(polynomials));
     let read = |node: &Node| functions::read(node, output_offset_mm, with_dz);
     let mut transfers = items.iter().map(read).collect::<Read<Vec<_>>>()?;

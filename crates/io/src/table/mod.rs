@@ -1,13 +1,12 @@
-//! Tables of materials: CSV, `#` comments, blank lines and header lines allowed where told; decimal points.
+//! Tables of materials: CSV, `#` comments, blank lines and header lines allowed where stated; decimal points.
 //!
-//! **Refractive indices**: three columns, wavelength in nm (rising, each once), n (above 0), k (0 or more), divided by
-//! commas or blanks; one header line may come first.
+//! **Refractive indices**: three columns, wavelength in nm (increasing, each once), n (above 0), k (0 or more), separated by commas or blanks; one header line
+//! may come first.
 //!
 //! **Numbers** (tone curves, maps of defects, grids of gains): rows of equal length; one header line may come first.
 //!
-//! **Coefficients of retro-reflection**: the first row holds the entrance angles β (degrees, rising, 0 … 90) behind one
-//! word of any kind; each further row an observation angle α (degrees, rising, 0 … 180) and R_A (cd·lx⁻¹·m⁻², 0 or
-//! more) for each β:
+//! **Coefficients of retro-reflection**: the first row holds the entrance angles β (degrees, increasing, 0 … 90) after one arbitrary word; each further row an
+//! observation angle α (degrees, increasing, 0 … 180) and R_A (cd·lx⁻¹·m⁻², 0 or more) for each β:
 //!
 //! ```text
 //! observation_deg \ entrance_deg, 5, 30, 40
@@ -25,7 +24,7 @@ use crate::{Error, ErrorCode, hash};
 /// Reads a table of n and k.
 ///
 /// # Errors
-/// The first fault, with its line.
+/// The first error, with its line.
 pub fn read_complex_index(file: &Path) -> Result<ComplexIndexAsset, Error> {
     let bytes = read_bytes(file, "refractive index")?;
     let mut points: Vec<(f64, f64, f64)> = Vec::new();
@@ -65,7 +64,7 @@ fn index_of(row: &Row<'_>, before: Option<f64>) -> Result<(f64, f64, f64), Strin
 /// Reads a table of R_A.
 ///
 /// # Errors
-/// The first fault, with its line.
+/// The first error, with its line.
 pub fn read_retro_table(file: &Path) -> Result<RetroTableAsset, Error> {
     let bytes = read_bytes(file, "retro-reflection")?;
     let mut rows = rows(decode_text(file, &bytes)?);
@@ -122,7 +121,7 @@ fn angle(cell: &str, which: &str, most: f64, before: Option<&f64>) -> Result<f64
 /// Reads a table of numbers: rows of equal length; one header line may come first.
 ///
 /// # Errors
-/// The first fault, with its line.
+/// The first error, with its line.
 pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
     let bytes = read_bytes(file, "numbers")?;
     let mut table = NumbersAsset { hash: hash::of_bytes(&bytes), ..NumbersAsset::default() };
@@ -145,9 +144,9 @@ pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
     }
 }
 
-/// A row that holds something.
+/// Non-empty row.
 pub(crate) struct Row<'a> {
-    /// Counted from 1.
+    /// Line, counted from 1.
     pub(crate) line: usize,
     pub(crate) cells: Vec<&'a str>,
 }
@@ -159,7 +158,7 @@ impl Row<'_> {
     }
 }
 
-/// Rows that are no comment. Cells are divided by commas, or else by blanks.
+/// Rows that are not comments. Cells are separated by commas, or else by blanks.
 pub(crate) fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
     text.lines().enumerate().filter_map(|(index, line)| {
         let content = line.split('#').next().unwrap_or_default().trim();

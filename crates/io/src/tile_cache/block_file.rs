@@ -1,4 +1,4 @@
-//! A file of blocks: its head, its checksums, and how it is read and written.
+//! File of blocks: header, checksums, reading and writing.
 
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Seek as _, SeekFrom, Write as _};
@@ -11,7 +11,7 @@ use etendue_core::storage::{BlockKey, BlockWriter, Blocks, Fill};
 /// Odd, with as many ones as zeros: 2⁶⁴ divided by the golden ratio (Knuth, The Art of Computer Programming, 6.4).
 const MULTIPLIER: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// The checksum of bytes: words of eight bytes, each mixed into the sum by a multiplication. Any change within one word changes it.
+/// Checksum of bytes: words of eight bytes, each mixed into the sum by a multiplication. Any change within one word changes it.
 pub(super) fn of(bytes: &[u8]) -> u64 {
     let (words, rest) = bytes.as_chunks::<8>();
     let mut last = [0; 8];
@@ -20,7 +20,7 @@ pub(super) fn of(bytes: &[u8]) -> u64 {
     mixed(sum, last)
 }
 
-/// One-to-one in the word for a given sum, and in the sum for a given word.
+/// Bijective in the word for a given sum, and in the sum for a given word.
 fn mixed(sum: u64, word: [u8; 8]) -> u64 {
     let product = (sum ^ u64::from_le_bytes(word)).wrapping_mul(MULTIPLIER);
     product ^ (product >> 32)
@@ -33,7 +33,7 @@ const VERSION: u32 = 1;
 /// Bytes before the checksums of the blocks.
 pub(super) const HEAD_BYTES: usize = 56;
 
-/// The head of a file, whose blocks have these checksums.
+/// Header of a file with these checksums of blocks.
 pub(super) fn head(key: &BlockKey, checksums: &[u64]) -> Vec<u8> {
     let mut head = Vec::with_capacity(HEAD_BYTES + 8 * checksums.len());
     head.extend_from_slice(MAGIC);
@@ -47,12 +47,12 @@ pub(super) fn head(key: &BlockKey, checksums: &[u64]) -> Vec<u8> {
     head
 }
 
-/// Bytes of a file of blocks of these lengths.
+/// Bytes of a file with blocks of these lengths.
 pub(super) fn bytes(lengths: &[u32]) -> u64 {
     offsets(lengths).last().copied().unwrap_or_default()
 }
 
-/// Where each block begins, and where the last ends.
+/// Offset of each block, and the end of the last.
 fn offsets(lengths: &[u32]) -> Vec<u64> {
     let first = (HEAD_BYTES + 8 * lengths.len()) as u64;
     let mut offsets = vec![first];
@@ -63,7 +63,7 @@ fn offsets(lengths: &[u32]) -> Vec<u64> {
     offsets
 }
 
-/// A file of blocks, open: removing or replacing it under its name changes nothing here.
+/// Open file of blocks: removal or replacement under its name has no effect here.
 #[derive(Debug)]
 pub(super) struct TileFile {
     path: PathBuf,
@@ -73,7 +73,7 @@ pub(super) struct TileFile {
 }
 
 impl TileFile {
-    /// The file of a key, if it is there. `Err` where it is not whole.
+    /// The file of a key, if it exists. `Err` if it is incomplete.
     pub(super) fn open(path: &Path, key: &BlockKey, lengths: &[u32]) -> Result<Option<Self>, ()> {
         let file = match File::open(path) {
             Ok(file) => file,
@@ -94,7 +94,7 @@ impl TileFile {
         Ok(Some(Self::of(path.to_path_buf(), file, lengths, checksums)))
     }
 
-    /// A file that is whole.
+    /// Returns a complete file.
     pub(super) fn of(path: PathBuf, file: File, lengths: &[u32], checksums: Vec<u64>) -> Self {
         Self { path, file, offsets: offsets(lengths), checksums }
     }
@@ -132,7 +132,7 @@ fn read_at(file: &File, mut bytes: &mut [u8], mut offset: u64) -> std::io::Resul
     Ok(())
 }
 
-/// The first block of a picture.
+/// First block of an image.
 #[derive(Debug)]
 struct FirstBlock(Vec<u8>);
 
@@ -165,7 +165,7 @@ pub(super) fn first_block(fill: Fill<'_>) -> Result<Arc<dyn Blocks>, String> {
 /// Numbers the files that this process writes.
 static NUMBER: AtomicU64 = AtomicU64::new(0);
 
-/// Writes the file at `path`, and answers with it, open for reading, and the checksums of its blocks. Nothing is left where it fails.
+/// Writes the file at `path`; returns it, open for reading, with the checksums of its blocks. On failure nothing remains.
 pub(super) fn write(path: &Path, key: &BlockKey, lengths: &[u32], fill: Fill<'_>) -> Result<(File, Vec<u64>), String> {
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
     let unfinished = Unfinished(path.with_extension(format!("{}-{number}.part", std::process::id())));
@@ -178,12 +178,12 @@ pub(super) fn write(path: &Path, key: &BlockKey, lengths: &[u32], fill: Fill<'_>
     Ok((open.file, open.checksums))
 }
 
-/// A file under its temporary name, which is removed at the end; it is not there any more where the file was finished.
+/// File under its temporary name, removed when dropped unless it was renamed.
 struct Unfinished(PathBuf);
 
 impl Drop for Unfinished {
     fn drop(&mut self) {
-        // It may have its own name by now.
+        // It may have its final name by now.
         let _ = std::fs::remove_file(&self.0);
     }
 }

@@ -1,4 +1,4 @@
-//! A folder of blocks on the disk, of which each file is named by the key of its blocks.
+//! Folder of blocks on the disk. Each file is named by the key of its blocks.
 //!
 //! | bytes | what |
 //! | --- | --- |
@@ -7,13 +7,12 @@
 //! | 4 | number of blocks |
 //! | 32 | the key |
 //! | 8 | checksum of all of the above and of the checksums of the blocks |
-//! | 8 a block | checksum of each block |
+//! | 8 per block | checksum of each block |
 //! | the rest | the blocks, one after the other |
 //!
-//! Integers are little-endian. A file is written under a name of its own and renamed when it is complete, so that programs that run at the same
-//! time see whole files only; of two that write the same, one replaces the other's equal one. A file whose length or head is not right is
-//! removed and counts as none. A block is checked against its checksum whenever it is read. The folder has at most as many bytes as the limit `texture-cache-mib`
-//! says: files that were used longest ago go first.
+//! Integers are little-endian. A file is written under a temporary name and renamed when complete, so concurrent programs see complete files only; if two write
+//! the same file, one replaces the other's equal one. A file with a wrong length or header is removed and counts as absent. A block is checked against its
+//! checksum whenever it is read. The limit `texture-cache-mib` bounds the bytes of the folder: the least recently used files are removed first.
 
 mod block_file;
 mod room;
@@ -27,19 +26,19 @@ use crate::{hash::hex, paths};
 use block_file::TileFile;
 use room::OwnFiles;
 
-/// What a job may do with a folder of blocks.
+/// Permitted use of a folder of blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CacheUse {
-    /// Keep blocks there.
+    /// Store blocks.
     #[default]
     Keep,
-    /// The same in a folder of results, in which no link is followed.
+    /// The same in a results folder, in which no link is followed.
     KeepInOutput,
-    /// Nothing is written, moved on or removed: of blocks that are not there the first alone is known.
+    /// Nothing is written, touched or removed: of missing blocks only the first is made.
     Read,
 }
 
-/// A folder of blocks, for one job. It is made when the first blocks are written.
+/// Folder of blocks, for one job. It is created when the first blocks are written.
 #[derive(Clone, Debug)]
 pub struct TileCache {
     folder: PathBuf,
@@ -55,7 +54,7 @@ impl TileCache {
         Self { folder: folder.map_or_else(folder_of_user, Path::to_path_buf), may, own: Arc::default() }
     }
 
-    /// Makes the folder, where it is missing, and room in it.
+    /// Creates the folder if it is missing, and makes room in it.
     fn prepare(&self, bytes: u64) -> Result<(), String> {
         let cannot = |cause: String| format!("the cache folder {} cannot be written: {cause}", self.folder.display());
         if self.may == CacheUse::KeepInOutput {
@@ -66,7 +65,7 @@ impl TileCache {
         Ok(())
     }
 
-    /// Where the blocks of a key are.
+    /// File of the blocks of a key.
     fn file(&self, key: &BlockKey) -> PathBuf {
         self.folder.join(format!("{}.tiles", hex(key)))
     }
@@ -88,7 +87,7 @@ impl BlockStore for TileCache {
                 Some(Arc::new(found))
             }
             (Err(()), _) => {
-                // Whoever else removes it does what is wanted.
+                // Removal by another program is equally good.
                 let _ = std::fs::remove_file(&file);
                 None
             }
@@ -110,7 +109,7 @@ impl BlockStore for TileCache {
     }
 }
 
-/// The user's folder for what can be made again (XDG Base Directory Specification 0.8: relative paths count as none).
+/// User's cache folder (XDG Base Directory Specification 0.8: relative paths are ignored).
 pub(crate) fn folder_of_user() -> PathBuf {
     let absolute = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let cache = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")));
@@ -131,7 +130,7 @@ mod tests {
     }
 
     fn fill(out: &mut dyn etendue_core::storage::BlockWriter) -> Result<(), String> {
-        // In any order.
+        // In arbitrary order.
         [2, 0, 1].into_iter().try_for_each(|i| out.write(i, &block(i)))
     }
 
@@ -216,7 +215,7 @@ mod tests {
         assert!(told.starts_with("the cache folder ") && told.contains("file/folder cannot be written: "), "{told}");
     }
 
-    /// The test's own limit is that of all tests of the process: it is far above what they write.
+    /// The test's own limit applies to all tests of the process: it is far above what they write.
     #[test]
     fn what_was_used_longest_ago_goes_first_and_what_the_job_uses_stays() {
         let place = tempfile::tempdir().expect("temporary folder");

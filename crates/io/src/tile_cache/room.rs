@@ -1,7 +1,7 @@
-//! Room in the folder: files that were used longest ago go first, and what a job uses itself stays.
+//! Room in the folder: the least recently used files are removed first; those of the current job stay.
 //!
-//! When a file was used is its time of modification, which each use moves on: the system writes it, no clock is read here. Programs that run at the same time may
-//! remove each other's oldest files; one that is open stays readable until it is closed.
+//! The time of last use is the modification time, which each use updates: the system writes it, no clock is read here. Concurrent programs may remove each
+//! other's oldest files; an open file stays readable until it is closed.
 
 use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
@@ -11,17 +11,17 @@ use std::sync::{Mutex, PoisonError};
 
 use etendue_scene::limits::TEXTURE_CACHE;
 
-/// The files of one job, with their bytes.
+/// Files of one job, with their bytes.
 #[derive(Debug, Default)]
 pub(super) struct OwnFiles(Mutex<BTreeMap<PathBuf, u64>>);
 
 impl OwnFiles {
-    /// Notes a file that the job uses.
+    /// Records a file that the job uses.
     pub(super) fn add(&self, file: &Path, bytes: u64) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(file.to_path_buf(), bytes);
     }
 
-    /// Refuses a file of so many bytes that does not fit beside the job's others.
+    /// Refuses a file of this size that does not fit together with the job's others.
     pub(super) fn check(&self, file: &Path, bytes: u64) -> Result<(), String> {
         let own = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let others: u64 = own.iter().filter(|(other, _)| *other != file).map(|(_, bytes)| bytes).sum();
@@ -41,7 +41,7 @@ impl OwnFiles {
     }
 }
 
-/// Removes files that were used longest ago until `bytes` more fit into the folder. Failures are passed over: another program may have removed them.
+/// Removes the least recently used files until `bytes` more fit into the folder. Failures are ignored: another program may have removed them.
 pub(super) fn make(folder: &Path, bytes: u64, own: &OwnFiles) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut files: Vec<_> = entries
@@ -63,7 +63,7 @@ pub(super) fn make(folder: &Path, bytes: u64, own: &OwnFiles) {
     }
 }
 
-/// Moves on when a file was used: its first byte is written once more.
+/// Updates the time of last use: writes the first byte again.
 pub(super) fn touch(file: &Path) {
     let _ = OpenOptions::new().read(true).write(true).open(file).and_then(|mut file| {
         let mut first = [0];
@@ -73,7 +73,7 @@ pub(super) fn touch(file: &Path) {
     });
 }
 
-/// Whether a name is one that this cache gives: the digits of a key, and what follows.
+/// Returns true if a name is one that this cache gives: the digits of a key, and the suffix.
 fn is_ours(name: &str) -> bool {
     let Some((key, rest)) = name.split_once('.') else { return false };
     key.len() == 64 && key.bytes().all(|byte| byte.is_ascii_hexdigit()) && (rest == "tiles" || rest.ends_with(".part"))

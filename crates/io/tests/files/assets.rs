@@ -1,4 +1,4 @@
-//! All assets of a description at once, and all that is wrong with them.
+//! All assets of a description at once, and all their errors.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What is written for other programs is read again as the same camera.
+//! Exported cameras read back as the same camera.
 
 use etendue_core::CameraPose;
 use etendue_io::calibration::export::{NamedCamera, colmap, kalibr, ros};
@@ -29,7 +29,7 @@ fn thin_prism(k: [f64; 6], terms: DistortionTerms) -> Model {
     Model::ThinPrismFisheye(ThinPrismFisheye::new(KannalaBrandt::long(k).expect("legal"), terms).expect("legal"))
 }
 
-/// Both see the same at places all over the picture.
+/// Checks that both give the same projection over the whole image.
 #[track_caller]
 fn assert_same(found: &Calibration, expected: &Calibration, told: &str) {
     assert_eq!(found.size_px(), expected.size_px(), "{told}");
@@ -52,7 +52,7 @@ fn read(name: &str, text: &str, format: CalibrationFormat, camera: Option<&str>)
     read_calibration(&file, format, camera).unwrap_or_else(|error| panic!("{error}\n{text}")).calibration
 }
 
-/// Every model with the formats that know it.
+/// Every model with the formats that support it.
 fn models() -> Vec<(&'static str, Model, [bool; 3])> {
     let prism = DistortionTerms {
         numerator: [-0.012, 0.004, -0.002, 0.0003],

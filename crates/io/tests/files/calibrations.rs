@@ -1,5 +1,5 @@
-//! Calibration files against the programs that define them: files and figures of OpenCV and COLMAP
-//! (tests/oracles/cameras.py), the published formulas of ROS, Kalibr and OCamCalib.
+//! Calibration files compared with the programs that define them: files and results of OpenCV and COLMAP (tests/oracles/cameras.py), the published formulas of
+//! ROS, Kalibr and OCamCalib.
 
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// The camera sees the table's points where the other program does; its pixel centres are `offset` lower.
+/// Checks that the camera projects the table's points like the other program; its pixel centres are `offset` lower.
 fn compare(camera: &Calibration, table: &Value, offset: f64) {
     let list = |key: &str| table[key].as_array().expect("a list").clone();
     let (points, pixels) = (list("points_m"), list("pixels"));
@@ -88,13 +88,13 @@ fn radtan([x, y]: [f64; 2], [k1, k2, p1, p2, k3]: [f64; 5]) -> [f64; 2] {
     [x * g + 2.0 * p1 * x * y + p2 * (s + 2.0 * x * x), y * g + p1 * (s + 2.0 * y * y) + 2.0 * p2 * x * y]
 }
 
-/// The camera sees every ray, and at the same pixel as the definition says, whose centres are at whole numbers.
+/// Checks that the camera sees every ray at the pixel of the definition, whose centres are at whole numbers.
 fn follows(camera: &Calibration, focal: [f64; 2], centre: [f64; 2], definition: impl Fn(DVec3) -> [f64; 2]) {
     let mut seen = 0;
     for ray in rays() {
         let [x, y] = definition(ray);
         let expected = DVec2::new(focal[0] * x + centre[0] + 0.5, focal[1] * y + centre[1] + 0.5);
-        // Definitions go on beyond a fold; the cameras do not.
+        // Definitions continue beyond a fold; the cameras do not.
         let Some(ours) = camera.project(ray) else { continue };
         seen += 1;
         assert!((ours - expected).length() < TOLERANCE_PX, "{ours} for {expected}: {camera:?}");
@@ -104,7 +104,7 @@ fn follows(camera: &Calibration, focal: [f64; 2], centre: [f64; 2], definition: 
 
 #[test]
 fn a_camera_info_file_is_what_ros_defines() {
-    // sensor_msgs/CameraInfo: plumb_bob is k1, k2, t1, t2, k3 on the raw picture.
+    // sensor_msgs/CameraInfo: plumb_bob is k1, k2, t1, t2, k3 on the raw image.
     let camera = read(&sample("camera_info.yaml"), CalibrationFormat::Ros, Some("narrow_stereo"));
     assert_eq!(camera.notes, ["passed over: rectification_matrix, projection_matrix"]);
     let k = [-0.361976, 0.110510, 0.001014, 0.000505, 0.0];
@@ -191,7 +191,7 @@ fn a_camera_of_several_is_chosen_by_its_name() {
     assert!(fault("calib_results.txt", CalibrationFormat::Ocam, Some("wide")).contains("without a name"));
 }
 
-/// What is said of a text, with its line.
+/// Message for a text, with its line.
 fn said(text: &str, format: CalibrationFormat) -> (Option<usize>, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("file");

@@ -38,7 +38,7 @@ fn bytes_are_those_of_the_stored_samples() {
     }
 }
 
-/// Numbers of OpenCV, row by row; what JSON has no number for is NaN or infinite, as the text says.
+/// Numbers of OpenCV, row by row; those without a JSON number are NaN or infinite, as the text states.
 fn read(name: &str) -> Vec<f64> {
     let text = fs::read_to_string(figures("read_flow.json")).expect("figures");
     let figures: Value = serde_json::from_str(&text).expect("JSON");
@@ -54,7 +54,7 @@ fn opencv_reads_the_flow_that_was_written() {
         let expected = if written[0].is_nan() { [1e10; 2] } else { written.map(f64::from) };
         assert_eq!(read, expected);
     }
-    // 30 000 px are beyond what KITTI's file holds: not known.
+    // 30 000 px exceed the range of KITTI's file: unknown.
     let known = [true, true, false, true, false, true];
     for ((read, written), known) in read("flow_kitti.png").chunks(3).zip(FLOW).zip(known) {
         assert_eq!(read[2], f64::from(u8::from(known)));

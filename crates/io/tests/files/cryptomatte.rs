@@ -1,4 +1,4 @@
-//! Identities of Cryptomatte as mmh3 has them (tests/oracles/cryptomatte.py).
+//! Identities of Cryptomatte compared with mmh3 (tests/oracles/cryptomatte.py).
 
 use etendue_io::exr::cryptomatte_id;
 use serde_json::Value;

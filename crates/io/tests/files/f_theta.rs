@@ -1,5 +1,5 @@
-//! NVIDIA's f-theta files against their published formulas: the angle of a pixel's distance by a polynomial, the linear term
-//! [c d; e 1] between the pixel's offset and the point whose distance counts.
+//! NVIDIA's f-theta files compared with their published formulas: the angle for a pixel's distance by a polynomial, and the linear term [c d; e 1] applied to
+//! the pixel's offset first.
 
 use etendue_core::maths::f64::sin_cos;
 use etendue_io::calibration::{CalibrationFormat, ImportedCamera, read_calibration};

@@ -1,4 +1,4 @@
-//! glTF: a file of another program against what that program says of it, small files with known answers, and damaged ones.
+//! glTF: a file of another program compared with that program's own results, small files with known answers, and damaged ones.
 
 use etendue_io::mesh::read_mesh;
 use etendue_scene::asset::{ImagePixels, MeshAsset, SlotColour, SlotLayers, SlotNumber, SlotOver, SlotSurface};
@@ -11,7 +11,7 @@ fn oracle(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/oracles/figures/gltf").join(name)
 }
 
-/// The corners of the triangles of a slot, in f64.
+/// Corners of the triangles of a slot, in f64.
 fn corners(mesh: &MeshAsset, slot: usize) -> Vec<[DVec3; 3]> {
     let place = |i: u32| DVec3::from_array(mesh.positions[i as usize].map(f64::from)) + DVec3::from_array(mesh.origin);
     let of_slot = mesh.triangles.iter().zip(&mesh.slots).filter(|(_, s)| usize::from(**s) == slot);
@@ -25,7 +25,7 @@ fn layers(mesh: &MeshAsset, slot: usize) -> &SlotLayers {
     }
 }
 
-/// trimesh keeps 64 bits of what the file has in 32, as we do: what differs is our last rounding to 32 bits, 6e-8 of 10 m.
+/// trimesh keeps 64 bits of the file's 32, as we do: the difference is our last rounding to 32 bits, 6e-8 of 10 m.
 #[test]
 fn a_file_of_another_program_stands_as_that_program_has_it() {
     let mesh = read_mesh(&oracle("scene.glb")).unwrap_or_else(|e| panic!("{e}"));
@@ -69,7 +69,7 @@ fn a_file_of_another_program_stands_as_that_program_has_it() {
     assert_eq!(pixels[..4], [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 255]]);
 }
 
-/// A file of two triangles (corners 0 0 0, 1 0 0, 1 1 0, 0 1 0) with texture coordinates as their x and y, to be changed.
+/// File of two triangles (corners 0 0 0, 1 0 0, 1 1 0, 0 1 0) with texture coordinates equal to their x and y, to be changed.
 fn square() -> Value {
     let floats = |values: &[f32]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
     let mut bytes = floats(&[0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0.]);
@@ -175,7 +175,7 @@ fn mirrored_nodes_keep_their_fronts_and_repeated_meshes_their_places() {
 #[test]
 fn a_skin_stands_as_its_joints_do_at_rest() {
     let mesh = changed(|file| {
-        // One joint for all corners, 3 m up: what the node of the mesh says does not count.
+        // One joint for all corners, 3 m up: the transform of the mesh's node is ignored.
         let bytes: Vec<u8> = (0..4).flat_map(|_| [0, 0, 0, 0, 255, 0, 0, 0]).collect();
         file["buffers"].as_array_mut().expect("a list").push(json!({ "byteLength": 32, "uri": format!("data:;base64,{}", base64(&bytes)) }));
         file["bufferViews"].as_array_mut().expect("a list").push(json!({ "buffer": 1, "byteLength": 32, "byteStride": 8 }));
@@ -358,7 +358,7 @@ fn damage_is_told() {
     assert!(told.contains("JSON") && told.contains("line 1"), "{told}");
 }
 
-/// A small file may not fill the memory by nodes that show a mesh again and again.
+/// A small file must not fill the memory through nodes that show a mesh repeatedly.
 #[test]
 fn nodes_that_multiply_a_mesh_are_limited() {
     for (nodes, limit) in [(40_000_u32, "corners"), (1_400, "mesh-mib")] {
@@ -370,7 +370,7 @@ fn nodes_that_multiply_a_mesh_are_limited() {
     }
 }
 
-/// Two bytes of JSON may stand for a thousand in memory.
+/// Two bytes of JSON may expand to a thousand in memory.
 #[test]
 fn lists_of_empty_objects_are_limited() {
     let json = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"materials\":[{}{{}}]}}", "{},".repeat(5_000_000));

@@ -1,4 +1,4 @@
-//! Files read and written: formats of others and our own.
+//! Reading and writing of files: formats of other programs and our own.
 
 mod assets;
 mod calibration_export;

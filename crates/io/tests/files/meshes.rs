@@ -1,4 +1,4 @@
-//! Meshes from the disk: whole, damaged, and real ones with what is known of them.
+//! Meshes from the disk: complete, damaged, and real ones with known properties.
 
 use etendue_testkit::skip::all_here;
 use std::fs;
@@ -9,7 +9,7 @@ use etendue_scene::asset::{MeshAsset, MeshFrameAsset, SlotReflectance, SlotSurfa
 
 const CUBE_FACE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-/// Reads a mesh of this text, with other files beside it.
+/// Reads a mesh of this text, with other files next to it.
 fn read(text: &str, others: &[(&str, &str)]) -> Result<MeshAsset, String> {
     let folder = tempfile::tempdir().expect("temporary folder");
     for (name, content) in others {
@@ -137,8 +137,8 @@ fn a_mesh_far_from_its_origin_keeps_its_coordinates() {
     );
 }
 
-/// Files of Kenney's city kit (CC0) with their triangles and the corners of their boxes, counted by a few lines of
-/// another language: words behind `f` less two, least and largest words behind `v`.
+/// Files of Kenney's city kit (CC0) with their triangles and the corners of their boxes, counted by a few lines of another language: words after `f` minus two,
+/// minimum and maximum of the words after `v`.
 const KENNEY: [(&str, usize, [[f32; 3]; 2]); 5] = [
     ("building-garage.obj", 196, [[-0.5, 0.0, -0.5], [0.5, 0.55, 0.5]]),
     ("building-small-b.obj", 600, [[-0.5, 0.0, -0.5], [0.5, 1.6265, 0.5]]),
@@ -173,14 +173,14 @@ fn real_meshes_have_the_triangles_and_bounds_of_their_text() {
     }
 }
 
-/// Reads a file of a mesh whose vertices move.
+/// Reads a file of a mesh with moving vertices.
 fn frame(text: &str) -> MeshFrameAsset {
     let folder = tempfile::tempdir().expect("temporary folder");
     fs::write(folder.path().join("a.obj"), text).expect("write");
     read_mesh_frame(&folder.path().join("a.obj")).expect("readable")
 }
 
-/// Exporters write equal normals once and may order vertices otherwise: what faces name tells, not by which number.
+/// Exporters write equal normals once and may order vertices differently: the values of the faces count, not their indices.
 #[test]
 fn files_of_one_mesh_are_known_by_their_faces() {
     let two = "f 1//1 2//1 3//1 4//1\nf 4//1 3//1 2//1 1//1\n";

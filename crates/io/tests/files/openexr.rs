@@ -1,4 +1,4 @@
-//! Our EXR files as OpenEXR reads them (tests/oracles/read_exr.py), and a file of OpenEXR's as we read it.
+//! Our EXR files as read by OpenEXR (tests/oracles/read_exr.py), and a file of OpenEXR as we read it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ fn ground_truth() -> Vec<u8> {
     encode_ground_truth(&truth, &provenance()).expect("encodable")
 }
 
-/// The encoder orders headers at random, anew in each thread and process: equality with a stored file sees both.
+/// The encoder orders headers at random, differently in each thread and process: equality with a stored file detects both.
 fn equals_stored(bytes: &[u8], name: &str) {
     let fresh = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::write(&fresh, bytes).expect("write");

@@ -1,5 +1,5 @@
-//! Where each format of calibration files puts the centre of the top-left pixel, by the format's own definition: a file
-//! whose principal point lies there looks along the axis at this project's (0.5, 0.5).
+//! Centre of the top-left pixel in each format of calibration files, by the format's own definition: a file whose principal point lies there looks along the
+//! axis at this project's (0.5, 0.5).
 
 use etendue_io::calibration::{CalibrationFormat, read_calibration};
 use glam::{DVec2, DVec3};
@@ -12,7 +12,7 @@ fn axis(format: CalibrationFormat, text: &str) -> DVec2 {
     std::fs::write(&file, text).expect("written");
     let camera = read_calibration(&file, format, None).unwrap_or_else(|fault| panic!("{fault}\n{text}")).calibration;
     assert_eq!(camera.size_px(), [640, 480]);
-    // The middle of the top-left pixel sees what the axis shows, exactly: no number is rounded on the way.
+    // The centre of the top-left pixel is exactly on the axis: no number is rounded.
     let at = camera.project(DVec3::Z).expect("the axis is seen");
     let back = camera.unproject(at).expect("seen");
     assert!((back - DVec3::Z).length() < 1e-15, "{back}");
@@ -21,8 +21,8 @@ fn axis(format: CalibrationFormat, text: &str) -> DVec2 {
 
 const CENTRE: DVec2 = DVec2::new(0.5, 0.5);
 
-/// `cv::initUndistortRectifyMap` fills its maps for whole numbers u, v of columns and rows: pixel (0, 0) has its centre there.
-/// Pictures prove it as well: `charts.rs` in the binary's tests.
+/// `cv::initUndistortRectifyMap` fills its maps for whole numbers u, v of columns and rows: pixel (0, 0) has its centre there. Images also confirm it:
+/// `charts.rs` in the binary's tests.
 #[test]
 fn opencv_counts_centres_from_zero() {
     let matrix = "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 500., 0., 0., 0., 500., 0., 0., 0., 1. ]\n";
@@ -63,8 +63,7 @@ fn kalibr_counts_centres_from_zero() {
     }
 }
 
-/// COLMAP's documentation of its output: the upper left corner of a picture is (0, 0), the centre of the upper left pixel
-/// (0.5, 0.5).
+/// COLMAP's documentation of its output: the upper left corner of an image is (0, 0), the centre of the upper left pixel (0.5, 0.5).
 #[test]
 fn colmap_counts_corners_from_zero() {
     for parameters in ["PINHOLE 640 480 500 500 0.5 0.5", "OPENCV_FISHEYE 640 480 500 500 0.5 0.5 0.1 0 0 0"] {
@@ -72,7 +71,7 @@ fn colmap_counts_corners_from_zero() {
     }
 }
 
-/// OCamCalib's file says it of itself: `center: "row" and "column", starting from 0 (C convention)`; row first.
+/// The file of OCamCalib states it: `center: "row" and "column", starting from 0 (C convention)`; row first.
 #[test]
 fn ocam_counts_centres_from_zero_row_first() {
     let text = |row: f64, column: f64| format!("3 -218.6 0 0.00195\n0\n{row} {column}\n1 0 0\n480 640\n");

@@ -1,4 +1,4 @@
-//! PLY: files of another program against what that program says of them, the same mesh as OBJ, and damaged files.
+//! PLY: files of another program compared with that program's own results, the same mesh as OBJ, and damaged files.
 
 use etendue_io::mesh::read_mesh;
 use etendue_scene::asset::MeshAsset;
@@ -199,7 +199,7 @@ fn damaged_rows_are_refused_with_their_line() {
     );
 }
 
-/// What a head asks for is weighed against the file before memory is taken.
+/// Sizes stated in a header are compared with the file before memory is allocated.
 #[test]
 fn huge_counts_are_refused_at_once() {
     for (from, to, element) in [
@@ -217,7 +217,7 @@ fn huge_counts_are_refused_at_once() {
     );
 }
 
-/// Numbers of the other order than the head says: a face of an index beyond the vertices tells it.
+/// Numbers of another byte order than the header states: a face with an index beyond the vertices reveals it.
 #[test]
 fn the_wrong_order_of_bytes_is_told() {
     let little = fs::read(oracle("little.ply")).expect("a file");

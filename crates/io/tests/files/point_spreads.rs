@@ -1,4 +1,4 @@
-//! Zemax's listings of point spreads: every head that is known, and bad ones.
+//! Zemax's listings of point spreads: every known header, and invalid ones.
 
 use etendue_io::lens_table::read_point_spread;
 use etendue_scene::asset::{FieldPoint, PointSpreadAsset};
@@ -14,14 +14,14 @@ fn read(text: &str) -> Result<PointSpreadAsset, String> {
     read_bytes(text.as_bytes())
 }
 
-/// Of 2005: fields of y alone, in Latin-1 with three digits of exponents.
+/// Listing of 2005: fields of y alone, in Latin-1 with three digits of exponents.
 const OLD: &str = "Listing of Huygens PSF Data\r\n\r\nFile : C:\\A.ZMX\r\nTitle: A at 2 mm\r\nDate : TUE AUG 30 2005\r\n\r\n\r\nHUYGENS PSF\r\n\
     0.5500 µm at -27.38 deg.\r\nData spacing is 0.25 µm.\r\nData area is 1.00 by 1.00 µm.\r\nStrehl ratio: 0.486\r\nPupil grid size: 32 by 32\r\n\
     Image grid size: 4 by 4\r\nCenter point is: 3, 3\r\nCenter coordinates: 0.00000000E+000, -9.59263593E-001\r\nValues are relative intensity.\r\n\r\n\
     0.0E+000\t0.000E+000\t1.000E-003\t0.000E+000\r\n0.0E+000\t1.000E-001\t5.000E-001\t1.000E-001\r\n\
     0.0E+000\t0.000E+000\t2.000E-001\t0.000E+000\r\n0.0E+000\t0.000E+000\t1.000E-004\t0.000E+000\r\n";
 
-/// Of 2019: two fields, units of coordinates, the centroid, blanks before the rows.
+/// Listing of 2019: two fields, units of coordinates, the centroid, blanks before the rows.
 const NEW: &str = "Listing of Huygens PSF Data\n\nFile : C:\\LSST.zmx\nTitle: LSST\nDate : 8/12/2019\n\n\n\n0.5000 µm at 0.0000, 1.2250 (deg).\n\
     Data spacing is 0.289 µm.\nData area is 1.156 by 1.156 µm.\nStrehl ratio: 0.214\nPupil grid size: 1024 by 1024\nImage grid size: 4 by 4\n\
     Center point is: 3, 3\nCenter coordinates     :   0.00000000E+00,   2.20488001E+02 Millimeters\n\
@@ -47,7 +47,7 @@ fn heads_of_all_kinds_are_read() {
     let new = read(NEW).expect("legal");
     assert_eq!((new.field, new.place_mm), (FieldPoint::Degrees([0.0, 1.225]), Some([0.0, 220.488_001])));
     assert_eq!((new.point, new.spacing_um), ([2, 1], 0.289));
-    // The centroid lies half a row above the centre, as the head has it; the border is lit.
+    // The centroid lies half a row above the centre, as in the header; the border is not dark.
     assert!(new.notes.len() == 1 && new.notes[0].contains("border"), "{:?}", new.notes);
 
     let fft = read(FFT).expect("legal");

@@ -104,7 +104,7 @@ fn glass_of(zmx_line: &str) -> (GlassAsset, Vec<String>) {
     (lens.surfaces[0].glass.clone(), lens.notes)
 }
 
-/// Numbers of a model glass that stood there before say nothing of a catalogue glass.
+/// Leftover numbers of an earlier model glass do not describe a catalogue glass.
 #[test]
 fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over() {
     for (line, today) in [
@@ -150,7 +150,7 @@ fn a_glass_without_successor_is_taken_by_its_line_and_one_name_has_one_index() {
         read("lens.zmx", &text.replace("GLAS ___BLANK 1 0 1.62004 36.4 0", second))
     };
     assert!(twice("GLAS FCD505 0 0 1.59282 68.63").is_ok());
-    // A model glass says what it is by its numbers.
+    // A model glass is defined by its numbers.
     assert!(twice("GLAS FCD505 1 0 1.7 40").is_ok());
     let told = twice("GLAS FCD505 0 0 1.61765 55.14").expect_err("two indices of one glass");
     assert!(told.contains("FCD505 has n_d 1.61765 and V_d 55.14 here, n_d 1.59282 and V_d 68.63 in line 26"), "{told}");
@@ -171,7 +171,7 @@ fn private_glasses_of_a_file_are_its_indices() {
     assert_eq!(read("lens.seq", &one).expect("a lens").surfaces[0].glass, GlassAsset::Index(1.7));
 }
 
-/// The files with their object near by: 205 mm before the lens.
+/// The files with a near object: 205 mm in front of the lens.
 fn near_zmx() -> String {
     ZMX.replacen("DISZ INFINITY", "DISZ 200", 1)
 }
@@ -219,17 +219,17 @@ fn an_aperture_that_is_none_is_refused_at_its_line() {
 
 #[test]
 fn object_and_image_stand_where_the_file_has_them() {
-    // The dummy before the lens is 5 mm thick.
+    // The dummy surface in front of the lens is 5 mm thick.
     let near = read("lens.zmx", &ZMX.replacen("DISZ INFINITY", "DISZ 200", 1)).expect("a lens");
     assert_eq!((near.object_distance_mm, near.back_focus_mm, near.defocus_mm), (205.0, 40.0, 0.0));
-    // CODE V: the image's thickness is a defocus; PIM leaves the image to be found.
+    // CODE V: the image's thickness is a defocus; PIM lets the program compute the image position.
     let shifted = read("lens.seq", &SEQ.replace("SI 0.0 0.0", "SI 0.0 -0.25")).expect("a lens");
     assert_eq!((shifted.back_focus_mm, shifted.defocus_mm), (39.75, 0.0));
     let found = read("lens.seq", &SEQ.replace("SI 0.0 0.0", "  PIM\nSI 0.0 -0.25")).expect("a lens");
     assert_eq!((found.back_focus_mm, found.defocus_mm), (0.0, -0.25));
 }
 
-/// A singlet, and what stands before GO.
+/// A singlet, with edits before GO.
 fn edited(edits: &str) -> Result<PrescriptionAsset, String> {
     read(
         "lens.seq",

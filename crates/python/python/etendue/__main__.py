@@ -7,7 +7,7 @@ from . import _etendue
 
 
 def main():
-    # Ctrl-C ends the program by the operating system's own way.
+    # Ctrl-C ends the program with the operating system's default action.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     sys.exit(_etendue.main(["etendue", *sys.argv[1:]]))
 

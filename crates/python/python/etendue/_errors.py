@@ -1,33 +1,33 @@
-"""Exceptions: what a call raises where its input cannot be used, or its run does not succeed."""
+"""Exceptions for unusable input and for failed runs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 
-#: Faults that a message shows; ``faults`` has all.
+#: Maximum number of errors in a message; ``faults`` has all.
 _MAX_SHOWN = 50
 
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault of an input. Lines and columns count from 1; None: not known, or an argument's."""
+    """One error of an input. Lines and columns count from 1; None: unknown, or an argument's."""
 
     message: str
     file: str | None = None
     line: int | None = None
     column: int | None = None
     key: str | None = None
-    #: The kind of the fault, which ``etendue.explain(code)`` explains.
+    #: Error code, which ``etendue.explain(code)`` explains.
     code: str = "invalid-argument"
-    #: What is wrong, without the place.
+    #: Problem, without the place.
     problem: str = ""
-    #: What to do; None where the message says it in its own words.
+    #: Remedy; None if the message states it.
     remedy: str | None = None
 
 
 class Error(Exception):
-    """Why a call did not succeed. Nothing that was written under a final name is half-written."""
+    """Failure of a call. No file under a final name is incomplete."""
 
 
 class InputError(Error, ValueError):
@@ -46,32 +46,32 @@ class InputError(Error, ValueError):
 
     @property
     def code(self):
-        """The kind of the fault, which ``etendue.explain(code)`` explains."""
+        """Error code, which ``etendue.explain(code)`` explains."""
         return self.faults[0].code
 
     @property
     def file(self):
-        """The file at fault; None where it is an argument's, or not known."""
+        """File of the error; None if it is an argument's, or unknown."""
         return self.faults[0].file
 
     @property
     def line(self):
-        """The line, from 1; None where it is of the whole file or of a change."""
+        """Line, from 1; None for the whole file or a change."""
         return self.faults[0].line
 
     @property
     def column(self):
-        """The column of the line, in characters from 1; None where it is not known."""
+        """Column of the line, in characters from 1; None if unknown."""
         return self.faults[0].column
 
     @property
     def key(self):
-        """The dotted key of a description, or an argument; None where there is none."""
+        """Dotted key of a description, or an argument; None if there is none."""
         return self.faults[0].key
 
 
 class RunError(Error, RuntimeError):
-    """A run that did not succeed although its input is good (exit status 1 of the program)."""
+    """Run that failed although its input is valid (exit status 1 of the program)."""
 
 
 def _python_name(key):

@@ -1,4 +1,4 @@
-"""What a measurement found."""
+"""Results of measurements."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ class Estimate(NamedTuple):
 
 
 class Report(dict):
-    """What a measurement found: the dict that ``--json`` prints, with the numbers by their keys.
+    """Result of a measurement: the dict that ``--json`` prints, with the numbers by their keys.
 
-    ``report["figures"]["mtf50_cy_px"]["value"]`` and ``report.value("mtf50_cy_px")`` are the same. ``differs`` is why two measurements or a
-    camera and its measurement differ, of ``measure.compare``; None otherwise.
+    ``report["figures"]["mtf50_cy_px"]["value"]`` and ``report.value("mtf50_cy_px")`` are the same. ``differs`` states, for ``measure.compare``, why two
+    measurements, or a camera and its measurement, differ; None otherwise.
     """
 
     differs: str | None = None
@@ -34,11 +34,11 @@ class Report(dict):
 
     @property
     def notes(self):
-        """What a user should know of the result: sentences."""
+        """Notes on the result, in sentences."""
         return self["notes"]
 
     def estimate(self, key):
-        """A number with its uncertainty and unit; KeyError names those that there are."""
+        """A number with its uncertainty and unit; KeyError names the available ones."""
         figures = self["figures"]
         if key not in figures:
             raise KeyError(f"no figure {key!r}; there are {', '.join(figures)}")

@@ -1,7 +1,7 @@
-"""Functions of the verbs of the command line, made of their list: what a verb takes, its function takes, under the same names with ``_``.
+"""Functions for the verbs of the command line, created from their list. A function takes the arguments of its verb, under the same names with ``_``.
 
-Values of Python become words of the command line: True gives a switch, None leaves an option out, a sequence is written with the option's own
-separator, a dict as ``key=value`` in TOML. What a verb prints is what its function answers with.
+Python values become words of the command line: True gives a switch, None omits an option, a sequence is written with the option's own
+separator, a dict as ``key=value`` in TOML. A function returns what its verb prints.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ METHODS = ("render", "plan")
 
 
 def python_name(word):
-    """``chart-points`` is ``chart_points``; a word of Python gets a ``_``."""
+    """``chart-points`` is ``chart_points``; a Python keyword receives a ``_``."""
     name = word.lower().replace("-", "_")
     return name + "_" if keyword.iskeyword(name) else name
 
@@ -38,17 +38,17 @@ def group(name):
 
 
 def alone():
-    """The verbs that are in no group."""
+    """Verbs outside groups."""
     return [verb for verb in CATALOGUE if not verb["verbs"] and verb["name"] not in METHODS]
 
 
 def taken(verb):
-    """The arguments of a verb's function: those that only shape what is printed are left out."""
+    """Arguments of a verb's function, without those that only affect the printed form."""
     return [argument for argument in verb["arguments"] if argument["name"] != "json"]
 
 
 def answer_of(verb):
-    """What a verb's function answers with: "report", "dict", "paths" or "text"."""
+    """Kind of the result of a verb's function: "report", "dict", "paths" or "text"."""
     names = {argument["name"] for argument in verb["arguments"]}
     if "json" in names:
         return "report" if "plot" in names else "dict"
@@ -158,7 +158,7 @@ def _each(argument, value):
 
 
 def _separator(argument):
-    """What stands between the parts of a value, such as ``X,Y,W,H`` or ``A..B``."""
+    """Separator of the parts of a value, such as ``X,Y,W,H`` or ``A..B``."""
     if argument["listed"]:
         return ","
     return next((mark for mark in ("..", ",", ":", "/") if mark in argument["value"]), None)

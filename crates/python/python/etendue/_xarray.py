@@ -29,8 +29,8 @@ _VARIABLES = {
 def to_xarray(camera):
     """A camera's light, first frame and ground truth as an xarray Dataset (the extra "xarray"), each variable with its unit.
 
-    x and y are the centres of pixels in raster coordinates, px; what the camera does not have is left out, as is
-    a raw or a picture of other pixels than the ground truth's.
+    x and y are pixel centres in raster coordinates, px. Quantities that the camera does not have are omitted, as is a raw or developed image
+    whose pixels differ from the ground truth's.
     """
     import numpy
     import xarray

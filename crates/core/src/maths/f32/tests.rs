@@ -1,8 +1,8 @@
 use super::*;
 
-// Against libm in double precision, whose own error (below 1e-8 units of an `f32`) does not count.
+// Comparison with libm in double precision, whose own error (below 1e-8 units of an `f32`) is negligible.
 
-/// The bound that the module states, in units in the last place.
+/// Bound stated by the module, in units in the last place.
 const BOUND_ULP: f64 = 0.51;
 
 /// Floats of every binade and sign: every `step`-th bit pattern, and the special ones.
@@ -12,7 +12,7 @@ fn everywhere(step: usize) -> impl Iterator<Item = f32> {
     patterns.chain(special).chain(special.map(|x| -x))
 }
 
-/// `count` floats from `low` to `high`, both among them.
+/// `count` floats from `low` to `high`, both included.
 fn between(low: f32, high: f32, count: u32) -> impl Iterator<Item = f32> {
     (0..=count).map(move |i| low + (high - low) * (i as f32 / count as f32))
 }
@@ -104,7 +104,7 @@ fn powers_and_lengths() {
     }
 }
 
-/// Figures of a calculation to 50 digits (mpmath 1.4.1), correctly rounded.
+/// Expected values from a calculation to 50 digits (mpmath 1.4.1), correctly rounded.
 #[test]
 fn bits_are_pinned() {
     let got = [

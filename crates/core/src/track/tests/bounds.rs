@@ -81,7 +81,7 @@ fn a_turn_by_90_degrees_loses_little() {
     }
 }
 
-/// What lies on the axis of a turn does not move.
+/// Points on the axis of a rotation do not move.
 #[test]
 fn a_turn_moves_nothing_on_its_axis() {
     let keys = [key(0.0, DVec3::X, about_z(0.0)), key(1.0, DVec3::X, about_z(3.0))];
@@ -90,7 +90,7 @@ fn a_turn_moves_nothing_on_its_axis() {
     assert!((low - DVec3::new(1.0, 0.0, -5.0)).length() < 1e-12 && (high - DVec3::new(1.0, 0.0, 5.0)).length() < 1e-12);
 }
 
-/// Of keys with one scale, by any interpolation; growing tracks are bounded by π.
+/// Tracks of keys with one scale, by any interpolation; tracks that change scale are bounded by π.
 #[test]
 fn turning_bounds_the_angles_of_normals() {
     let mut random = Random(17, 0);
@@ -131,7 +131,7 @@ fn a_moment_and_a_time_beyond_the_keys_have_the_box_itself() {
             assert_eq!(transform, track.at(interval.end_s()));
             let (low, high) = track.bounds_over(interval, CUBE);
             let (exact_low, exact_high) = Track::still(transform).bounds_over(interval, CUBE);
-            // Room for rounding: 1e-14 of coordinates to 1e6.
+            // Tolerance for rounding: 1e-14 of coordinates to 1e6.
             assert!((low - exact_low).length() < 1e-7 && (high - exact_high).length() < 1e-7);
         }
         assert_eq!(track.still_over(interval(keys[0].time_s, last_s)), None);

@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 const HOW: [Interpolation; 2] = [Interpolation::Linear, Interpolation::Smooth];
 
-/// The greatest difference of two transforms' numbers.
+/// Largest difference between the numbers of two transforms.
 fn apart(a: DAffine3, b: DAffine3) -> f64 {
     a.to_cols_array().iter().zip(b.to_cols_array()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
@@ -104,7 +104,7 @@ fn quaternions_of_any_length_and_sign_are_rotations() {
     }
 }
 
-/// p = 3 t² − t, about which uneven keys lie: the parabola's derivatives make the cubics that parabola.
+/// p = 3 t² − t, with irregular keys: the parabola's derivatives make the cubics that parabola.
 #[test]
 fn smooth_motion_keeps_an_even_acceleration_and_an_even_turn() {
     let at = |t: f64| Key {
@@ -120,8 +120,7 @@ fn smooth_motion_keeps_an_even_acceleration_and_an_even_turn() {
     }
 }
 
-/// Finite differences on both sides of a key: of the step h, they are off by h/2 · |p̈| ≲ 1e-6 · 1e4 m·s⁻² and by roundings
-/// 1e-16 / h.
+/// Finite differences on both sides of a key: for a step h the error is h/2 · |p̈| ≲ 1e-6 · 1e4 m·s⁻² and by roundings 1e-16 / h.
 #[test]
 fn smooth_motion_has_one_velocity_at_a_key() {
     let mut random = Random(5, 0);

@@ -31,7 +31,7 @@ fn classes_have_the_kinds_of_the_standard() {
 #[test]
 fn names_follow_the_convention() {
     assert_eq!(of(0.25, [3, 8, 0], 2, 17), "19700101T000000Z_gt_380_6302_2_000017.osi");
-    // The time of the convention's own example.
+    // Time of the convention's own example.
     assert_eq!(stamp(1_629_299_142.0), "20210818T150542Z");
     assert_eq!(stamp(-0.25), "19691231T235959Z");
     assert_eq!(stamp(951_782_400.0), "20000229T000000Z");
@@ -39,7 +39,7 @@ fn names_follow_the_convention() {
     assert_eq!(stamp(f64::MIN), "00010101T000000Z");
 }
 
-/// The examples of the encoding's own description.
+/// Examples of the encoding's own description.
 #[test]
 fn bytes_are_those_of_the_description() {
     assert_eq!(Message::default().varint(1, 150).bytes(), [0x08, 0x96, 0x01]);

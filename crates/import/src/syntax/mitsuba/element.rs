@@ -1,11 +1,11 @@
-//! Elements and where they stand.
+//! Elements and their places.
 
 use std::path::{Path, PathBuf};
 use std::{cell::Cell, rc::Rc};
 
 use etendue_io::{Error, Problem};
 
-/// Where an element stands.
+/// Place of an element.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MitsubaPlace {
     /// The file.
@@ -17,56 +17,56 @@ pub struct MitsubaPlace {
 /// An element of a scene file: `<shape type="sphere" id="ball"> … </shape>`.
 #[derive(Clone, Debug)]
 pub struct MitsubaElement {
-    /// Its name: `shape`, `float` and so on, one of the format's.
+    /// Name: `shape`, `float` and so on, one of the format's.
     pub tag: &'static str,
-    /// Its attributes in their order.
+    /// Attributes in order.
     pub attributes: Vec<(Box<str>, Box<str>)>,
-    /// The elements within it.
+    /// Child elements.
     pub children: Vec<MitsubaElement>,
-    /// Where it stands.
+    /// Place.
     pub place: MitsubaPlace,
-    /// Its number in the order of the files, from 0: each once.
+    /// Unique number in the order of the files, from 0.
     pub number: usize,
-    /// Whether anyone has looked at it.
+    /// True once it has been used.
     pub used: Cell<bool>,
 }
 
-/// A scene file with all that it includes.
+/// Scene file with all included files.
 #[derive(Clone, Debug)]
 pub struct MitsubaScene {
-    /// Its root, a `<scene>`.
+    /// Root, a `<scene>`.
     pub root: MitsubaElement,
-    /// The folders in which files are sought that its elements name, in this order.
+    /// Search folders for files that elements name, in order.
     pub folders: Vec<PathBuf>,
 }
 
 impl MitsubaElement {
-    /// The value of an attribute.
+    /// Value of an attribute.
     #[must_use]
     pub fn attribute(&self, name: &str) -> Option<&str> {
         self.attributes.iter().find(|(own, _)| &**own == name).map(|(_, value)| &**value)
     }
 
-    /// What it is called among its parent's parameters; empty where it has no name.
+    /// Name among the parameters of its parent; empty if it has none.
     #[must_use]
     pub fn name(&self) -> &str {
         self.attribute("name").unwrap_or_default()
     }
 
-    /// Its type; empty where it has none.
+    /// Type; empty if it has none.
     #[must_use]
     pub fn kind(&self) -> &str {
         self.attribute("type").unwrap_or_default()
     }
 
-    /// A fault that stands here.
+    /// Returns an error at this place.
     #[must_use]
     pub fn fault(&self, what: impl Into<Problem>) -> Error {
         Error::at(&self.place.file, self.place.line, what)
     }
 }
 
-/// Where lines begin, bytes.
+/// Offsets of line starts, bytes.
 pub(super) struct Lines(Vec<usize>);
 
 impl Lines {

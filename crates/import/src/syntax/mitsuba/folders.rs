@@ -1,43 +1,43 @@
-//! Folders in which files are sought.
+//! Search folders for files.
 //!
-//! As Mitsuba 3.9 has it: later folders of `<path>` before earlier ones, these before the folder of the file that holds them, and that before what held where
-//! it was included. A `<path>` is sought beside its file, then in the folders so far. Folders of an included file hold until its end, where Mitsuba forgets
-//! them; meshes and pictures are sought there as well, behind all others.
+//! As in Mitsuba 3.9: later folders of `<path>` come before earlier ones, these before the folder of the file that contains them, and that before the folders
+//! of the including file. A `<path>` is resolved relative to its file, then to the folders so far. Folders of an included file apply until its end, after which
+//! Mitsuba forgets them; meshes and images are also searched there, last of all.
 
 use std::path::{Path, PathBuf};
 
-/// Folders of `<path>` and of files that are included: every file is sought in all of them.
+/// Maximum folders of `<path>` and of included files: every file is searched in all of them.
 const MAX_FOLDERS: usize = 64;
 
 pub(super) struct Folders {
-    /// Those that hold now, the first to be looked at last.
+    /// Current folders; the first is searched last.
     now: Vec<PathBuf>,
-    /// Those of `<path>` of included files that ended.
+    /// Folders of `<path>` of included files that ended.
     ended: Vec<PathBuf>,
 }
 
-/// Where an included file begins.
+/// Start of an included file.
 pub(super) struct Mark(usize);
 
 impl Folders {
-    /// Of the first file.
+    /// Returns the folders of the first file.
     pub(super) fn beside(file: &Path) -> Self {
         Self { now: vec![folder_of(file)], ended: Vec::new() }
     }
 
-    /// From now on files are sought beside `file`, from which another is included, before all others.
+    /// From now on files are searched first next to `file`, which includes another.
     pub(super) fn begin(&mut self, file: &Path) -> Mark {
         let mark = Mark(self.now.len());
         self.now.push(folder_of(file));
         mark
     }
 
-    /// An included file ends.
+    /// Ends an included file.
     pub(super) fn end(&mut self, mark: &Mark) {
         self.ended.extend(self.now.drain(mark.0..).skip(1));
     }
 
-    /// Adds the folder that a `<path>` in `file` leads to, where there is one; whether it is one is what `is_folder` says.
+    /// Adds the folder of a `<path>` in `file`, if it exists according to `is_folder`.
     pub(super) fn add(
         &mut self,
         name: &str,
@@ -59,13 +59,13 @@ impl Folders {
         ))
     }
 
-    /// The path of a file, beside the first file where it is nowhere.
+    /// Path of a file; next to the first file if it is not found.
     pub(super) fn find(&self, name: &str) -> PathBuf {
         let mut paths = self.now.iter().rev().map(|folder| folder.join(name));
         paths.find(|path| path.is_file()).unwrap_or_else(|| self.now[0].join(name))
     }
 
-    /// All of them in the order in which files are sought, behind the end of the first file.
+    /// All folders in search order, after the end of the first file.
     pub(super) fn all(self) -> Vec<PathBuf> {
         self.now.into_iter().rev().chain(self.ended).collect()
     }

@@ -1,13 +1,13 @@
-//! Parameters and their values: `<default>`, `$name`, and values that are given from outside.
+//! Parameters and their values: `<default>`, `$name`, and values given by the caller.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use etendue_scene::limits;
 
-/// Bytes of a parameter's name.
+/// Maximum bytes of a parameter name.
 const MAX_NAME: usize = 64;
 
-/// Names that a message tells.
+/// Maximum number of names in a message.
 const MAX_TOLD: usize = 12;
 
 struct Value {
@@ -18,12 +18,12 @@ struct Value {
 
 pub(super) struct Parameters {
     values: BTreeMap<String, Value>,
-    /// How long their names are.
+    /// Lengths of the names.
     lengths: BTreeSet<usize>,
 }
 
 impl Parameters {
-    /// With values that are given, before any file is read.
+    /// Initial values given by the caller, before any file is read.
     pub(super) fn given(given: &[(String, String)]) -> Result<Self, String> {
         let mut made = Self { values: BTreeMap::new(), lengths: BTreeSet::new() };
         for (name, text) in given {
@@ -37,7 +37,7 @@ impl Parameters {
         Ok(made)
     }
 
-    /// A `<default>`: the first value of a name holds.
+    /// Handles a `<default>`: the first value of a name applies.
     pub(super) fn default(&mut self, name: String, text: String) -> Result<(), String> {
         check_name(&name).map_err(|told| format!("<default> {told}"))?;
         self.lengths.insert(name.len());
@@ -45,7 +45,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// A value with the parameters that it names (`$spp`) in their places, the longest names first. `bytes` counts what they make as text that is read.
+    /// Substitutes the parameters in a value (`$spp`), longest names first. `bytes` counts the resulting text.
     pub(super) fn put_in(&mut self, value: &str, bytes: &mut u64) -> Result<String, String> {
         let mut made = String::new();
         let mut rest = value;
@@ -67,7 +67,7 @@ impl Parameters {
         Ok(made)
     }
 
-    /// Whether every value that was given is somewhere, when all files are read.
+    /// Checks, when all files are read, that every given value was used.
     pub(super) fn check_used(&self) -> Result<(), String> {
         let Some((name, _)) = self.values.iter().find(|(_, value)| value.is_given && !value.is_used) else {
             return Ok(());
@@ -82,7 +82,7 @@ impl Parameters {
     }
 }
 
-/// What is wrong with the name of a parameter.
+/// Error in the name of a parameter.
 fn check_name(name: &str) -> Result<(), String> {
     match name.len() {
         0 => Err("without a name".to_owned()),
@@ -99,7 +99,7 @@ fn unknown(after: &str) -> String {
     )
 }
 
-/// The elements of the format.
+/// Elements of the format.
 pub(super) const TAGS: &[&str] = &[
     "alias",
     "boolean",
@@ -137,7 +137,8 @@ pub(super) const TAGS: &[&str] = &[
     "volume",
 ];
 
-/// A name of a version before 2, `intIOR`, as it is today, `int_ior`: a run of capitals behind a small letter is parted from it and made small.
+/// Current spelling (`int_ior`) of a name of a version before 2 (`intIOR`): a run of capitals after a lower-case letter is separated by an underscore and
+/// lower-cased.
 pub(super) fn modern(name: &str) -> String {
     let mut made = String::with_capacity(name.len() + 4);
     let mut letters = name.chars().peekable();
@@ -148,14 +149,14 @@ pub(super) fn modern(name: &str) -> String {
             while let Some(capital) = letters.next_if(char::is_ascii_uppercase) {
                 made.push(capital.to_ascii_lowercase());
             }
-            // Mitsuba's own loop steps over the letter behind the run.
+            // Mitsuba's own loop skips the letter after the run.
             made.extend(letters.next());
         }
     }
     made
 }
 
-/// A word of a file in a message.
+/// Word of a file, shortened for a message.
 pub(super) fn shortened(word: &str) -> String {
     const MAX: usize = 40;
     match word.char_indices().nth(MAX) {

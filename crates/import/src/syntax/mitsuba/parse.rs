@@ -1,4 +1,4 @@
-//! XML to elements.
+//! Parser of XML into elements.
 
 use std::{cell::Cell, path::Path, rc::Rc};
 
@@ -11,28 +11,28 @@ use super::element::{Lines, MitsubaElement, MitsubaPlace, MitsubaScene};
 use super::folders::Folders;
 use super::parameters::{Parameters, TAGS, modern, shortened};
 
-/// Files that include one another.
+/// Maximum depth of included files.
 const MAX_INCLUDES: usize = 16;
-/// Elements within one another.
+/// Maximum depth of elements.
 const MAX_DEPTH: usize = 64;
 
-/// What is known while files are read.
+/// State while files are read.
 pub(super) struct Reading<'a> {
     folders: Folders,
     sandbox: &'a Sandbox,
-    /// Of all files so far.
+    /// Bytes of all files so far.
     bytes: u64,
     parameters: Parameters,
     count: usize,
 }
 
-/// A file that is being read.
+/// File being read.
 struct OpenFile {
     path: Rc<Path>,
     lines: Lines,
-    /// Whether names are of a version before 2.
+    /// True if names are of a version before 2.
     is_old: bool,
-    /// How many files include it.
+    /// Depth of inclusion.
     includes: usize,
 }
 
@@ -48,7 +48,7 @@ impl<'a> Reading<'a> {
         Ok(Self { folders: Folders::beside(file), sandbox, bytes: 0, parameters, count: 0 })
     }
 
-    /// The scene of the first file.
+    /// Parses the scene of the first file.
     pub(super) fn scene(mut self, file: &Path) -> Result<MitsubaScene, Error> {
         let root = self.file(file, 0)?;
         if root.tag != "scene" {
@@ -123,7 +123,7 @@ impl<'a> Reading<'a> {
         Ok(element)
     }
 
-    /// Puts what an element within another becomes behind its `siblings`.
+    /// Appends the result of a nested element to its `siblings`.
     fn child(
         &mut self,
         node: &Node<'_, '_>,
@@ -176,7 +176,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// What colours a `diffuse` of a version before 2, by its name of today.
+/// Renames the colour of a `diffuse` of a version before 2 to its current name.
 fn rename_reflectance(parameter: &mut MitsubaElement) {
     let names =
         parameter.attributes.iter_mut().filter(|(name, value)| &**name == "name" && &**value == "diffuse_reflectance");

@@ -1,9 +1,9 @@
 //! Scene files of pbrt-v4, as a stream of directives.
 //!
-//! Source: "Input file format (v4)" of pbrt.org, and the parser of pbrt-v4. What directives mean is for whoever takes them; here they are checked for
-//! their form, and files that they include are read in their place.
+//! Source: "Input file format (v4)" of pbrt.org, and the parser of pbrt-v4. The caller interprets the directives; here their syntax is checked, and included
+//! files are read in their place.
 //!
-//! Limits: a file has at most `file-mib`, files that include one another go 16 deep, and all text together has at most `mesh-mib`.
+//! Limits: a file has at most `file-mib`, included files are nested at most 16 deep, and all text together has at most `mesh-mib`.
 
 mod parse;
 mod token;
@@ -18,26 +18,26 @@ use self::parse::Parser;
 
 pub use token::{PbrtDirective, PbrtParameter, PbrtPlace, PbrtValues};
 
-/// Files that include one another.
+/// Maximum depth of included files.
 const MAX_DEPTH: usize = 16;
 
-/// Where directives go, each with the place where it stands: a fault that is answered ends the reading.
+/// Receiver of directives, each with its place: an error that it returns ends the reading.
 pub type TakeDirective<'a> = dyn FnMut(PbrtDirective, PbrtPlace<'_>) -> Result<(), String> + 'a;
 
-/// Reads a scene file with all files that it includes, which must lie in `sandbox`; gives each directive to `take`.
+/// Reads a scene file with all included files, which must lie in `sandbox`; passes each directive to `take`.
 ///
 /// # Errors
-/// The first fault, with its file and line: of the form, or what `take` answers.
+/// The first error, with its file and line: a syntax error, or that of `take`.
 pub fn read_pbrt(file: &Path, sandbox: &Sandbox, take: &mut TakeDirective<'_>) -> Result<(), Error> {
     let folder = file.parent().unwrap_or(Path::new("")).to_owned();
     Reading { folder, sandbox, bytes: 0, take }.file(file, 0)
 }
 
 struct Reading<'a, 'b> {
-    /// That of the first file: paths of included files are relative to it.
+    /// Folder of the first file: paths of included files are relative to it.
     folder: PathBuf,
     sandbox: &'a Sandbox,
-    /// Of all files so far.
+    /// Bytes of all files so far.
     bytes: u64,
     take: &'a mut TakeDirective<'b>,
 }

@@ -1,10 +1,10 @@
-//! Tokens to directives.
+//! Parser of tokens into directives.
 
 use std::cell::Cell;
 
 use super::token::{Fault, PbrtDirective, PbrtParameter, PbrtValues, Token, Tokens};
 
-/// The arguments of a directive.
+/// Arguments of a directive.
 #[derive(Clone, Copy)]
 enum Form {
     Plain,
@@ -15,7 +15,7 @@ enum Form {
     MediumInterface,
     Setting,
     Include,
-    /// A word without quotes.
+    /// Word without quotes.
     Word,
 }
 
@@ -62,7 +62,7 @@ const DIRECTIVES: &[(&str, Form)] = &[
     ("WorldBegin", Form::Plain),
 ];
 
-/// A word of a file in a message.
+/// Word of a file, shortened for a message.
 fn shortened(word: &str) -> String {
     const MAX: usize = 40;
     match word.char_indices().nth(MAX) {
@@ -128,7 +128,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// As many numbers as a transform has, with brackets or without.
+    /// Numbers of a transform, with or without brackets.
     fn some_numbers(&mut self, of: &str, count: usize, line: usize) -> Result<Vec<f64>, Fault> {
         let bracketed = matches!(self.tokens.peek()?, Some((_, Token::Open)));
         if bracketed {
@@ -156,7 +156,7 @@ impl<'a> Parser<'a> {
         Ok(parameters)
     }
 
-    /// `"type name" value` or `"type name" [ values ]`; `None` where none follows.
+    /// `"type name" value` or `"type name" [ values ]`; `None` if none follows.
     fn parameter(&mut self) -> Result<Option<PbrtParameter>, Fault> {
         let Some((line, Token::Text(head))) = self.tokens.peek()? else { return Ok(None) };
         self.tokens.take()?;
@@ -196,7 +196,7 @@ fn number(word: &str) -> Result<f64, String> {
     }
 }
 
-/// Values of one sort.
+/// Values of one type.
 #[derive(Default)]
 struct Collected {
     numbers: Vec<f64>,

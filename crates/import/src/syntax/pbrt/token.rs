@@ -2,12 +2,12 @@
 
 use std::{cell::Cell, path::Path};
 
-/// A token of a scene file.
+/// Token of a scene file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token<'a> {
-    /// What stands without quotes: a directive, a number, true, false.
+    /// Unquoted word: a directive, a number, true, false.
     Word(&'a str),
-    /// What stands between quotes, as it is there.
+    /// Quoted text, unchanged.
     Text(&'a str),
     /// `[`
     Open,
@@ -15,7 +15,7 @@ pub(super) enum Token<'a> {
     Close,
 }
 
-/// The tokens of a text, one looked at before it is taken.
+/// Tokens of a text, with one token of look-ahead.
 #[derive(Debug)]
 pub(super) struct Tokens<'a> {
     rest: &'a str,
@@ -23,10 +23,10 @@ pub(super) struct Tokens<'a> {
     peeked: Option<(usize, Token<'a>)>,
 }
 
-/// A fault with its line.
+/// Error with its line.
 pub(super) type Fault = (usize, String);
 
-/// What ends a word.
+/// Returns true for a character that ends a word.
 fn ends_word(c: char) -> bool {
     c.is_ascii_whitespace() || matches!(c, '"' | '[' | ']' | '#')
 }
@@ -36,12 +36,12 @@ impl<'a> Tokens<'a> {
         Self { rest: text, line: 1, peeked: None }
     }
 
-    /// The line that reading has come to.
+    /// Current line.
     pub(super) fn line(&self) -> usize {
         self.line
     }
 
-    /// The next token and its line, which stays the next; `None` at the end.
+    /// Returns the next token and its line without taking it; `None` at the end.
     pub(super) fn peek(&mut self) -> Result<Option<(usize, Token<'a>)>, Fault> {
         if self.peeked.is_none() {
             self.peeked = self.read()?;
@@ -49,7 +49,7 @@ impl<'a> Tokens<'a> {
         Ok(self.peeked)
     }
 
-    /// The next token and its line; `None` at the end.
+    /// Takes the next token and its line; `None` at the end.
     pub(super) fn take(&mut self) -> Result<Option<(usize, Token<'a>)>, Fault> {
         match self.peeked.take() {
             Some(token) => Ok(Some(token)),
@@ -96,7 +96,7 @@ impl<'a> Tokens<'a> {
     }
 }
 
-/// Where a directive stands.
+/// Place of a directive.
 #[derive(Clone, Copy, Debug)]
 pub struct PbrtPlace<'a> {
     /// The file.
@@ -105,20 +105,20 @@ pub struct PbrtPlace<'a> {
     pub line: usize,
 }
 
-/// A directive of a scene file. Files are included before they are given to anyone.
+/// Directive of a scene file. Includes are resolved before directives are passed on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PbrtDirective {
-    /// One without arguments: `WorldBegin`, `AttributeBegin` and their like.
+    /// Without arguments: `WorldBegin`, `AttributeBegin` and similar.
     Plain(&'static str),
     /// `Translate`, `Scale`, `Rotate`, `LookAt`, `Transform`, `ConcatTransform`, `TransformTimes`, with as many numbers as each has.
     Numbers(&'static str, Vec<f64>),
-    /// One with a name: `NamedMaterial`, `ObjectBegin` and their like.
+    /// With a name: `NamedMaterial`, `ObjectBegin` and similar.
     Named(&'static str, String),
     /// `MediumInterface`: inside and outside, empty for none.
     MediumInterface([String; 2]),
-    /// One with a type and parameters: `Shape "sphere" …` and their like.
+    /// With a type and parameters: `Shape "sphere" …` and similar.
     Typed(&'static str, String, Vec<PbrtParameter>),
-    /// `Texture`: name, what its values are, its type.
+    /// `Texture`: name, type of values, class.
     Texture([String; 3], Vec<PbrtParameter>),
     /// `Option`.
     Setting(PbrtParameter),
@@ -126,16 +126,16 @@ pub enum PbrtDirective {
     Include(String),
 }
 
-/// A parameter: `"float radius" 3`.
+/// Parameter: `"float radius" 3`.
 #[derive(Clone, Debug)]
 pub struct PbrtParameter {
-    /// The type of its values: `float`, `rgb` and so on.
+    /// Type of its values: `float`, `rgb` and so on.
     pub kind: String,
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its values.
+    /// Values.
     pub values: PbrtValues,
-    /// Whether anyone has looked at it.
+    /// True once it has been used.
     pub used: Cell<bool>,
 }
 
@@ -145,13 +145,13 @@ impl PartialEq for PbrtParameter {
     }
 }
 
-/// The values of a parameter.
+/// Values of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PbrtValues {
     /// Finite numbers.
     Numbers(Vec<f64>),
     /// Texts.
     Texts(Vec<String>),
-    /// Truths.
+    /// Booleans.
     Flags(Vec<bool>),
 }

@@ -1,6 +1,6 @@
-//! Numbers of a file at their places, little-endian.
+//! Little-endian numbers at positions of a file.
 
-/// Bytes, and a place in them.
+/// Bytes, and a position in them.
 pub(super) struct Bytes<'a> {
     all: &'a [u8],
     pub(super) at: usize,
@@ -11,12 +11,12 @@ impl<'a> Bytes<'a> {
         Self { all, at: 0 }
     }
 
-    /// The same at another place.
+    /// The same bytes at another position.
     pub(super) fn with_place(self, at: usize) -> Self {
         Self { at, ..self }
     }
 
-    /// How many are behind the place.
+    /// Bytes after the position.
     pub(super) fn left(&self) -> u64 {
         self.all.len().saturating_sub(self.at) as u64
     }
@@ -55,7 +55,7 @@ impl<'a> Bytes<'a> {
         self.array().map(u64::from_le_bytes)
     }
 
-    /// A count of things that have at least `size` bytes each here.
+    /// Reads a count of items of at least `size` bytes each.
     pub(super) fn count(&mut self, size: u64) -> Result<u64, String> {
         let count = self.u64()?;
         match count.checked_mul(size.max(1)).is_some_and(|bytes| bytes <= self.left()) {

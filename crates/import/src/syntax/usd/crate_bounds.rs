@@ -1,29 +1,29 @@
-//! What a crate unpacks to, before `openusd` believes what it says.
+//! Checks the decompressed size of a crate before `openusd` reads it.
 //!
-//! Source: AOUSD Core Specification 1.0.1, §16.3, and `pxr/usd/usd/crateFile.cpp`. A crate is a table of sections: tokens, strings (numbers of tokens),
-//! fields (a token and a value each), sets of fields, paths (a tree, written as jumps), specs (a path and a set of fields). All integers are packed by two
-//! bits and LZ4. `openusd` allocates what a count says before it reads, decodes paths along whatever jumps there are, and follows values that hold values
-//! without end; all of that is done here first, on a budget.
+//! Source: AOUSD Core Specification 1.0.1, §16.3, and `pxr/usd/usd/crateFile.cpp`. A crate is a table of sections: tokens, strings (numbers of tokens), fields
+//! (a token and a value each), sets of fields, paths (a tree, encoded as jumps), specs (a path and a set of fields). All integers are packed by two bits and
+//! LZ4. `openusd` allocates memory for a count before it reads, decodes paths along arbitrary jumps, and follows nested values without a limit. All of that is
+//! checked here first, within a memory budget.
 
 use etendue_scene::limits;
 
 use super::bytes::Bytes;
 use super::text_bounds::{check_expression, is_balanced};
 
-/// LZ4 packs at most so many bytes into one, as its specification has lengths.
+/// Maximum compression ratio of LZ4, from the length codes of its specification.
 const MAX_RATIO: u64 = 256;
-/// Prims and properties within one another.
+/// Maximum depth of prims and properties.
 pub(super) const MAX_DEPTH: usize = 64;
-/// What a path, a spec and a text take beside their characters, bytes.
+/// Overhead of a path, a spec and a text in addition to the characters, bytes.
 const OVERHEAD: u64 = 64;
 
-/// A crate whose tables are known.
+/// Crate with its parsed tables.
 pub(super) struct Crate<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) version: [u8; 3],
     /// Lengths of tokens, bytes.
     pub(super) tokens: Vec<u64>,
-    /// Whether tokens can be parts of paths.
+    /// True for tokens that can be parts of paths.
     in_paths: Vec<bool>,
     /// Tokens of strings.
     pub(super) strings: Vec<u32>,
@@ -32,7 +32,7 @@ pub(super) struct Crate<'a> {
     spent: u64,
 }
 
-/// Refuses a crate that would unpack to more than `mesh-mib`, or has no end.
+/// Refuses a crate that would decompress to more than `mesh-mib`, or does not terminate.
 pub(super) fn check_crate(bytes: &[u8]) -> Result<(), String> {
     let mut reader = Bytes::new(bytes);
     reader.take(8)?;
@@ -98,13 +98,13 @@ impl<'a> Crate<'a> {
         Ok(reader)
     }
 
-    /// Counts what `count` things of `size` bytes take.
+    /// Charges the budget for `count` items of `size` bytes.
     pub(super) fn spend(&mut self, count: u64, size: u64) -> Result<(), String> {
         self.spent = self.spent.saturating_add(count.saturating_mul(size));
         limits::MESH.check_unpacked(self.spent)
     }
 
-    /// Bytes that are packed: one byte for the number of chunks, of which there is one, and a block.
+    /// Decompresses bytes: one byte for the number of chunks, which must be one, and a block.
     fn unpacked(&mut self, reader: &mut Bytes<'_>, most: u64) -> Result<Vec<u8>, String> {
         let size = reader.count(1)?;
         let packed = reader.take(size)?;
@@ -112,7 +112,7 @@ impl<'a> Crate<'a> {
         if *chunks != 0 {
             return Err("a packed block of more than 2 GiB, which is not read".to_owned());
         }
-        // What cannot come out of the block need not be made room for.
+        // The block cannot give more than this, so no more is allocated.
         let most = most.min((block.len() as u64).saturating_mul(MAX_RATIO));
         self.spend(most, 1)?;
         let mut unpacked = vec![0; usize::try_from(most).map_err(|_| "a packed block is too large")?];
@@ -122,15 +122,15 @@ impl<'a> Crate<'a> {
         Ok(unpacked)
     }
 
-    /// Integers of 32 bits, in what they are packed; refuses more than there can be.
+    /// Packed 32-bit integers; refuses more than possible.
     fn integers(&mut self, reader: &mut Bytes<'_>, count: u64) -> Result<Vec<u8>, String> {
         self.check_packed_count(reader, count)?;
-        // `openusd` makes room for the longest form and for what it decodes.
+        // `openusd` allocates the longest form and the decoded integers.
         self.spend(count, 16)?;
         self.unpacked(reader, 8 + count / 4 + 4 * count)
     }
 
-    /// Refuses a count of packed integers, two bits each at least, that cannot come out of the block that follows.
+    /// Refuses a count of packed integers, at least two bits each, that cannot come from the block that follows.
     pub(super) fn check_packed_count(&self, reader: &Bytes<'_>, count: u64) -> Result<(), String> {
         let mut reader = Bytes::new(self.bytes).with_place(reader.at);
         let size = reader.count(1)?;
@@ -181,11 +181,11 @@ impl<'a> Crate<'a> {
         self.walk_paths([&indices, &elements, &jumps])
     }
 
-    /// The tree of paths as `openusd` walks it: a jump of 0 is a sibling that follows, of −1 a child that follows, of −2 neither, above 0 a child that follows
-    /// and a sibling so far away. No place is walked twice.
+    /// Walks the tree of paths like `openusd`. A jump of 0 means that a sibling follows; −1: a child follows; −2: neither; above 0: a child follows, with a
+    /// sibling at that distance. No position is visited twice.
     fn walk_paths(&mut self, [indices, elements, jumps]: [&[i32]; 3]) -> Result<(), String> {
         let mut seen = vec![false; jumps.len()];
-        // Places, lengths of their parents, and depths; the root has no parent.
+        // Positions, lengths of their parents, and depths; the root has no parent.
         let mut pending = if jumps.is_empty() { Vec::new() } else { vec![(0_usize, None, 0)] };
         while let Some((mut at, mut parent, mut depth)) = pending.pop() {
             loop {
@@ -197,7 +197,7 @@ impl<'a> Crate<'a> {
                     None => 1,
                     Some(parent) => {
                         let token = elements[at].unsigned_abs() as usize;
-                        // Braces that are no variant's lead `openusd` round.
+                        // Braces other than those of variants send `openusd` into a loop.
                         if self.in_paths.get(token) != Some(&true) {
                             return Err(fault());
                         }
@@ -238,7 +238,7 @@ impl<'a> Crate<'a> {
     }
 }
 
-/// Integers of 32 bits, each by two bits that say how its difference to the one before is written.
+/// Decodes 32-bit integers; two bits each state the encoding of the difference to the previous one.
 fn decoded(packed: &[u8], count: u64) -> Result<Vec<i32>, String> {
     if count == 0 {
         return Ok(Vec::new());

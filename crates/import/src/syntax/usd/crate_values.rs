@@ -1,4 +1,4 @@
-//! What the values of a crate unpack to.
+//! Decompressed size of the values of a crate.
 
 use super::bytes::Bytes;
 use super::crate_bounds::{Crate, MAX_DEPTH};
@@ -7,10 +7,10 @@ const ARRAY: u64 = 1 << 63;
 const INLINED: u64 = 1 << 62;
 const COMPRESSED: u64 = 1 << 61;
 const PAYLOAD: u64 = (1 << 48) - 1;
-/// What a value takes beside what it holds, bytes.
+/// Overhead of a value in addition to its content, bytes.
 const OVERHEAD: u64 = 128;
 
-/// What an index of a list stands for.
+/// Table that an index of a list refers to.
 #[derive(Clone, Copy)]
 enum Indexed {
     Token,
@@ -18,14 +18,14 @@ enum Indexed {
     Path,
 }
 
-/// Bytes of an element of an array, by the number of its type.
+/// Bytes of an array element, by the number of its type.
 fn element_size(kind: u64) -> Option<u64> {
     Some(match kind {
         1 | 2 => 1,
         3 | 4 | 8 => 4,
         5 | 6 | 9 | 56 => 8,
         7 => 2,
-        // Matrices of doubles, 2, 3 and 4 a side.
+        // Matrices of doubles of order 2, 3 and 4.
         13 => 32,
         14 => 72,
         15 => 128,
@@ -40,7 +40,7 @@ fn element_size(kind: u64) -> Option<u64> {
 }
 
 impl Crate<'_> {
-    /// Counts what a value takes, and refuses one that holds more than the file, or holds itself.
+    /// Charges the budget for a value, and refuses one that holds more than the file, or contains itself.
     pub(super) fn check_value(&mut self, value: u64, depth: usize) -> Result<(), String> {
         self.spend(1, OVERHEAD)?;
         if depth > MAX_DEPTH {
@@ -92,7 +92,7 @@ impl Crate<'_> {
             _ => None,
         };
         let is_packed = value & COMPRESSED != 0 && count >= 4 && since.is_some_and(|since| self.version >= since);
-        // What is packed passes through the longest form of its integers.
+        // Packed integers are decoded through their longest form.
         self.spend(count, if is_packed { 2 * size + 16 } else { size })?;
         if !is_packed {
             return match count.checked_mul(size).is_some_and(|bytes| bytes <= reader.left()) {
@@ -108,7 +108,7 @@ impl Crate<'_> {
         self.check_packed_count(&reader, count)
     }
 
-    /// A count of 64 bits and entries of `size` bytes, which take `memory` bytes each.
+    /// Reads a 64-bit count of entries of `size` bytes, which take `memory` bytes each.
     fn counted(&mut self, reader: &mut Bytes<'_>, size: u64, memory: u64) -> Result<(), String> {
         let count = reader.count(size)?;
         self.spend(count, memory)?;
@@ -120,7 +120,7 @@ impl Crate<'_> {
         self.indices(reader, count, of)
     }
 
-    /// Numbers of 32 bits of what stands in a table, each of which is copied.
+    /// Reads 32-bit indices into a table, whose entries are copied.
     fn indices(&mut self, reader: &mut Bytes<'_>, count: u64, of: Indexed) -> Result<(), String> {
         let raw = reader.take(count.checked_mul(4).ok_or("too many entries")?)?;
         for bytes in raw.as_chunks::<4>().0 {
@@ -136,7 +136,7 @@ impl Crate<'_> {
         Ok(())
     }
 
-    /// A place relative to where it is written.
+    /// Follows an offset relative to its own position.
     fn followed(reader: &mut Bytes<'_>) -> Result<(), String> {
         let at = reader.at as i64;
         let offset = reader.u64()? as i64;

@@ -1,4 +1,4 @@
-//! Layers and packages as `openusd` asks for them: read within limits, and looked at before they are parsed.
+//! Layers and packages requested by `openusd`: read within limits, and checked before they are parsed.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
@@ -16,7 +16,7 @@ use super::package::{Package, packed};
 use super::tree::{Arcs, UsdFile};
 use super::{crate_bounds::check_crate, text_bounds::check_text};
 
-/// How a crate begins.
+/// Magic bytes of a crate.
 const CRATE: &[u8] = b"PXR-USDC";
 
 /// Files of a scene.
@@ -27,11 +27,11 @@ struct Shared {
     paths: DefaultResolver,
     sandbox: Sandbox,
     packages: RefCell<HashMap<PathBuf, Rc<Package>>>,
-    /// Layers that were looked at, by what they are called.
+    /// Checked layers, by name.
     seen: RefCell<HashSet<String>>,
     bytes: Cell<u64>,
     arcs: RefCell<Arcs>,
-    /// The first file that is refused: `openusd` goes on without it.
+    /// First refused file: `openusd` continues without it.
     fault: RefCell<Option<Error>>,
 }
 
@@ -48,12 +48,12 @@ impl Layers {
         }))
     }
 
-    /// The first file that was refused.
+    /// First refused file.
     pub(super) fn fault(&self) -> Option<Error> {
         self.0.fault.borrow().clone()
     }
 
-    /// Where a file lies that a value names, of its resolved path.
+    /// Location of a file that a value names, from its resolved path.
     pub(super) fn file(&self, resolved: &str) -> Option<UsdFile> {
         if !is_package_relative_path(resolved) {
             return Some(UsdFile::Plain(PathBuf::from(resolved)));
@@ -81,7 +81,7 @@ impl Layers {
         Ok(package)
     }
 
-    /// The bytes of a layer or package, looked at.
+    /// Checked bytes of a layer or package.
     fn opened(&self, resolved: &str) -> Result<Vec<u8>, Error> {
         let (file, bytes) = match split_package_relative_path_outer(resolved) {
             Some((package, name)) if is_package_relative_path(resolved) => {
@@ -109,11 +109,11 @@ impl Layers {
 }
 
 impl Layers {
-    /// Parses a layer that has classes once more, for its circles; what cannot be parsed is told by whoever composes it.
+    /// Parses a layer with classes separately, to find circles; the composer reports one that cannot be parsed.
     fn check_arcs(&self, bytes: &[u8]) -> Result<(), String> {
         let is_crate = bytes.starts_with(CRATE);
         let has = |word: &[u8]| bytes.windows(word.len()).any(|found| found == word);
-        // Names of a crate's fields are packed.
+        // Names of a crate's fields are compressed.
         if !is_crate && !has(b"inherit") && !has(b"specializes") {
             return Ok(());
         }

@@ -1,4 +1,4 @@
-//! Packages: ZIP archives whose files are stored as they are.
+//! Packages: ZIP archives of uncompressed files.
 //!
 //! Source: "Usdz File Format Specification" (openusd.org), which allows neither compression nor encryption, and PKWARE's APPNOTE 6.3.
 
@@ -9,10 +9,10 @@ use super::bytes::Bytes;
 const END: [u8; 4] = *b"PK\x05\x06";
 const CENTRAL: u32 = 0x0201_4b50;
 const LOCAL: u32 = 0x0403_4b50;
-/// The shortest and the longest end record.
+/// Minimum and maximum size of the end record.
 const END_SIZES: [usize; 2] = [22, 22 + 65_535];
 
-/// A file of a package.
+/// File of a package.
 pub(super) struct Entry {
     pub(super) name: String,
     crc: u32,
@@ -27,24 +27,24 @@ pub(super) struct Package {
 }
 
 impl Package {
-    /// Tells a package apart.
+    /// Parses a package.
     pub(super) fn new(bytes: Vec<u8>) -> Result<Self, String> {
         let entries = entries(&bytes).map_err(|told| format!("no package that can be read: {told}"))?;
         Ok(Self { bytes, entries })
     }
 
-    /// The bytes of a file in it.
+    /// Bytes of a file in the package.
     pub(super) fn file(&self, name: &str) -> Option<&[u8]> {
         let entry = self.entries.iter().find(|entry| entry.name == name)?;
         Some(&self.bytes[entry.from..entry.to])
     }
 
-    /// The files that are layers, in their order.
+    /// Files that are layers, in order.
     pub(super) fn layers(&self) -> impl Iterator<Item = &Entry> {
         self.entries.iter().filter(|entry| is_layer(&entry.name))
     }
 
-    /// A package of its layers alone, without anything that could be read in two ways.
+    /// Returns a package of the layers alone, without ambiguous content.
     pub(super) fn of_layers(&self) -> Vec<u8> {
         let (mut made, mut central) = (Vec::new(), Vec::new());
         let mut count = 0_u16;
@@ -80,7 +80,7 @@ impl Package {
         made
     }
 
-    /// What is in it, for a message.
+    /// Content, for a message.
     pub(super) fn shown(&self) -> String {
         let mut shown = String::new();
         for entry in self.entries.iter().take(5) {
@@ -90,7 +90,7 @@ impl Package {
     }
 }
 
-/// Whether a file of a package is a layer.
+/// Returns true if a file of a package is a layer.
 fn is_layer(name: &str) -> bool {
     [".usd", ".usda", ".usdc"].iter().any(|ending| name.ends_with(ending))
 }
@@ -114,7 +114,7 @@ fn entries(bytes: &[u8]) -> Result<Vec<Entry>, String> {
     for _ in 0..count {
         found.push(entry(bytes, &mut reader)?);
     }
-    // Files that lie over one another would unpack to more than the package has.
+    // Overlapping files would decompress to more than the package.
     match found.iter().map(|entry| (entry.to - entry.from) as u64).sum::<u64>() <= bytes.len() as u64 {
         true => Ok(found),
         false => Err("its files are larger than itself".to_owned()),
@@ -151,7 +151,7 @@ fn entry(bytes: &[u8], reader: &mut Bytes<'_>) -> Result<Entry, String> {
     Ok(Entry { name, crc, from, to: head.at })
 }
 
-/// A file of a package as whoever takes it holds it.
+/// File of a package, as a shared buffer.
 pub(super) fn packed(package: &Package, name: &str) -> Option<Rc<[u8]>> {
     package.file(name).map(Rc::from)
 }

@@ -1,4 +1,4 @@
-//! A stage, prim by prim.
+//! Reader of a stage, prim by prim.
 
 use std::{collections::BTreeMap, path::Path};
 
@@ -12,24 +12,24 @@ use super::layers::Layers;
 use super::tree::{UsdAttribute, UsdAxis, UsdPrim, UsdRelation, UsdStage};
 use super::values::{bytes_of, plain};
 
-/// Prims of a stage, instances counted each: `openusd` keeps some kilobytes for each.
+/// Maximum prims of a stage, counting each instance: `openusd` keeps some kilobytes for each.
 const MAX_PRIMS: usize = 100_000;
-/// Prims within one another.
+/// Maximum depth of prims.
 const MAX_DEPTH: usize = 64;
-/// What could not be composed is told so often.
+/// Maximum number of notes on content that could not be composed.
 const MAX_NOTES: usize = 50;
-/// What a composed prim takes, and each arc by which something is said of it, bytes.
+/// Memory of a composed prim, and of each arc that contributes to it, bytes.
 const PRIM: u64 = 4096;
 const NODE: u64 = 16_384;
-/// What an attribute takes beside its value, bytes.
+/// Overhead of an attribute in addition to its value, bytes.
 const OVERHEAD: u64 = 256;
 
 /// Reads a scene with all layers that it names, which must lie in `sandbox`.
 ///
 /// # Errors
-/// Where the file cannot be read or is damaged, or a layer of it is; what a layer names and is not there is said in the stage's notes.
+/// If the file, or a layer of it, cannot be read or is damaged; missing layers are listed in the stage's notes.
 pub fn read_usd(file: &Path, sandbox: &Sandbox) -> Result<UsdStage, Error> {
-    // Whether it is there, and of what kind, is told in our words.
+    // Existence and kind of the file are reported in our own words.
     sandbox.check(file).map_err(|told| Error::missing(file, told))?;
     if !file.is_file() {
         etendue_io::source::read_bytes(file, "USD")?;
@@ -82,7 +82,7 @@ impl Reading<'_> {
         Ok(UsdStage { metres_per_unit, says_metres: metres.is_some(), up, start_time: self.time, roots: roots?, notes })
     }
 
-    /// Of a text that is not parsed: its line.
+    /// Line of the error in a text that is not parsed.
     fn place_of_fault(&self, real: &Path) -> Option<Error> {
         let text = String::from_utf8(etendue_io::source::read_bytes(real, "USD").ok()?).ok()?;
         let mut parser = Parser::new(&text);
@@ -103,7 +103,7 @@ impl Reading<'_> {
         Ok(made)
     }
 
-    /// `None` of what is no prim of the scene.
+    /// `None` if it is no prim of the scene.
     fn prim(&mut self, prim: &Prim, depth: usize) -> Result<Option<UsdPrim>, Error> {
         let path = prim.path().as_str().to_owned();
         let Some(mut made) = self.plain_prim(prim).map_err(|told| self.fault(format!("{path}: {told}")))? else {
@@ -119,7 +119,7 @@ impl Reading<'_> {
         Ok(Some(made))
     }
 
-    /// A prim without those within it; `None` of what is no prim of the scene.
+    /// Prim without children; `None` if it is no prim of the scene.
     fn plain_prim(&mut self, prim: &Prim) -> Result<Option<UsdPrim>, String> {
         if prim.specifier().map_err(words)? != Some(Specifier::Def) || !prim.is_active().map_err(words)? {
             return Ok(None);
@@ -145,7 +145,7 @@ impl Reading<'_> {
         Ok(Some(UsdPrim { path, kind, schemas, attributes, relations, inactive_ids, children: Vec::new() }))
     }
 
-    /// Counts what a part of the tree takes, with what `openusd` keeps of it.
+    /// Charges the budget for a part of the tree, including the memory of `openusd`.
     fn spend(&mut self, bytes: u64) -> Result<(), String> {
         self.bytes += bytes;
         limits::MESH.check_unpacked(self.bytes)
@@ -167,7 +167,7 @@ impl Reading<'_> {
     }
 }
 
-/// A token, or a text; empty of anything else.
+/// Token or text; empty for other values.
 fn word(value: Option<Value>) -> String {
     match value {
         Some(Value::Token(word)) => word.as_str().to_owned(),
@@ -176,13 +176,13 @@ fn word(value: Option<Value>) -> String {
     }
 }
 
-/// What is said of a prim or a property beside its value.
+/// Metadata of a prim or a property.
 fn metadata(stage: &Stage, path: &openusd::sdf::Path, name: &str) -> Result<Option<Value>, String> {
-    // `openusd` asks by the handle of an attribute alone, whatever stands at the path.
+    // `openusd` provides this only through the handle of an attribute, whatever the path is.
     stage.attribute(path.clone()).get_metadata(name).map_err(words)
 }
 
-/// The metadata `inactiveIds` of a prim, of the strongest layer that has an opinion: those of weaker layers are not merged into it.
+/// Metadata `inactiveIds` of a prim, from the strongest layer with an opinion: those of weaker layers are not merged.
 fn inactive_ids(prim: &Prim) -> Result<Vec<i64>, String> {
     Ok(match metadata(prim.stage(), prim.path(), "inactiveIds")? {
         Some(Value::Int64ListOp(list)) => list.iter().copied().collect(),
@@ -202,17 +202,17 @@ fn read_relation(relation: &Relationship) -> Result<UsdRelation, String> {
     })
 }
 
-/// A cause with what caused it.
+/// Error text with its causes.
 fn words(cause: impl std::fmt::Display) -> String {
     format!("{cause:#}")
 }
 
-/// The name of a property of a path, `/World.size`.
+/// Property name of a path, `/World.size`.
 fn last(path: &str) -> &str {
     path.split_once('.').map_or(path, |(_, name)| name)
 }
 
-/// A number that the stage says of itself.
+/// Number in the metadata of the stage.
 fn number(stage: &Stage, name: &str) -> Option<f64> {
     match stage.stage_metadata(name).ok()?? {
         Value::Double(v) => Some(v),

@@ -1,14 +1,14 @@
-//! What a text layer may not have, as `openusd` does not come to an end with it: deep nesting, with which it goes down on the stack; lists in lists, which
-//! it tries over and over; braces in paths that are not a variant's.
+//! Refuses text layers on which `openusd` does not terminate: deep nesting, which exhausts the stack; nested lists, which it parses repeatedly; and braces in
+//! paths other than those of variants.
 
-/// Braces within one another, and brackets of an expression in a string.
+/// Maximum depth of braces, and of brackets of an expression in a string.
 const MAX_DEPTH: usize = 64;
-/// Lists, and tuples, within one another: matrices in an array have three.
+/// Maximum depth of lists and tuples: matrices in an array have three.
 const MAX_LISTS: usize = 8;
 
-/// Refuses a text that is nested too deep, or has an impossible path.
+/// Refuses a text that is nested too deep, or contains an impossible path.
 pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
-    // Of braces, parentheses, brackets.
+    // Depths of braces, parentheses, brackets.
     let (mut depths, mut at, mut words) = ([0_usize; 3], 0, LastWords::default());
     let line = |at: usize| 1 + text[..at].iter().filter(|byte| **byte == b'\n').count();
     while at < text.len() {
@@ -49,7 +49,7 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// Whether every brace that is closed was opened, and every one that was opened is closed.
+/// Returns true if all braces are balanced.
 pub(super) fn is_balanced(text: &[u8]) -> bool {
     let mut depth = 0_usize;
     for byte in text {
@@ -63,10 +63,10 @@ pub(super) fn is_balanced(text: &[u8]) -> bool {
     depth == 0
 }
 
-/// The ends of the last two words of a text that is read once from its beginning.
+/// Ends of the last two words of a text that is read sequentially.
 #[derive(Default)]
 struct LastWords {
-    /// As long as the longest word that is asked for.
+    /// As long as the longest word searched for.
     ends: [[u8; 5]; 2],
     is_within: bool,
     read: usize,
@@ -88,13 +88,13 @@ impl LastWords {
         self.read = at;
     }
 
-    /// Whether what is quoted behind them is the name of a prim: `def`, `over` or `class` is before it, and at most a type between.
+    /// Returns true if the quoted text after them is the name of a prim: `def`, `over` or `class` precedes it, with at most a type between.
     fn name_prim(&self) -> bool {
         self.ends.iter().any(|end| [&b"def"[..], b"over", b"class"].iter().any(|known| end.ends_with(known)))
     }
 }
 
-/// Where what is quoted from `at` on ends, and what stands within.
+/// End of a quoted text that starts at `at`, and its content.
 fn quoted(text: &[u8], at: usize, quote: u8) -> (usize, &[u8]) {
     let width = if text[at..].starts_with(&[quote; 3]) { 3 } else { 1 };
     let from = at + width;
@@ -134,7 +134,7 @@ pub(super) fn check_expression(text: &[u8]) -> Result<(), String> {
 mod tests {
     use super::*;
 
-    /// Quotes without a blank between them, and blanks without a word: a million bytes of either take no minutes.
+    /// Quotes without a blank between them, and blanks without a word: a million bytes of either are read in linear time.
     #[test]
     fn long_texts_are_read_once() {
         let blanks = format!("{}{}", " ".repeat(1_000_000), "''".repeat(100_000));

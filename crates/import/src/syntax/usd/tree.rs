@@ -1,18 +1,17 @@
-//! A composed stage in plain types.
+//! Composed stage in plain types; check of class inheritance.
 //!
-//! Who inherits from whom: `openusd` follows classes that inherit from one another in a circle without end, and long chains on the stack.
-//!
-//! Looked at of all layers together, as a class of one layer may be one of another; prims of the same path count as one, whatever layer they are of.
+//! `openusd` follows circular inheritance without end, and long chains on the stack. The check covers all layers together, as a class of one layer may be one
+//! of another; prims of the same path count as one, whatever their layer.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::{cell::Cell, path::PathBuf, rc::Rc};
 
 use openusd::sdf::{AbstractData, SpecType, Value};
 
-/// What stands upright in a stage.
+/// Up axis of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UsdAxis {
-    /// +y, as where nothing is said.
+    /// +y, the default.
     Y,
     /// +z.
     Z,
@@ -21,114 +20,114 @@ pub enum UsdAxis {
 /// A composed stage.
 #[derive(Debug)]
 pub struct UsdStage {
-    /// Metres of a length of 1; 0.01 where nothing is said.
+    /// Metres per unit of length; 0.01 by default.
     pub metres_per_unit: f64,
-    /// Whether the file says it.
+    /// True if the file states it.
     pub says_metres: bool,
-    /// What is up.
+    /// Up axis.
     pub up: UsdAxis,
-    /// The time code of all values.
+    /// Time code of all values.
     pub start_time: f64,
-    /// The prims of the root.
+    /// Root prims.
     pub roots: Vec<UsdPrim>,
-    /// What could not be composed, in words.
+    /// Notes on content that could not be composed.
     pub notes: Vec<String>,
 }
 
-/// A prim: defined, active, no class.
+/// Prim: defined, active, no class.
 #[derive(Debug, Default)]
 pub struct UsdPrim {
-    /// Its path, `/World/Chair`.
+    /// Path, `/World/Chair`.
     pub path: String,
-    /// Its type, `Mesh`; empty where it has none.
+    /// Type, `Mesh`; empty if it has none.
     pub kind: String,
-    /// The API schemas that are applied to it.
+    /// Applied API schemas.
     pub schemas: Vec<String>,
-    /// Its attributes by their names.
+    /// Attributes by name.
     pub attributes: BTreeMap<String, UsdAttribute>,
-    /// Its relationships by their names.
+    /// Relationships by name.
     pub relations: BTreeMap<String, UsdRelation>,
-    /// Of an instancer: `inactiveIds`, the instances that are left out at all times.
+    /// For an instancer: `inactiveIds`, the instances that are never drawn.
     pub inactive_ids: Vec<i64>,
-    /// The prims within it.
+    /// Child prims.
     pub children: Vec<UsdPrim>,
 }
 
-/// A relationship.
+/// Relationship.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct UsdRelation {
     /// Paths of prims and properties.
     pub targets: Vec<String>,
-    /// Of one that binds a material: `bindMaterialAs = "strongerThanDescendants"`.
+    /// For a material binding: `bindMaterialAs = "strongerThanDescendants"`.
     pub is_stronger: bool,
-    /// Whether anyone has looked at it.
+    /// True once it has been used.
     pub used: Cell<bool>,
 }
 
-/// An attribute.
+/// Attribute.
 #[derive(Debug, Default)]
 pub struct UsdAttribute {
-    /// Its value at the stage's start; `None` where it has none, or is blocked.
+    /// Value at the stage's start; `None` if it has none, or is blocked.
     pub value: Option<UsdValue>,
-    /// Paths of the properties that it is connected to.
+    /// Paths of connected properties.
     pub connections: Vec<String>,
-    /// How a primvar lies on a mesh: `constant`, `uniform`, `varying`, `vertex`, `faceVarying`; empty where nothing is said.
+    /// Interpolation of a primvar on a mesh: `constant`, `uniform`, `varying`, `vertex`, `faceVarying`; empty if not stated.
     pub interpolation: String,
-    /// Whether it has more values than one over time.
+    /// True if it has more than one value over time.
     pub varies: bool,
-    /// Whether anyone has looked at it.
+    /// True once it has been used.
     pub used: Cell<bool>,
 }
 
-/// A value; every kind of number is one of 64 bits.
+/// Value; all numbers have 64 bits.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UsdValue {
-    /// True or false.
+    /// Boolean.
     Flag(bool),
     /// A number.
     Number(f64),
-    /// A tuple: vectors; quaternions with their real part first; matrices row by row, as row vectors are multiplied by them.
+    /// Tuple: vectors; quaternions with their real part first; matrices row by row, for multiplication of row vectors.
     Tuple(Vec<f64>),
     /// An array of numbers.
     Numbers(Vec<f64>),
-    /// An array of tuples, one after the other, and how many numbers each has.
+    /// Array of tuples, concatenated, with the number of components first.
     Tuples(usize, Vec<f64>),
     /// A token or a text.
     Text(String),
-    /// Several.
+    /// Array of tokens or texts.
     Texts(Vec<String>),
-    /// A file.
+    /// File.
     Asset(UsdAsset),
-    /// What is none of these.
+    /// Other type.
     Other,
 }
 
-/// A file that a stage names.
+/// File that a stage names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UsdAsset {
-    /// As it is written.
+    /// As written.
     pub stated: String,
-    /// Where it lies; `None` of one that is not there.
+    /// Location; `None` if it does not exist.
     pub file: Option<UsdFile>,
 }
 
-/// Where a file lies.
+/// Location of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UsdFile {
-    /// By itself.
+    /// Separate file.
     Plain(PathBuf),
     /// In a package: its name there, and its bytes.
     Packed(String, Rc<[u8]>),
 }
 
 impl UsdPrim {
-    /// The last part of its path.
+    /// Last part of its path.
     #[must_use]
     pub fn name(&self) -> &str {
         self.path.rsplit('/').next().unwrap_or_default()
     }
 
-    /// The value of an attribute, which counts as looked at.
+    /// Returns the value of an attribute and marks it as used.
     #[must_use]
     pub fn value(&self, name: &str) -> Option<&UsdValue> {
         let attribute = self.attributes.get(name)?;
@@ -136,7 +135,7 @@ impl UsdPrim {
         attribute.value.as_ref()
     }
 
-    /// A relationship with targets, which counts as looked at.
+    /// Returns a relationship with targets and marks it as used.
     #[must_use]
     pub fn relation(&self, name: &str) -> Option<&UsdRelation> {
         let relation = self.relations.get(name)?;
@@ -144,17 +143,17 @@ impl UsdPrim {
         Some(relation).filter(|relation| !relation.targets.is_empty())
     }
 
-    /// Whether an API schema is applied to it.
+    /// Returns true if an API schema is applied to it.
     #[must_use]
     pub fn has_schema(&self, schema: &str) -> bool {
         self.schemas.iter().any(|own| own == schema)
     }
 }
 
-/// Classes that inherit from one another in a row.
+/// Maximum length of a chain of inheritance.
 const MAX_CHAIN: usize = 64;
 
-/// Inheritance, and specialisation, of the layers so far.
+/// Inherits and specialises arcs of the layers so far.
 #[derive(Default)]
 pub(super) struct Arcs(BTreeMap<String, BTreeSet<String>>);
 
@@ -180,14 +179,14 @@ impl Arcs {
         self.0.entry(heir.to_owned()).or_default().insert(parent.to_owned())
     }
 
-    /// The prims whose inheritance counts for a prim: itself, and those that it stands in.
+    /// Prims whose inheritance affects a prim: itself and its ancestors.
     fn about<'a>(&'a self, path: &'a str) -> impl Iterator<Item = &'a str> {
         let ends = path.match_indices('/').map(|(at, _)| at).filter(|at| *at > 0).chain([path.len()]);
         ends.map(move |end| &path[..end]).filter_map(|path| self.0.get_key_value(path).map(|(own, _)| own.as_str()))
     }
 
     fn check(&self) -> Result<(), String> {
-        // How long the chain from a prim is; 0 while it is being walked.
+        // Length of the chain from a prim; 0 while it is being walked.
         let mut known: HashMap<&str, usize> = HashMap::new();
         for start in self.0.keys() {
             self.chain(start, 0, &mut known)?;

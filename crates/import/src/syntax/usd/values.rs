@@ -1,4 +1,4 @@
-//! Values of `openusd` in plain types.
+//! Conversion of `openusd` values to plain types.
 
 use openusd::gf::f16;
 use openusd::sdf::{AssetPath, Value};
@@ -6,7 +6,7 @@ use openusd::sdf::{AssetPath, Value};
 use super::layers::Layers;
 use super::tree::{UsdAsset, UsdValue};
 
-/// The number that is meant by one of 32 bits: the shortest decimal that reads as it.
+/// 64-bit number for a 32-bit one: the shortest decimal that reads back to it.
 fn short(v: f32) -> f64 {
     v.to_string().parse().unwrap_or_else(|_| v.into())
 }
@@ -42,7 +42,7 @@ fn asset(path: &AssetPath, layers: &Layers) -> UsdAsset {
     UsdAsset { stated: path.asset_path().to_owned(), file: path.resolved_path().and_then(|path| layers.file(path)) }
 }
 
-/// `None` of a value that is none.
+/// `None` if the value is empty.
 pub(super) fn plain(value: Value, layers: &Layers) -> Option<UsdValue> {
     Some(match value {
         Value::None | Value::ValueBlock => return None,
@@ -121,7 +121,7 @@ fn tuple_array(value: Value) -> UsdValue {
     }
 }
 
-/// Bytes that a value takes.
+/// Bytes of a value.
 pub(super) fn bytes_of(value: &UsdValue) -> u64 {
     let own = size_of_val(value) as u64;
     own + match value {

@@ -24,7 +24,7 @@ fn strong_bindings_and_those_for_full_rendering_go_before_near_ones() {
     assert!(made.says("Mesh: the relationship \"material:binding:preview\" is not used"), "{}", made.told);
 }
 
-/// A subset whose mesh has a material for full rendering takes that, as its own is for all purposes.
+/// A subset whose mesh has a material for full rendering takes that one, as its own is for all purposes.
 #[test]
 fn subsets_inherit_by_purpose() {
     let made = Made::of(&format!(

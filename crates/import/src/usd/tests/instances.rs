@@ -9,7 +9,7 @@ fn instancer(more: &str, metadata: &str) -> Made {
     ))
 }
 
-/// Where the spheres stand along x.
+/// Positions of the spheres along x.
 fn places(made: &Made) -> Vec<f64> {
     made.scene.objects.iter().map(|o| o.transform.position_m.as_ref().map_or(0.0, |p| p.value[0])).collect()
 }

@@ -5,7 +5,7 @@ use etendue_scene::record::Light;
 use etendue_scene::record::light::LampStrength;
 use std::f64::consts::PI;
 
-/// What a point or a spot gives, cd.
+/// Intensity of a point or spot light, cd.
 fn candela(made: &Made, name: &str) -> f64 {
     let found = made.scene.lights.iter().find_map(|light| match light {
         Light::Point(point) if point.name.value == name => Some(&point.strength),
@@ -18,7 +18,7 @@ fn candela(made: &Made, name: &str) -> f64 {
     }
 }
 
-/// L = I/(4 π r²) unit⁻² of a sphere of luminance L, which gives L π r² unit² from afar: I/4 unit², whatever r is.
+/// L = I/(4 π r²) unit⁻² for a sphere of luminance L, which gives L π r² unit² from afar: I/4 unit², whatever r is.
 #[test]
 fn a_normalised_sphere_without_a_radius_is_a_point() {
     let made = Made::in_units(
@@ -37,7 +37,7 @@ fn a_normalised_sphere_without_a_radius_is_a_point() {
     assert!(made.says("without \"normalize\", is dark and left out"), "{}", made.told);
 }
 
-/// A mesh of 1 by 2 that is twice as large in the world has 8 units², whichever materials its faces have.
+/// A mesh of 1 by 2 that is twice as large in the world has 8 units², whatever the materials of its faces.
 #[test]
 fn a_mesh_light_is_normalised_by_all_of_its_faces() {
     let light = |name: &str, more: &str| {

@@ -7,7 +7,7 @@ fn ball(inputs: &str) -> Made {
     Made::of(&format!("{}def Sphere \"a\" {{ rel material:binding = </M> }}\n", surface("M", inputs)))
 }
 
-/// What is there of a surface, where that is the same everywhere.
+/// Opacity of a surface, if it is constant.
 fn opacity(made: &Made) -> Option<f64> {
     match &made.material("a").opacity {
         Some(Factor::Number(share)) => Some(share.value),

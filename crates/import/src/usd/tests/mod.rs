@@ -1,4 +1,4 @@
-//! What texts of USD become, rule by rule.
+//! Tests of the conversion of USD texts, rule by rule.
 
 mod bindings;
 mod instances;
@@ -19,7 +19,7 @@ use std::path::Path;
 const CARD: &str = "int[] faceVertexCounts = [3, 3] int[] faceVertexIndices = [0, 1, 2, 0, 2, 3] \
     point3f[] points = [(0,0,0), (1,0,0), (1,2,0), (0,2,0)] uniform token subdivisionScheme = \"none\"";
 
-/// A scene, and what is said of it.
+/// Scene, and its notes.
 struct Made {
     scene: Scene,
     told: String,
@@ -27,7 +27,7 @@ struct Made {
 }
 
 impl Made {
-    /// Of the text of a stage in metres, z upwards; beside it lie `letter.png` (colours of 8 bits), `grey.png` and `grey16.png`.
+    /// Imports the text of a stage in metres, z upwards; next to it are `letter.png` (colours of 8 bits), `grey.png` and `grey16.png`.
     fn of(body: &str) -> Self {
         Self::in_units(body, 1.0)
     }
@@ -51,7 +51,7 @@ impl Made {
         Self { scene: importer.scenery.scene, told, files: importer.scenery.files }
     }
 
-    /// The name of the material of an object.
+    /// Name of the material of an object.
     fn material_name(&self, object: &str) -> &str {
         let found = self.scene.objects.iter().find(|found| found.name.value == object);
         let material = found.unwrap_or_else(|| panic!("no {object}")).material.as_ref();
@@ -63,7 +63,7 @@ impl Made {
         self.scene.materials.iter().find(|found| found.name.value == name).expect("a material")
     }
 
-    /// The luminance of an object's light, cd/m².
+    /// Luminance of an object's light, cd/m².
     fn luminance(&self, object: &str) -> f64 {
         match &self.material(object).emission.as_ref().expect("a light").light.level {
             Level::Luminance(level) => level.value,
@@ -71,7 +71,7 @@ impl Made {
         }
     }
 
-    /// Whether a sentence, or a part of one, is said.
+    /// Returns true if a note contains the phrase.
     fn says(&self, phrase: &str) -> bool {
         self.told.contains(phrase)
     }
@@ -81,7 +81,7 @@ fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{found}, expected {expected}");
 }
 
-/// A material of UsdPreviewSurface by its inputs.
+/// Material of UsdPreviewSurface with these inputs.
 fn surface(name: &str, inputs: &str) -> String {
     format!(
         "def Material \"{name}\" {{ token outputs:surface.connect = </{name}/S.outputs:surface>\n\

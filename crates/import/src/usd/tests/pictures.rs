@@ -6,7 +6,7 @@ use etendue_scene::record::Texture;
 use etendue_scene::record::material::{Factor, Surface};
 use etendue_scene::record::texture::{Encoding, Wrap};
 
-/// A card whose texture coordinates go to `end`, with a picture as its colour.
+/// Card whose texture coordinates reach `end`, with an image as its colour.
 fn card(end: f64, file: &str, inputs: &str) -> Made {
     card_of(end, file, inputs, "color3f inputs:diffuseColor.connect = </M/T.outputs:rgb>")
 }
@@ -59,7 +59,7 @@ fn the_file_says_whether_its_colours_are_encoded() {
     assert_eq!(encoding("grey.png", "token inputs:sourceColorSpace = \"sRGB\""), Encoding::Srgb);
 }
 
-/// Roughness by the red of a picture of colours of 8 bits is decoded; by a grey picture it is not.
+/// Roughness from the red channel of an 8-bit colour image is decoded; from a grey image it is not.
 #[test]
 fn numbers_of_encoded_pictures_are_decoded() {
     let alphas = |file: &str, inputs: &str| {
@@ -77,7 +77,7 @@ fn numbers_of_encoded_pictures_are_decoded() {
     assert_eq!(alphas("letter.png", ""), alphas("letter.png", "token inputs:sourceColorSpace = \"sRGB\""));
 }
 
-/// The same picture, three times as bright: as a reflectance it is cut off at 1, as light it is not.
+/// The same image, three times as bright: as a reflectance it is clamped to 1, as light it is not.
 #[test]
 fn colours_by_different_rules_are_different_pictures() {
     let used = "color3f inputs:diffuseColor.connect = </M/T.outputs:rgb> color3f inputs:emissiveColor.connect = </M/T.outputs:rgb>";

@@ -14,10 +14,10 @@ const FORMAT: &str = "COLMAP";
 pub const NO_POINTS: &str =
     "# 3D points: none; POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n";
 
-/// What a line of `cameras.txt` says of a camera behind its id.
+/// Line of `cameras.txt` for a camera, after its id.
 ///
 /// # Errors
-/// Why COLMAP cannot say it.
+/// The reason for which COLMAP cannot represent it.
 pub fn camera(camera: &NamedCamera<'_>) -> Result<String, Refusal> {
     let calibration = camera.calibration;
     without_skew(FORMAT, calibration)?;
@@ -51,7 +51,7 @@ fn model(model: &Model) -> Result<(&'static str, Vec<f64>), Refusal> {
     }
 }
 
-/// The two thin-prism fisheyes: one has its polynomial in the plane, the other in the angle and the first tangential coefficient with x.
+/// The two thin-prism fisheyes: one has its polynomial in the plane; the other has it in the angle, and its first tangential coefficient belongs to x.
 fn thin_prism(k: [f64; 6], terms: DistortionTerms) -> Option<(&'static str, Vec<f64>)> {
     let ([p1, p2], [s1, s2, s3, s4]) = (terms.tangential, terms.prism);
     if terms.denominator != [0.0; 3] {
@@ -65,7 +65,7 @@ fn thin_prism(k: [f64; 6], terms: DistortionTerms) -> Option<(&'static str, Vec<
     (terms.numerator == [0.0; 4]).then(|| ("RAD_TAN_THIN_PRISM_FISHEYE", k.into_iter().chain(more).collect()))
 }
 
-/// `cameras.txt` of cameras by what [`camera`] says of each; ids count from 1.
+/// `cameras.txt` from the [`camera`] line of each camera; ids count from 1.
 #[must_use]
 pub fn cameras(lines: &[String], left_out: &[String]) -> String {
     let mut text = format!("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n# Number of cameras: {}\n", lines.len());
@@ -76,18 +76,18 @@ pub fn cameras(lines: &[String], left_out: &[String]) -> String {
     text
 }
 
-/// A picture and where its camera stood.
+/// Image with the pose of its camera.
 #[derive(Clone, Debug)]
 pub struct Image {
     /// The camera, from 1.
     pub camera: usize,
-    /// Where it stood in the world.
+    /// Pose of the camera in the world.
     pub pose: CameraPose,
-    /// The picture's file.
+    /// Image file.
     pub file: String,
 }
 
-/// `images.txt`; ids count from 1, and no picture has points.
+/// `images.txt`; ids count from 1, and no image has points.
 #[must_use]
 pub fn images(images: &[Image]) -> String {
     let mut text = format!(

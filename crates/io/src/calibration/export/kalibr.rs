@@ -1,4 +1,4 @@
-//! Kalibr's camera chain (`camchain.yaml`): cameras that are fixed to one another, each with its place against the one before it.
+//! Kalibr's camera chain (`camchain.yaml`): rigidly connected cameras, each with its pose relative to the one before it.
 //!
 //! | camera | camera_model | distortion_model |
 //! | --- | --- | --- |
@@ -9,7 +9,7 @@
 //! | extended unified | eucm | none |
 //! | double sphere | ds | none |
 //!
-//! `T_cn_cnm1` takes points of the camera before to this one's; `T_cam_imu` those of the frame that carries both, which stands in for the
+//! `T_cn_cnm1` maps points of the previous camera's frame to this one's. `T_cam_imu` maps those of the frame that carries both, which takes the place of the
 //! inertial sensor of Kalibr's own chains, with a `timeshift_cam_imu` of 0: times are the world's. Matrices act on columns (x, y, z, 1), m.
 
 use etendue_core::CameraPose;
@@ -20,7 +20,7 @@ use super::{NamedCamera, Refusal, fisheye, list, no_model, number, perspective, 
 
 const FORMAT: &str = "Kalibr";
 
-/// What Kalibr says of how a camera projects.
+/// Kalibr's description of a projection.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Intrinsics {
     camera_model: &'static str,
@@ -34,13 +34,13 @@ pub struct Intrinsics {
 pub struct Link<'a> {
     /// The camera.
     pub camera: NamedCamera<'a>,
-    /// How it projects: [`intrinsics`].
+    /// Projection: [`intrinsics`].
     pub intrinsics: Intrinsics,
-    /// From the camera's frame to the one that carries the chain.
+    /// Transform from the camera's frame to the one that carries the chain.
     pub pose: CameraPose,
 }
 
-/// A chain; `frame` is the name of what carries it, where that is not the world. `left_out` are sentences that are told above it.
+/// Writes a chain. `frame` is the name of the frame that carries it, unless that is the world. `left_out` are sentences written above it.
 #[must_use]
 pub fn camchain(frame: Option<&str>, links: &[Link<'_>], left_out: &[String]) -> String {
     let mut text = match frame {
@@ -73,10 +73,10 @@ pub fn camchain(frame: Option<&str>, links: &[Link<'_>], left_out: &[String]) ->
     text
 }
 
-/// How a camera projects, as Kalibr says it.
+/// Intrinsics of a camera in Kalibr's form.
 ///
 /// # Errors
-/// Why it cannot.
+/// The reason for which Kalibr cannot represent it.
 pub fn intrinsics(camera: &NamedCamera<'_>) -> Result<Intrinsics, Refusal> {
     let calibration = camera.calibration;
     without_skew(FORMAT, calibration)?;
@@ -86,7 +86,7 @@ pub fn intrinsics(camera: &NamedCamera<'_>) -> Result<Intrinsics, Refusal> {
     Ok(said)
 }
 
-/// The models with their own numbers, without focal lengths and centre.
+/// Model with its own parameters, without focal lengths and centre.
 fn model(model: &Model) -> Result<Intrinsics, Refusal> {
     let said = |camera_model, own: &[f64], distortion_model, distortion: &[f64]| {
         let (intrinsics, distortion) = (own.to_vec(), distortion.to_vec());
@@ -120,7 +120,7 @@ fn to_camera(pose: &CameraPose) -> DMat4 {
     affine(inverse, -(inverse * pose.position_m))
 }
 
-/// From one camera to another, without the rounding of a far origin.
+/// Transform from one camera to another, without the rounding of a far origin.
 fn between(from: &CameraPose, to: &CameraPose) -> DMat4 {
     affine(to.rotation.transpose() * from.rotation, to.point_to_camera(from.position_m))
 }

@@ -1,4 +1,4 @@
-//! Calibrated cameras, and where they stand, in the files of other programs: the way back of the readers beside it.
+//! Writers of calibrated cameras and their poses in the formats of other programs: the inverse of the readers in the parent module.
 //!
 //! | format | file | models | centre of the top-left pixel |
 //! | --- | --- | --- | --- |
@@ -7,8 +7,8 @@
 //! | [`kalibr`] | camchain YAML | pinhole with radtan, equi, fov; omni; eucm; ds | (0, 0) |
 //! | [`colmap`] | `cameras.txt`, `images.txt`, `points3D.txt` | perspective with up to eight coefficients, fisheyes, fov, division, eucm | (0.5, 0.5) |
 //!
-//! Each writes exactly what the camera is, or refuses it with the reason: nothing is fitted. Camera frames are x right, y down, z forward in all
-//! three. A greatest field angle is beyond all of them and is not written.
+//! Each writes the camera exactly, or refuses it with the reason: nothing is fitted. Camera frames are x right, y down, z forward in all three. None of them
+//! has a maximum field angle, so it is not written.
 
 pub mod colmap;
 pub mod kalibr;
@@ -17,7 +17,7 @@ pub mod ros;
 use etendue_projection::{Calibration, Model, Sense, model::Ideal, plane::DistortionTerms};
 use glam::{DMat3, DQuat};
 
-/// A camera by its name.
+/// Camera with its name.
 #[derive(Clone, Copy, Debug)]
 pub struct NamedCamera<'a> {
     /// Its name.
@@ -26,10 +26,10 @@ pub struct NamedCamera<'a> {
     pub calibration: &'a Calibration,
 }
 
-/// Why a format cannot say a camera: the rest of a sentence that begins with the camera.
+/// Reason for which a format cannot represent a camera: the rest of a sentence that begins with the camera.
 pub type Refusal = String;
 
-/// What a format says of a camera that it has no model of.
+/// Refusal of a camera whose model a format does not have.
 fn no_model(format: &str, model: &Model) -> Refusal {
     match model {
         Model::Perspective(_) => format!("{format} has no perspective model of as many coefficients"),
@@ -37,7 +37,7 @@ fn no_model(format: &str, model: &Model) -> Refusal {
     }
 }
 
-/// Refuses a skew, which no format has a place for.
+/// Refuses a skew, which no format supports.
 fn without_skew(format: &str, calibration: &Calibration) -> Result<(), Refusal> {
     match calibration.matrix().skew {
         0.0 => Ok(()),
@@ -45,7 +45,7 @@ fn without_skew(format: &str, calibration: &Calibration) -> Result<(), Refusal> 
     }
 }
 
-/// k₁ k₂ p₁ p₂ k₃ k₄ k₅ k₆ s₁ s₂ s₃ s₄ τx τy of a perspective camera; `None` where it is none that OpenCV knows.
+/// k₁ k₂ p₁ p₂ k₃ k₄ k₅ k₆ s₁ s₂ s₃ s₄ τx τy of a perspective camera; `None` if OpenCV has no such model.
 fn perspective(model: &Model) -> Option<[f64; 14]> {
     match model {
         Model::Ideal(Ideal::Rectilinear) => Some([0.0; 14]),
@@ -66,7 +66,7 @@ fn perspective(model: &Model) -> Option<[f64; 14]> {
     }
 }
 
-/// k₁ … k₄ of a polynomial fisheye; `None` where it is none, or has more.
+/// k₁ … k₄ of a polynomial fisheye; `None` for other models, or more coefficients.
 fn fisheye(model: &Model) -> Option<[f64; 4]> {
     match model {
         Model::Ideal(Ideal::Equidistant) => Some([0.0; 4]),
@@ -78,12 +78,12 @@ fn fisheye(model: &Model) -> Option<[f64; 4]> {
     }
 }
 
-/// As many of the coefficients as one of these counts holds, the rest being zero; `None` where no count holds them.
+/// Smallest of the counts that holds all nonzero coefficients; `None` if none does.
 fn shortest(coefficients: &[f64], counts: &[usize]) -> Option<usize> {
     counts.iter().copied().find(|count| coefficients[*count..].iter().all(|c| *c == 0.0))
 }
 
-/// A number in decimal digits that gives the same number when it is read, always with a point: YAML 1.1 takes `1e-7` for a text.
+/// Decimal text of a number that reads back to the same number, always with a decimal point: YAML 1.1 reads `1e-7` as text.
 fn number(value: f64) -> String {
     let text = format!("{value}");
     if text.contains('.') { text } else { format!("{text}.0") }
@@ -94,12 +94,12 @@ fn list(values: &[f64]) -> String {
     format!("[{}]", values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(", "))
 }
 
-/// A text in double quotes; what would end it is escaped.
+/// Text in double quotes, with quotes and backslashes escaped.
 fn quoted(text: &str) -> String {
     format!("\"{}\"", text.escape_default())
 }
 
-/// w, x, y, z of a rotation, w not below 0.
+/// Quaternion w, x, y, z of a rotation, w not below 0.
 fn quaternion(rotation: &DMat3) -> [f64; 4] {
     let [x, y, z, w] = DQuat::from_mat3(rotation).to_array();
     let sign = if w < 0.0 { -1.0 } else { 1.0 };

@@ -1,4 +1,4 @@
-//! ROS: `camera_info` YAML of the raw picture (camera_calibration_parsers), and transforms that do not change.
+//! ROS: `camera_info` YAML of the raw image (camera_calibration_parsers), and static transforms.
 //!
 //! | camera | distortion_model | coefficients |
 //! | --- | --- | --- |
@@ -6,8 +6,8 @@
 //! | perspective with more | rational_polynomial | 8, 12 (with s1 … s4) or 14 (with τx, τy) |
 //! | polynomial fisheye | equidistant | 4 |
 //!
-//! The projection matrix is that of the rectified picture: the camera's own matrix, and in its fourth column −fx b for the right camera of a
-//! rectified pair of base b.
+//! The projection matrix is that of the rectified image: the camera's own matrix, and −fx b in its fourth column for the right camera of a rectified pair of
+//! baseline b.
 
 use etendue_core::CameraPose;
 use etendue_projection::Model;
@@ -18,10 +18,10 @@ use super::{
 
 const FORMAT: &str = "ROS";
 
-/// A camera as `camera_info`; `base_m` is how far to the right of a rectified pair's left camera it stands, 0 for all others.
+/// A camera as `camera_info`; `base_m` is the baseline from a rectified pair's left camera to the right, 0 for all others.
 ///
 /// # Errors
-/// Why ROS cannot say it.
+/// The reason for which ROS cannot represent it.
 pub fn camera_info(camera: &NamedCamera<'_>, base_m: f64) -> Result<String, Refusal> {
     let calibration = camera.calibration;
     without_skew(FORMAT, calibration)?;
@@ -58,25 +58,24 @@ fn table(name: &str, rows: usize, columns: usize, data: &[f64]) -> String {
     format!("{name}:\n  rows: {rows}\n  cols: {columns}\n  data: {}\n", list(data))
 }
 
-/// A frame that is fixed in another.
+/// Frame fixed in another frame.
 #[derive(Clone, Debug)]
 pub struct StaticTransform<'a> {
-    /// The name of the other frame.
+    /// Name of the parent frame.
     pub parent: &'a str,
-    /// Its own name.
+    /// Name of the frame.
     pub child: String,
-    /// From it to the other frame, m.
+    /// Transform from the frame to its parent, m.
     pub pose: CameraPose,
 }
 
-/// The frame of a camera's picture (x right, y down, z forward), as REP 103 names it.
+/// Frame of a camera's image (x right, y down, z forward), named as in REP 103.
 #[must_use]
 pub fn optical_frame(camera: &str) -> String {
     format!("{camera}_optical_frame")
 }
 
-/// Transforms as a YAML list of `geometry_msgs/TransformStamped` without stamps: what `/tf_static` holds. `left_out` are sentences that are
-/// told above them.
+/// Transforms as a YAML list of `geometry_msgs/TransformStamped` without stamps: the content of `/tf_static`. `left_out` are sentences written above them.
 #[must_use]
 pub fn static_transforms(transforms: &[StaticTransform<'_>], left_out: &[String]) -> String {
     let mut text = String::from(

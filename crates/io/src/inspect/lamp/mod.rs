@@ -1,4 +1,4 @@
-//! Looking into measured lamps.
+//! Inspection of measured lamps.
 
 pub mod passing_beam;
 mod plot;

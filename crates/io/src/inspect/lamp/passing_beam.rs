@@ -1,21 +1,20 @@
-//! Test points of a passing beam: class B head lamps for right-hand traffic, UN Regulation No. 112 (01 series), whose
-//! requirements UN Regulation No. 149 took over; left-hand traffic is the mirror image. Intensities in cd of the lamp as
-//! measured. Zones, the cut-off's sharpness and the aim are not checked: this is no approval.
+//! Test points of a passing beam: class B headlamps for right-hand traffic, UN Regulation No. 112 (01 series), now part of UN Regulation No. 149; left-hand
+//! traffic is the mirror image. Intensities in cd of the lamp as measured. Zones, the cut-off's sharpness and the aim are not checked: this is no approval.
 
 use etendue_scene::asset::PhotometryAsset;
 
 use super::FileReport;
 
-/// The intensity that is required at a point, cd.
+/// Required intensity at a point, cd.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
-    /// At least so much.
+    /// Minimum.
     AtLeast(f64),
-    /// At most so much.
+    /// Maximum.
     AtMost(f64),
 }
 
-/// A point at which a passing beam is judged, for traffic on the right.
+/// Test point of a passing beam, for right-hand traffic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeamTestPoint {
     /// Its name in the regulation.
@@ -24,7 +23,7 @@ pub struct BeamTestPoint {
     pub right_deg: f64,
     /// Degrees up.
     pub up_deg: f64,
-    /// What is required there.
+    /// Requirement.
     pub limit: Limit,
 }
 
@@ -32,7 +31,7 @@ const fn point(name: &'static str, right_deg: f64, up_deg: f64, limit: Limit) ->
     BeamTestPoint { name, right_deg, up_deg, limit }
 }
 
-/// The points for traffic on the right.
+/// Points for right-hand traffic.
 pub const POINTS: [BeamTestPoint; 9] = [
     point("B50L", -3.43, 0.57, Limit::AtMost(350.0)),
     point("BR", 2.5, 1.0, Limit::AtMost(1750.0)),
@@ -46,7 +45,7 @@ pub const POINTS: [BeamTestPoint; 9] = [
 ];
 
 impl Limit {
-    /// Whether an intensity in cd is as required.
+    /// Returns true if an intensity in cd meets the requirement.
     #[must_use]
     pub fn is_met(self, candela: f64) -> bool {
         match self {
@@ -63,7 +62,7 @@ impl Limit {
     }
 }
 
-/// Adds the table to the report of a lamp that has a direction ahead.
+/// Adds the table to the report of a lamp whose grid has a forward direction.
 pub(super) fn state(lamp: &PhotometryAsset, report: &mut FileReport) {
     let mut met = [0, 0];
     for BeamTestPoint { name, right_deg: right, up_deg: up, limit } in POINTS {

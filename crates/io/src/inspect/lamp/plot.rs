@@ -1,17 +1,15 @@
-//! A lamp as a picture, with its beam and field angle and the test points of a passing beam.
+//! Image of a lamp's intensity distribution, with its beam and field angle and the test points of a passing beam.
 //!
-//! Beam and field angle: how wide a lamp is at 50 % and at 10 % of its greatest intensity (ANSI/IES LS-1; CIE 17).
+//! Beam and field angle: full width at 50 % and at 10 % of the largest intensity (ANSI/IES LS-1; CIE 17).
 //!
-//! Types A and B: across the peak, horizontally and vertically. Type C: in the planes C0–C180 and C90–C270, from the
-//! greatest intensity of the plane to both sides. Between points the intensity is linear; where a beam reaches the end
-//! of its grid it ends there.
+//! Types A and B: across the peak, horizontally and vertically. Type C: in the planes C0–C180 and C90–C270, from the largest intensity of the plane to both
+//! sides. Intensity is linear between points; a beam that reaches the end of its grid ends there.
 //!
-//! A lamp as a picture.
+//! Layout of the image.
 //!
-//! Type C: a polar diagram, straight down at the bottom; C0 is right and C180 left (red), C90 right and C270 left
-//! (blue); rings at quarters of the greatest intensity, spokes every 30°. Types A and B: the view ahead as in H-V
-//! diagrams, right is right, up is up; brightness by the logarithm over three decades, lines at 1, ½, ⅕ and 1/10 of each
-//! decade of the peak; cross hairs at H = 0, V = 0 and dots at the test points of a passing beam.
+//! Type C: a polar diagram, straight down at the bottom; C0 is right and C180 left (red), C90 right and C270 left (blue); rings at quarters of the largest
+//! intensity, spokes every 30°. Types A and B: the view ahead as in H-V diagrams, right is right, up is up; brightness by the logarithm over three decades,
+//! lines at 1, ½, ⅕ and 1/10 of each decade of the peak; cross hairs at H = 0, V = 0 and dots at the test points of a passing beam.
 
 use etendue_core::maths::f64::{atan2, log10};
 use etendue_scene::asset::{PhotometryAsset, PhotometryAxes};
@@ -19,10 +17,10 @@ use etendue_scene::asset::{PhotometryAsset, PhotometryAxes};
 use super::passing_beam;
 use crate::inspect::Preview;
 
-/// Angles (degrees, rising) and intensities of a cut through a lamp.
+/// Angles (degrees, increasing) and intensities of a section through a lamp.
 type Cut = Vec<(f64, f64)>;
 
-/// The cuts by name, each with its beam and field angle, degrees.
+/// Sections by name, each with its beam and field angle, degrees.
 pub(super) fn beam_and_field(lamp: &PhotometryAsset) -> Vec<(&'static str, [f64; 2])> {
     let cuts = match lamp.axes {
         PhotometryAxes::C => vec![("C0–C180", plane(lamp, 0.0)), ("C90–C270", plane(lamp, 90.0))],
@@ -38,13 +36,13 @@ fn fan(lamp: &PhotometryAsset) -> Vec<(&'static str, Cut)> {
     vec![("horizontal", across), ("vertical", up)]
 }
 
-/// A plane and the one across: angles from the nadir, negative on the other side.
+/// Section of a C plane and the opposite one: angles from the nadir, negative on the other side.
 pub(super) fn plane(lamp: &PhotometryAsset, c: f64) -> Cut {
     let far = lamp.vertical_deg.iter().rev().filter(|v| **v > 0.0).map(|v| (-v, lamp.candela_at(c + 180.0, *v)));
     far.chain(lamp.vertical_deg.iter().map(|v| (*v, lamp.candela_at(c, *v)))).collect()
 }
 
-/// From the greatest value to both sides, as far as `share` of it is reached.
+/// Full width from the largest value to the first crossing of `share` of it on both sides.
 fn width(cut: &[(f64, f64)], share: f64) -> f64 {
     let peak = (0..cut.len()).fold(0, |best, i| if cut[i].1 > cut[best].1 { i } else { best });
     let level = share * cut[peak].1;
@@ -53,7 +51,7 @@ fn width(cut: &[(f64, f64)], share: f64) -> f64 {
     up - down
 }
 
-/// Where a cut first falls below a level.
+/// Position where a section first falls below a level.
 fn edge(cut: impl Iterator<Item = (f64, f64)>, level: f64) -> f64 {
     let mut before = (0.0, f64::INFINITY);
     for (angle, value) in cut {
@@ -72,7 +70,7 @@ const RED: [u8; 3] = [200, 30, 30];
 const BLUE: [u8; 3] = [30, 60, 200];
 const PALE: [u8; 3] = [215; 3];
 
-/// The picture of a lamp.
+/// Image of a lamp.
 pub(super) fn of(lamp: &PhotometryAsset) -> Preview {
     match lamp.axes {
         PhotometryAxes::C => polar(lamp),
@@ -106,7 +104,7 @@ fn scale(corners: [(f64, f64); 4]) -> [u8; 3] {
     if on_ring || on_spoke { PALE } else { WHITE }
 }
 
-/// A cut between its points; 0 outside.
+/// Interpolated value of a section; 0 outside.
 fn value(cut: &[(f64, f64)], angle: f64) -> f64 {
     let above = cut.partition_point(|(a, _)| *a < angle);
     match (above.checked_sub(1).map(|i| cut[i]), cut.get(above)) {
@@ -146,7 +144,7 @@ fn brightness(share: f64) -> u8 {
     (180.0 * (1.0 + decades / 3.0).clamp(0.0, 1.0)).round() as u8
 }
 
-/// Between which lines a share of the peak lies.
+/// Index of the contour interval of a fraction of the peak.
 fn line(share: f64) -> usize {
     const LINES: [f64; 9] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
     LINES.partition_point(|line| *line <= share)
@@ -164,7 +162,7 @@ mod tests {
     #[test]
     fn a_beam_is_as_wide_as_where_its_light_has_fallen() {
         let cut = [(-30.0, 0.0), (-10.0, 40.0), (0.0, 100.0), (5.0, 100.0), (15.0, 20.0), (25.0, 0.0)];
-        // 50: from −8⅓ to 11¼; 10: from −25 to 20.
+        // 50 %: from −8⅓ to 11¼; 10 %: from −25 to 20.
         assert!((width(&cut, 0.5) - (11.25 + 25.0 / 3.0)).abs() < 1e-12);
         assert!((width(&cut, 0.1) - 45.0).abs() < 1e-12);
         assert_eq!(width(&[(0.0, 5.0), (90.0, 5.0)], 0.5), 90.0, "to the end of the grid");

@@ -1,4 +1,4 @@
-//! Numbers of accessors, with every bound checked.
+//! Reader of the numbers of accessors, with every bound checked.
 
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::Checked;
@@ -6,7 +6,7 @@ use gltf::json::{Index, Root};
 
 use super::buffers::Buffers;
 
-/// The numbers of an accessor of `N` components, one array an element; integers as numbers, normalised ones 0 … 1 or −1 … 1.
+/// The numbers of an accessor of `N` components, one array per element; integers as numbers, normalised ones 0 … 1 or −1 … 1.
 pub(super) fn numbers<const N: usize>(
     root: &Root,
     buffers: &Buffers,
@@ -31,7 +31,7 @@ pub(super) fn numbers<const N: usize>(
     let element = element_size(N, component);
     let mut values = match accessor.buffer_view {
         None => {
-            // What only a sparse part fills is as long as that part's file lets it be.
+            // The length of an accessor with only a sparse part is limited by the count of that part.
             let most = accessor.sparse.as_ref().map_or(0, |sparse| sparse.count.0.saturating_mul(64).max(1 << 16));
             if accessor.count.0 > most {
                 return Err(told("has no data"));
@@ -69,7 +69,7 @@ pub(super) fn numbers<const N: usize>(
     Ok(values)
 }
 
-/// Element by element; `None` where the last one is not all there.
+/// Elements in order; `None` if the last one is incomplete.
 fn elements(
     bytes: &[u8],
     offset: u64,
@@ -100,7 +100,7 @@ fn components(kind: Type) -> usize {
     }
 }
 
-/// Bytes of an element. Columns of matrices of small integers are padded, which only 4 × 4 matrices and floats need not know.
+/// Bytes per element. Columns of matrices of small integers are padded, which does not affect the 4 × 4 matrices and floats used here.
 fn element_size(components: usize, component: ComponentType) -> usize {
     components * component.size()
 }

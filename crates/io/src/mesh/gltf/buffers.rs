@@ -1,4 +1,4 @@
-//! Buffers, and what else a file names by URI.
+//! Buffers, and other resources that a file names by URI.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::{ErrorCode, Problem, Sandbox, source::read_bytes};
 /// The bytes of all buffers.
 pub(super) struct Buffers {
     all: Vec<Vec<u8>>,
-    /// Which of them are files of their own.
+    /// True for those that are separate files.
     is_external: Vec<bool>,
 }
 
@@ -54,13 +54,13 @@ impl Buffers {
         })
     }
 
-    /// Those that are files of their own.
+    /// Bytes of the buffers that are separate files.
     pub(super) fn external_bytes(&self) -> impl Iterator<Item = &[u8]> {
         self.all.iter().zip(&self.is_external).filter(|(_, external)| **external).map(|(bytes, _)| bytes.as_slice())
     }
 }
 
-/// The bytes of a URI, and whether it is a file. A file that is not where it is said to be is looked for by its last name beside the glTF file.
+/// Bytes of a URI, and true if it is a file. A missing file is also searched for by its last name component next to the glTF file.
 pub(super) fn linked(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<(Vec<u8>, bool), Problem> {
     if let Some(bytes) = data_uri(uri) {
         return bytes.map(|bytes| (bytes, false)).map_err(|told| format!("its {what}: {told}").into());
@@ -97,7 +97,7 @@ fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<PathBuf
     Err(Problem::new(ErrorCode::MissingFile, words))
 }
 
-/// The bytes of a data URI; `None` where it is none, an error in words where it is damaged.
+/// Bytes of a data URI; `None` if it is none, an error text if it is damaged.
 fn data_uri(uri: &str) -> Option<Result<Vec<u8>, String>> {
     let (head, body) = uri.strip_prefix("data:")?.split_once(',').unwrap_or(("", ""));
     if head.ends_with(";base64") {
@@ -136,7 +136,7 @@ fn value(character: u8) -> Option<u32> {
     Some(value.into())
 }
 
-/// A relative reference with its `%20` and the like as characters; as it is where they are none.
+/// Relative reference with `%20` and the like decoded; unchanged if they do not decode.
 pub(super) fn unescaped(uri: &str) -> String {
     let (mut bytes, mut rest) = (Vec::with_capacity(uri.len()), uri.as_bytes());
     while let Some((first, tail)) = rest.split_first() {

@@ -1,4 +1,4 @@
-//! From the bytes of a file to its checked JSON, its extensions and its binary chunk, and what of it has no place in a mesh.
+//! Parser of a file into its checked JSON, its extensions and its binary chunk; lists the content that a mesh cannot hold.
 
 use etendue_scene::limits;
 use gltf::json::material::{Material, NormalTexture};
@@ -13,7 +13,7 @@ const HEAD: usize = 12;
 const JSON_CHUNK: u32 = 0x4E4F_534A;
 const BINARY_CHUNK: u32 = 0x004E_4942;
 
-/// Extensions that a file may require: what they say is used, or can be left out with a note.
+/// Extensions that a file may require: supported, or omitted with a note.
 const KNOWN: &[&str] = &[
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
@@ -53,19 +53,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
         .into());
     }
     check_positions(&root)?;
-    // The crate knows fewer of them.
+    // The crate supports fewer of them.
     root.extensions_required.clear();
     let document = gltf::Document::from_json(root).map_err(|cause| format!("no valid glTF: {cause}"))?;
     Ok((document.into_json(), blob.map(<[u8]>::to_vec)))
 }
 
-/// The JSON as it stands in the file.
+/// The JSON as in the file.
 pub(super) fn json_of(bytes: &[u8]) -> Result<serde_json::Value, Problem> {
     let (json, _) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
     serde_json::from_slice(json).map_err(|cause| format!("no glTF: its JSON: {cause}").into())
 }
 
-/// Refuses positions that are not there, which the crate's own check takes for granted.
+/// Refuses missing positions: the crate's own check assumes them.
 fn check_positions(root: &Root) -> Result<(), Problem> {
     let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Checked::Valid(Semantic::Positions)));
@@ -75,7 +75,7 @@ fn check_positions(root: &Root) -> Result<(), Problem> {
     }
 }
 
-/// Refuses JSON whose objects would fill the memory: two brackets may stand for a material of many hundred bytes, in a list that grows.
+/// Refuses JSON whose objects would fill the memory: two brackets may describe a material of many hundred bytes, in a growing list.
 fn check_objects(json: &[u8]) -> Result<(), Problem> {
     const OBJECT_BYTES: u64 = 1024;
     let objects = json.iter().filter(|byte| **byte == b'{').count() as u64;
@@ -127,7 +127,7 @@ pub(super) struct Sheen {
     pub(super) has_picture: bool,
 }
 
-/// What a material says of an extension.
+/// Returns an extension of a material.
 pub(super) fn of<'a>(material: &'a Material, name: &str) -> Option<&'a Value> {
     material.extensions.as_ref()?.others.get(name)
 }
@@ -153,7 +153,7 @@ pub(super) fn sheen(material: &Material) -> Option<Sheen> {
     })
 }
 
-/// How a normal map lies.
+/// Texture and coordinates of a normal map.
 pub(super) fn normal_texture(texture: &NormalTexture) -> TextureUse {
     let transform = texture.extensions.as_ref().and_then(|e| e.others.get("KHR_texture_transform"));
     let mut layout = UvLayout { set: texture.tex_coord, ..UvLayout::PLAIN };
@@ -176,7 +176,7 @@ fn numbers<const N: usize>(value: Option<&Value>, default: [f64; N]) -> [f64; N]
     list.and_then(|list| list.try_into().ok()).unwrap_or(default)
 }
 
-/// Extensions of which something is used, or that change nothing that is read.
+/// Extensions that are used in part, or that do not affect what is read.
 const USED: &[&str] = &[
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",

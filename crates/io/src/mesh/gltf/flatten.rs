@@ -1,4 +1,4 @@
-//! Primitives in their places to one mesh.
+//! Flattening of placed primitives into one mesh.
 
 use etendue_scene::{asset::MeshAsset, limits};
 use glam::{DAffine3, DMat3, DVec3};
@@ -11,24 +11,24 @@ use super::nodes::{PlacedMesh, Weights};
 use super::{buffers::Buffers, material::UvLayout};
 use crate::Problem;
 
-/// Bytes that a corner and a vertex take on their way.
+/// Bytes that a corner and a vertex take during conversion.
 const CORNER_BYTES: u64 = 24;
 const VERTEX_BYTES: u64 = 120;
 
-/// The vertices of a primitive that its triangles name, in the order in which they do.
+/// Vertices of a primitive that its triangles use, in the order of first use.
 struct Parts {
     positions: Vec<[f64; 3]>,
-    /// One a vertex, or none.
+    /// One per vertex, or none.
     normals: Vec<[f64; 3]>,
-    /// One a vertex, or none.
+    /// One per vertex, or none.
     uvs: Vec<[f64; 2]>,
     triangles: Vec<[u32; 3]>,
-    /// Where each vertex stands in the file's accessors.
+    /// Index of each vertex in the file's accessors.
     sources: Vec<usize>,
     weights: Option<Weights>,
 }
 
-/// All placed meshes in the file's axes; `slot_of` gives the slot of a material and how its pictures lie.
+/// All placed meshes in the file's axes; `slot_of` gives the slot and texture layout of a material.
 pub(super) fn flatten(
     root: &Root,
     buffers: &Buffers,
@@ -76,7 +76,7 @@ fn is_surface(primitive: &Primitive) -> bool {
     matches!(primitive.mode, Checked::Valid(mode) if modes.contains(&mode))
 }
 
-/// Refuses what nodes and primitives that share meshes and vertices would multiply beyond the limits.
+/// Refuses nodes and primitives that share meshes and vertices and would multiply them beyond the limits.
 fn check_size(root: &Root, placed: &[PlacedMesh]) -> Result<(), Problem> {
     let count =
         |index: gltf::json::Index<gltf::json::Accessor>| root.accessors.get(index.value()).map_or(0, |a| a.count.0);
@@ -171,7 +171,7 @@ fn triangles<'a>(primitive: &Primitive, corners: &'a [u64]) -> Box<dyn Iterator<
     }
 }
 
-/// The mesh as far as it is made.
+/// Mesh under construction.
 #[derive(Default)]
 struct Builder {
     has_normals: bool,
@@ -207,7 +207,7 @@ impl Builder {
         };
         let turned: Vec<[u32; 3]> =
             parts.triangles.iter().map(|[a, b, c]| if mirrored { [*a, *c, *b] } else { [*a, *b, *c] }).collect();
-        // Without normals, where others have them, a vertex belongs to its triangle alone.
+        // Without normals, if others have them, a vertex belongs to its triangle alone.
         let split = self.has_normals && parts.normals.is_empty();
         let mut normals = vec![DVec3::ZERO; if split { 0 } else { positions.len() }];
         for (normal, (own, to_file)) in normals.iter_mut().zip(parts.normals.iter().zip(&places)) {
@@ -266,7 +266,7 @@ impl Builder {
     }
 }
 
-/// What takes normals along: the cofactors of a matrix, whatever its sign.
+/// Matrix that transforms normals: the cofactors, whatever the sign of the determinant.
 fn cofactors(m: DMat3) -> DMat3 {
     let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));

@@ -1,7 +1,7 @@
-//! Materials of glTF in the terms of a scene.
+//! Conversion of glTF materials to materials of a scene.
 //!
-//! α is the square of the roughness, as the specification says. What is no metal is Lambert's law under a coat of the stated index, or without one where
-//! the roughness is 1, which exporters write for matt surfaces. docs/gltf.md tells the whole mapping.
+//! α is the square of the roughness, as the specification says. A dielectric is a Lambertian surface under a coat of the stated index, or without a coat for
+//! the roughness 1, which exporters write for diffuse surfaces. docs/gltf.md describes the whole mapping.
 
 use std::path::{Path, PathBuf};
 
@@ -18,18 +18,18 @@ use crate::{Problem, Sandbox};
 
 pub(super) use super::picture::UvLayout;
 
-/// The index of a coat and of clear substances that state none.
+/// Default refractive index of a coat and of clear substances.
 const USUAL_INDEX: f64 = 1.5;
-/// Where a mask cuts that does not say.
+/// Default cutoff of an opacity mask.
 const USUAL_CUTOFF: f64 = 0.5;
 
-/// The materials that triangles have, in the order in which they are met; `None` is that of the specification for those without.
+/// Materials of the triangles, in the order of first use; `None` is the default material of the specification.
 #[derive(Default)]
 pub(super) struct Materials {
     numbers: Vec<Option<usize>>,
 }
 
-/// What a mesh has of its materials.
+/// Result: the materials of a mesh.
 pub(super) struct Found {
     pub(super) slots: Vec<SlotMaterial>,
     pub(super) pictures: Vec<(PathBuf, ImageAsset)>,
@@ -38,7 +38,7 @@ pub(super) struct Found {
 }
 
 impl Materials {
-    /// The slot of a material, and how its pictures lie.
+    /// Slot and texture layout of a material.
     pub(super) fn slot_of(&mut self, root: &Root, number: Option<usize>) -> Result<(u16, UvLayout), Problem> {
         let slot = self.numbers.iter().position(|n| *n == number).unwrap_or_else(|| {
             self.numbers.push(number);
@@ -75,7 +75,7 @@ impl Materials {
     }
 }
 
-/// Its name, with its number where it has none or another has it.
+/// Name of a material; with its number if it has no name or another one has the same.
 fn name_of(material: &Material, number: Option<usize>, others: &[SlotMaterial]) -> String {
     let number = number.map_or_else(|| "default".to_owned(), |n| n.to_string());
     match &material.name {
@@ -85,7 +85,7 @@ fn name_of(material: &Material, number: Option<usize>, others: &[SlotMaterial]) 
     }
 }
 
-/// The textures that a material uses, the first of which says how all lie.
+/// Textures of a material; the first sets the layout of all.
 fn uses(material: &Material) -> Vec<TextureUse> {
     let pbr = &material.pbr_metallic_roughness;
     let transmission = material.extensions.as_ref().and_then(|e| e.transmission.as_ref());
@@ -99,7 +99,7 @@ fn uses(material: &Material) -> Vec<TextureUse> {
     infos.into_iter().flatten().map(TextureUse::of).chain(normals).collect()
 }
 
-/// The index whose reflectance at normal incidence, (n − 1)²/(n + 1)², is a share of that of another.
+/// Refractive index whose reflectance at normal incidence, (n − 1)²/(n + 1)², is a fraction of that of another.
 fn of_less_reflectance(index: f64, share: f64) -> f64 {
     let amplitude = (index - 1.0) / (index + 1.0) * share.sqrt();
     (1.0 + amplitude) / (1.0 - amplitude)
@@ -147,7 +147,7 @@ impl Reader<'_, '_, '_> {
         Ok(layers)
     }
 
-    /// The metal (blue) or the roughness (green) of the metallic-roughness picture times its factor; α is the roughness's square.
+    /// Metalness (blue) or roughness (green) of the metallic-roughness image times its factor; α is the square of the roughness.
     fn of_channel(&mut self, channel: usize, factor: f64, squared: bool) -> Result<SlotNumber, Problem> {
         let factor = factor.clamp(0.0, 1.0);
         let rule = |v: f64| if squared { v * factor * (v * factor) } else { v * factor };
@@ -158,7 +158,7 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    /// A channel of a picture by a rule; a number where it is the same everywhere.
+    /// Channel of an image by a rule; a number if it is constant.
     fn number(
         &mut self,
         texture: usize,

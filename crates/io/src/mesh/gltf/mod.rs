@@ -1,12 +1,12 @@
 //! Meshes of glTF 2.0 files (`.gltf`, `.glb`).
 //!
-//! Source: glTF 2.0 Specification, Khronos Group 2021 (ISO/IEC 12113:2022), with KHR_texture_transform, KHR_mesh_quantization and the
-//! KHR_materials extensions; what each becomes is told in docs/gltf.md. The gltf crate reads and checks the JSON; ours is everything that follows its
-//! indices into bytes, as the crate's own readers panic at damaged ones.
+//! Source: glTF 2.0 Specification, Khronos Group 2021 (ISO/IEC 12113:2022), with KHR_texture_transform, KHR_mesh_quantization and the KHR_materials extensions;
+//! docs/gltf.md describes the conversion. The gltf crate reads and checks the JSON. Our code follows all indices into bytes, as the crate's own readers panic
+//! on damaged ones.
 //!
-//! All nodes of the scene become one mesh in the file's axes and units (+y up, +z forward, m): their transforms are applied in f64, skins as they
-//! stand at rest. Animations are reported, and so is all else that is not used. Lights and cameras, which have no place in a mesh, are read by themselves
-//! ([`read_gltf_stage`]), and so is what animations move ([`read_gltf_motion`]).
+//! All nodes of the scene become one mesh in the file's axes and units (+y up, +z forward, m): their transforms are applied in f64, skins in their rest pose.
+//! Animations and all other unused content are reported. Lights and cameras are read separately ([`read_gltf_stage`]), as are animated nodes
+//! ([`read_gltf_motion`]).
 
 mod accessor;
 mod buffers;
@@ -33,7 +33,7 @@ pub use parts::GltfParts;
 pub use stage::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage};
 pub use tracks::{GLTF_CUBIC_KEYS, GLTF_MIN_TURN, GltfTrack};
 
-/// Reads a glTF file with the buffers and pictures that it names, which must lie in `sandbox`.
+/// Reads a glTF file with its buffers and images, which must lie in `sandbox`.
 pub(super) fn read_gltf(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
     read(file, &bytes, sandbox).map_err(|told| Error::new(file, told))

@@ -1,4 +1,4 @@
-//! Nodes that animations move.
+//! Animated nodes.
 //!
 //! Source: glTF 2.0 Specification, 3.11 and appendix C (interpolation).
 
@@ -13,43 +13,43 @@ use super::tracks::{self, GltfTrack};
 use super::{buffers::Buffers, document, nodes, parts::GltfParts};
 use crate::{Error, Problem, Sandbox, source::read_bytes};
 
-/// What the animations of a glTF file move, all of them together.
+/// Animated nodes of a glTF file, over all its animations.
 #[derive(Clone, Debug)]
 pub struct GltfMotion {
-    /// Nodes that move by themselves, parents before children; `parent` counts in this list.
+    /// Animated nodes, parents before children; `parent` is an index into this list.
     pub movers: Vec<GltfMover>,
-    /// What is not used, in sentences.
+    /// Unused content, in sentences.
     pub notes: Vec<String>,
-    /// The file without what moves, and each of these by itself.
+    /// The file without moving nodes, and each of these separately.
     pub parts: GltfParts,
 }
 
-/// A node that moves by itself.
+/// Animated node.
 #[derive(Clone, Debug)]
 pub struct GltfMover {
-    /// Its name; empty where it has none.
+    /// Name; empty if it has none.
     pub name: String,
-    /// Its number in the file.
+    /// Number in the file.
     pub node: usize,
-    /// The next one above it that moves.
+    /// Nearest animated ancestor.
     pub parent: Option<usize>,
-    /// From its parent node's axes to those of the mover above it, or to the file's: rotation, one scale, translation.
+    /// Transform from its parent node's axes to those of that ancestor, or to the file's: rotation, one scale, translation.
     pub to_parent: (DQuat, f64, DVec3),
-    /// From its own axes to the file's, without animation.
+    /// Transform from its own axes to the file's, without animation.
     pub to_file: DAffine3,
-    /// Where it stands in its parent without animation: translation, rotation, scale.
+    /// Rest transform in its parent, without animation: translation, rotation, scale.
     pub rest: (DVec3, DQuat, DVec3),
-    /// Its translation over time, m.
+    /// Translation over time, m.
     pub translation: Option<GltfTrack<3>>,
-    /// Its rotation over time, quaternions x, y, z, w.
+    /// Rotation over time, quaternions x, y, z, w.
     pub rotation: Option<GltfTrack<4>>,
-    /// Its scale over time.
+    /// Scale over time.
     pub scale: Option<GltfTrack<3>>,
-    /// Whether it or what stands still in it shows a mesh.
+    /// True if it, or a static node below it, shows a mesh.
     pub has_mesh: bool,
 }
 
-/// Reads what animations move, with the buffers that hold it.
+/// Reads the animated nodes, with the buffers of their animations.
 ///
 /// # Errors
 /// Damaged files.
@@ -124,7 +124,7 @@ fn parents(root: &Root) -> Vec<Option<usize>> {
     parents
 }
 
-/// Joints, nodes with skins, and all above them.
+/// Joints, nodes with skins, and all their ancestors.
 fn held_by_skins(root: &Root, above: &[Option<usize>]) -> Vec<usize> {
     let mut is_held = vec![false; root.nodes.len()];
     let joints = root.skins.iter().flat_map(|skin| &skin.joints).map(|joint| joint.value());
@@ -163,7 +163,7 @@ fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result
     Ok(tracks)
 }
 
-/// Adds a channel to its node, and what it makes to the `keys` so far; `false` where it is not used.
+/// Adds a channel to its node, and its number of keys to `keys`; `false` if it is not used.
 fn add(
     root: &Root,
     buffers: &Buffers,
@@ -203,7 +203,7 @@ fn add(
     Ok(true)
 }
 
-/// The values of a channel in a file, and what they are in words.
+/// Values of a channel in a file, with their name in words.
 struct Values<'a> {
     root: &'a Root,
     buffers: &'a Buffers,
@@ -277,7 +277,7 @@ fn rest(node: &Node) -> Result<(DVec3, DQuat, DVec3), Problem> {
     Ok((node.translation.map_or(DVec3::ZERO, wide), rotation.normalize(), node.scale.map_or(DVec3::ONE, wide)))
 }
 
-/// Rotation, scale and translation of a transform that has one scale and mirrors nothing.
+/// Rotation, scale and translation of a transform with a uniform scale and without mirroring.
 fn similarity(to: DAffine3) -> Option<(DQuat, f64, DVec3)> {
     let m = to.matrix3;
     let lengths = [m.x_axis, m.y_axis, m.z_axis].map(DVec3::length);

@@ -1,4 +1,4 @@
-//! The tree of nodes, what of it the scene shows, and skins as they stand at rest.
+//! Tree of nodes, visible nodes of the scene, and skins in their rest pose.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::json::mesh::{Primitive, Semantic};
@@ -25,8 +25,8 @@ pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, 
     Ok(placed)
 }
 
-/// The nodes that the scene shows, in its order: those of the default scene, or of the first, or all where there is none; and of every node of the
-/// file the way from its axes to those of the file.
+/// Nodes that the scene shows, in order: those of the default scene, else of the first, else all. Also the transform from the axes of every node of the file to
+/// those of the file.
 pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
     let (roots, to_file) = tree(root)?;
     let scene = root.scene.map_or(0, |scene| scene.value());
@@ -49,7 +49,7 @@ pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem>
     Ok((shown, to_file))
 }
 
-/// The nodes without parents, and for every node the way from its axes to those of the file.
+/// Nodes without parents, and for every node the transform from its axes to those of the file.
 fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
     let mut parents: Vec<Option<usize>> = vec![None; root.nodes.len()];
     for (number, node) in root.nodes.iter().enumerate() {
@@ -74,7 +74,7 @@ fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
         to_file[number] = Some(own);
         open.extend(root.nodes[number].children.iter().flatten().map(|child| (child.value(), own)));
     }
-    // What no root leads to lies on a circle, or hangs on one.
+    // Nodes that no root reaches lie on a cycle, or below one.
     let cyclic =
         |number: usize| format!("its node {number} is among its own children, or below one that is; export it again");
     let all: Result<_, _> =
@@ -101,17 +101,17 @@ fn local(number: usize, node: &Node) -> Result<DAffine3, Problem> {
     }
 }
 
-/// A mesh as a node of the scene shows it.
+/// Mesh placed by a node of the scene.
 pub(super) struct PlacedMesh {
-    /// Its number in the file.
+    /// Number in the file.
     pub(super) mesh: usize,
-    /// From its own axes to those of the file; of a skinned mesh the skin says it.
+    /// Transform from its own axes to those of the file; for a skinned mesh the skin gives it.
     pub(super) to_file: DAffine3,
-    /// From its own axes at the bind pose to those of the file, joint by joint; `None` where it has no skin.
+    /// Transforms from its own axes at the bind pose to those of the file, by joint; `None` without a skin.
     pub(super) joints: Option<Vec<DAffine3>>,
 }
 
-/// From a skinned mesh's bind pose to the file, joint by joint.
+/// Transforms from a skinned mesh's bind pose to the file, by joint.
 pub(super) fn joints(
     root: &Root,
     buffers: &Buffers,
@@ -139,7 +139,7 @@ pub(super) fn joints(
     record.joints.iter().zip(&bind).map(|(index, bind): (&Index<gltf::json::Node>, _)| joint((index, bind))).collect()
 }
 
-/// How a primitive's vertices hang on joints: four numbers of joints and four weights a vertex.
+/// Skin weights of a primitive: four joint numbers and four weights per vertex.
 pub(super) struct Weights {
     joints: Vec<[f64; 4]>,
     weights: Vec<[f64; 4]>,
@@ -156,7 +156,7 @@ impl Weights {
         Ok(Some(Self { joints, weights }))
     }
 
-    /// From the bind pose to the file at a vertex: the joints' mean by their weights.
+    /// Transform from the bind pose to the file at a vertex: the weighted mean of the joints' transforms.
     pub(super) fn blend(&self, vertex: usize, joints: &[DAffine3]) -> Result<DAffine3, Problem> {
         let told =
             |problem: &str| Problem::from(format!("vertex {vertex} of a skinned mesh {problem}; export it again"));

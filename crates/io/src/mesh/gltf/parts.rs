@@ -1,4 +1,4 @@
-//! A glTF file without the nodes that move, and each of these by itself: the same file with another tree.
+//! Parts of a glTF file: the file without moving nodes, and each moving node by itself, as the same file with another tree.
 
 use etendue_scene::limits;
 use serde_json::{Map, Value, json};
@@ -6,20 +6,20 @@ use serde_json::{Map, Value, json};
 use super::{buffers::unescaped, document};
 use crate::Problem;
 
-/// A glTF file, of which parts are made.
+/// glTF file that is split into parts.
 #[derive(Clone, Debug)]
 pub struct GltfParts {
     json: Value,
-    /// The binary chunk of a GLB file, which its parts name as a file of their own.
+    /// Binary chunk of a GLB file; the parts name it as a separate file.
     pub blob: Option<Vec<u8>>,
     movers: Vec<usize>,
-    /// Whether a node is one of them.
+    /// True for moving nodes.
     is_mover: Vec<bool>,
-    /// Whether a node hangs on another.
+    /// True for nodes that have a parent.
     is_child: Vec<bool>,
-    /// Of the JSON, bytes.
+    /// Bytes of the JSON.
     bytes: u64,
-    /// The mover that each node stands still in; `None` in the file.
+    /// Moving node in which each node is static; `None`: static in the file.
     pub mover_of: Vec<Option<usize>>,
 }
 
@@ -43,16 +43,16 @@ impl GltfParts {
         Ok(Self { json, blob, movers, is_mover, is_child, bytes: bytes.len() as u64, mover_of })
     }
 
-    /// Refuses what as many parts would multiply the file beyond the limit.
+    /// Refuses a number of parts that would multiply the file beyond the limit.
     ///
     /// # Errors
-    /// Where they would.
+    /// If it would.
     pub fn check_size(&self, parts: usize) -> Result<(), Problem> {
         limits::MESH.check_unpacked(self.bytes.saturating_mul(parts as u64))
     }
 
-    /// The part that a mover shows, scaled by three numbers along its own axes and not moved; of `None` all that stands still. `way` leads to what the
-    /// file names, from where the part shall lie; `blob` is the name of its binary chunk there.
+    /// Part of a moving node, scaled by three numbers along its own axes and not moved; for `None` all static nodes. `way` gives the path, from the part's
+    /// location, to a resource that the file names; `blob` is the name of its binary chunk there.
     #[must_use]
     pub fn part(&self, mover: Option<(usize, [f64; 3])>, blob: &str, way: &dyn Fn(&str) -> String) -> Vec<u8> {
         let mut json = self.json.clone();
@@ -112,7 +112,7 @@ fn list<'a>(root: &'a mut Map<String, Value>, key: &str) -> impl Iterator<Item =
     root.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten().filter_map(Value::as_object_mut)
 }
 
-/// A path as a relative reference.
+/// Path as a relative reference.
 fn escaped(path: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte);
     path.bytes().map(|byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") }).collect()

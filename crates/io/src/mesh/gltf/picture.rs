@@ -1,4 +1,4 @@
-//! Pictures of a glTF file, and how they lie on surfaces.
+//! Images of a glTF file, and their texture coordinates.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,19 +13,19 @@ use gltf::{json::Root, json::validation::Checked};
 use super::buffers::{Buffers, linked};
 use crate::{Problem, Sandbox, hash, picture::decode_picture};
 
-/// A texture as a material uses it.
+/// Texture as used by a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TextureUse {
     pub(super) texture: usize,
     pub(super) layout: UvLayout,
 }
 
-/// By which texture coordinates a picture lies, and how they are changed (KHR_texture_transform).
+/// Set of texture coordinates of an image, and their transform (KHR_texture_transform).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct UvLayout {
     pub(super) set: u32,
     pub(super) offset: [f64; 2],
-    /// Radians.
+    /// Rotation, rad.
     pub(super) rotation: f64,
     pub(super) scale: [f64; 2],
 }
@@ -33,7 +33,7 @@ pub(super) struct UvLayout {
 impl UvLayout {
     pub(super) const PLAIN: Self = Self { set: 0, offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2] };
 
-    /// Texture coordinates of the file, v downwards, as those of a mesh, v upwards.
+    /// Converts texture coordinates of the file (v downwards) to those of a mesh (v upwards).
     pub(super) fn apply(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         let (sin, cos) = maths::sin_cos(self.rotation);
         let (u, v) = (u * self.scale[0], v * self.scale[1]);
@@ -56,16 +56,16 @@ impl TextureUse {
     }
 }
 
-/// The pictures as they are read, each once, and what is made of them.
+/// Images as read, each once, and images made from them.
 pub(super) struct Pictures<'a> {
     file: &'a Path,
     root: &'a Root,
     buffers: &'a Buffers,
     sandbox: &'a Sandbox,
     images: BTreeMap<usize, ImageAsset>,
-    /// What materials use, by name.
+    /// Images that materials use, by name.
     pub(super) used: BTreeMap<PathBuf, ImageAsset>,
-    /// Bytes of picture files, in the order in which they were read.
+    /// Bytes of image files, in the order of reading.
     pub(super) files: Vec<Vec<u8>>,
     unpacked: u64,
 }
@@ -84,7 +84,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// The picture of a texture as the file has it.
+    /// Image of a texture, as in the file.
     pub(super) fn image(&mut self, texture: usize) -> Result<&ImageAsset, Problem> {
         let number = self.image_of(texture)?;
         if !self.images.contains_key(&number) {
@@ -95,7 +95,7 @@ impl<'a> Pictures<'a> {
         Ok(&self.images[&number])
     }
 
-    /// That picture for a material.
+    /// The same image for a material.
     pub(super) fn as_it_is(&mut self, texture: usize, is_encoded: bool) -> Result<SlotPicture, Problem> {
         let number = self.image_of(texture)?;
         let image = self.image(texture)?.clone();
@@ -103,7 +103,7 @@ impl<'a> Pictures<'a> {
         self.keep(name, image, texture, is_encoded)
     }
 
-    /// Another, made of that picture by what `what` says in words that no other has.
+    /// Image made from that image; `what` describes the operation in words that no other has.
     pub(super) fn made(
         &mut self,
         texture: usize,
@@ -142,7 +142,7 @@ impl<'a> Pictures<'a> {
         Ok(found.source.value())
     }
 
-    /// What all pictures take together is limited: materials may make many of one.
+    /// Limits the total size of all images: materials may make many from one.
     fn count(&mut self, image: &ImageAsset) -> Result<(), Problem> {
         const BYTES_PER_PIXEL: u64 = 16;
         self.unpacked =
@@ -184,7 +184,7 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// Red, green, blue, opacity of every pixel as numbers 0 … 1 (more, of floats), as the file has them.
+/// Red, green, blue and opacity of every pixel as numbers 0 … 1 (floats may exceed 1), as in the file.
 fn pixels(image: &ImageAsset) -> Box<dyn Iterator<Item = [f32; 4]> + '_> {
     let byte = |b: u8| f32::from(b) / 255.0;
     match &image.pixels {
@@ -197,12 +197,12 @@ fn pixels(image: &ImageAsset) -> Box<dyn Iterator<Item = [f32; 4]> + '_> {
     }
 }
 
-/// Whether any pixel lets light through.
+/// Returns true if any pixel is not opaque.
 pub(super) fn has_opacity(image: &ImageAsset) -> bool {
     matches!(image.pixels, ImagePixels::Rgba8(_) | ImagePixels::Rgba32F(_)) && pixels(image).any(|p| p[3] < 1.0)
 }
 
-/// Colours times a factor, decoded.
+/// Decoded colours times a factor.
 pub(super) fn tinted(image: &ImageAsset, factor: [f64; 3]) -> ImageAsset {
     let tint = |[r, g, b, _]: [f32; 4]| {
         let linear = [r, g, b].map(colour::decode);
@@ -211,13 +211,13 @@ pub(super) fn tinted(image: &ImageAsset, factor: [f64; 3]) -> ImageAsset {
     of(image, ImagePixels::Rgb32F(pixels(image).map(tint).collect()))
 }
 
-/// Numbers from one channel, by a rule.
+/// Numbers of one channel, by a rule.
 pub(super) fn channel(image: &ImageAsset, channel: usize, rule: impl Fn(f32) -> f32) -> ImageAsset {
     let number = |p: [f32; 4]| (rule(p[channel]).clamp(0.0, 1.0) * 65_535.0 + 0.5) as u16;
     of(image, ImagePixels::Gray16(pixels(image).map(number).collect()))
 }
 
-/// The only value of such numbers; `None` where they differ.
+/// Value of a constant image; `None` if values differ.
 pub(super) fn only_value(image: &ImageAsset) -> Option<f64> {
     let ImagePixels::Gray16(numbers) = &image.pixels else { return None };
     let first = numbers.first()?;

@@ -1,4 +1,4 @@
-//! What a glTF file has beside its meshes: lights and cameras in their places.
+//! Lights and cameras of a glTF file, with their transforms.
 //!
 //! Source: glTF 2.0 Specification, 3.10 (cameras), and KHR_lights_punctual.
 
@@ -11,50 +11,50 @@ use gltf::{json::Root, json::validation::Checked};
 use super::{document, nodes};
 use crate::{Error, Problem, source::read_bytes};
 
-/// The lights and cameras of a glTF file, in its axes (+y up, +z forward; m).
+/// Lights and cameras of a glTF file, in its axes (+y up, +z forward; m).
 #[derive(Clone, Debug, Default)]
 pub struct GltfStage {
     /// The lights of the scene's nodes.
     pub lights: Vec<GltfLight>,
     /// The cameras of the scene's nodes.
     pub cameras: Vec<GltfCamera>,
-    /// The nodes of the scene that show a mesh, by their numbers in the file.
+    /// Nodes of the scene that show a mesh, by their numbers in the file.
     pub mesh_nodes: Vec<usize>,
-    /// How many animations it has.
+    /// Number of animations.
     pub animations: usize,
 }
 
-/// A punctual light.
+/// Punctual light.
 #[derive(Clone, Debug)]
 pub struct GltfLight {
-    /// Its name, or its node's; empty where neither has one.
+    /// Name, or its node's; empty if neither has one.
     pub name: String,
-    /// The number of its node in the file.
+    /// Number of its node in the file.
     pub node: usize,
-    /// From its own axes, in which it shines along −z, to the file's.
+    /// Transform from its own axes, in which it shines along −z, to the file's.
     pub to_file: DAffine3,
-    /// How it shines.
+    /// Kind and emission cone.
     pub kind: GltfLightKind,
     /// Linear sRGB, 0 or more.
     pub colour: [f64; 3],
-    /// Intensity of a white light, cd; of a directional one illuminance, lx.
+    /// Intensity of a white light, cd; for a directional light illuminance, lx.
     pub intensity: f64,
-    /// Whether the file says how far it reaches.
+    /// True if the file limits its range.
     pub has_range: bool,
 }
 
-/// How a punctual light shines.
+/// Kind of a punctual light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GltfLightKind {
-    /// Parallel light from infinitely far.
+    /// Parallel light from infinity.
     Directional,
-    /// Alike in all directions.
+    /// Isotropic.
     Point,
-    /// In a cone.
+    /// Cone.
     Spot {
-        /// Half angle within which it is not dimmed, rad.
+        /// Half angle of full intensity, rad.
         inner_rad: f64,
-        /// Half angle outside of which it is dark, rad.
+        /// Half angle beyond which it is dark, rad.
         outer_rad: f64,
     },
 }
@@ -62,37 +62,37 @@ pub enum GltfLightKind {
 /// A camera.
 #[derive(Clone, Debug)]
 pub struct GltfCamera {
-    /// Its name, or its node's; empty where neither has one.
+    /// Name, or its node's; empty if neither has one.
     pub name: String,
-    /// The number of its node in the file.
+    /// Number of its node in the file.
     pub node: usize,
-    /// From its own axes, in which it looks along −z with +y up, to the file's.
+    /// Transform from its own axes, in which it looks along −z with +y up, to the file's.
     pub to_file: DAffine3,
-    /// How it projects.
+    /// Projection.
     pub projection: GltfProjection,
 }
 
-/// How a camera projects.
+/// Projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GltfProjection {
     /// Rectilinear.
     Perspective {
         /// Full vertical angle, rad.
         yfov_rad: f64,
-        /// Width over height; `None` where the file leaves it to the viewer.
+        /// Width over height; `None` if the file leaves it to the viewer.
         aspect: Option<f64>,
     },
     /// Parallel.
     Orthographic {
-        /// Half of the width and of the height that are seen, m.
+        /// Half of the visible width and height, m.
         half_m: [f64; 2],
     },
 }
 
-/// Reads lights and cameras of a glTF file. Its buffers, which hold nothing of them, are not read.
+/// Reads lights and cameras of a glTF file. Its buffers, which do not describe them, are not read.
 ///
 /// # Errors
-/// Damaged files, numbers that no light or camera has.
+/// Damaged files, or illegal numbers of a light or camera.
 pub fn read_gltf_stage(file: &Path) -> Result<GltfStage, Error> {
     let bytes = read_bytes(file, "scene")?;
     read(&bytes).map_err(|told| Error::new(file, told))
@@ -150,7 +150,7 @@ fn kind_of(light: &Light) -> Result<GltfLightKind, Problem> {
         (Checked::Valid(Type::Point), _) => Ok(GltfLightKind::Point),
         (Checked::Valid(Type::Spot), Some(spot)) => {
             let (inner_rad, outer_rad) = (f64::from(spot.inner_cone_angle), f64::from(spot.outer_cone_angle));
-            // 32 bits of π/2 may lie above it.
+            // π/2 rounded to 32 bits may exceed it.
             let most = std::f64::consts::FRAC_PI_2 + 1e-6;
             match inner_rad >= 0.0 && inner_rad < outer_rad && outer_rad <= most {
                 true => Ok(GltfLightKind::Spot { inner_rad, outer_rad }),

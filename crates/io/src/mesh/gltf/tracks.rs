@@ -4,17 +4,17 @@ use gltf::json::animation::Interpolation;
 
 use crate::Problem;
 
-/// Keys of a cubic curve from one of the file's to the next, where curves are said by keys between which lines are straight.
+/// Linear keys that approximate a cubic curve between two of the file's keys.
 pub const GLTF_CUBIC_KEYS: usize = 16;
-/// Keys that the tracks of a file may make: as text they have about 100 MB.
+/// Maximum keys of the tracks of a file: as text they have about 100 MB.
 const MAX_KEYS: u64 = 1_000_000;
-/// A quaternion below this length turns nothing that can be told.
+/// Minimum length of a quaternion that determines a rotation.
 pub const GLTF_MIN_TURN: f64 = 1e-6;
 
-/// Values over time; before the first and after the last they hold.
+/// Values over time; constant before the first and after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GltfTrack<const N: usize> {
-    /// Times, s, rising.
+    /// Times, s, increasing.
     pub times_s: Vec<f64>,
     keys: GltfKeys<N>,
 }
@@ -48,7 +48,7 @@ pub(super) fn track<const N: usize>(
     Ok(GltfTrack { times_s: times, keys })
 }
 
-/// The keys so far with those that a track of `times` makes: cubic curves and steps are said by more.
+/// Adds to `before` the keys that a track of `times` makes: cubic curves and steps need more.
 pub(super) fn counted(before: u64, times: u64, interpolation: Interpolation) -> Result<u64, Problem> {
     let each = match interpolation {
         Interpolation::CubicSpline => GLTF_CUBIC_KEYS as u64,
@@ -73,13 +73,13 @@ pub(super) fn check_rotation(track: &GltfTrack<4>) -> Result<(), Problem> {
 }
 
 impl<const N: usize> GltfTrack<N> {
-    /// Whether it jumps from value to value.
+    /// Returns true if values change in steps.
     #[must_use]
     pub fn is_step(&self) -> bool {
         matches!(self.keys, GltfKeys::Step(_))
     }
 
-    /// Whether it goes along cubic curves.
+    /// Returns true if values follow cubic curves.
     #[must_use]
     pub fn is_cubic(&self) -> bool {
         matches!(self.keys, GltfKeys::Cubic(_))
@@ -93,7 +93,7 @@ impl<const N: usize> GltfTrack<N> {
         plain.iter().copied().chain(cubic.iter().map(|[_, value, _]| *value))
     }
 
-    /// The value at a time: on straight lines, whose way round `between` may say otherwise, steps, or cubic Hermite curves.
+    /// Value at a time: linear (interpolated by `between`), stepped, or on cubic Hermite curves.
     #[must_use]
     pub fn at(&self, time_s: f64, between: impl Fn([f64; N], [f64; N], f64) -> [f64; N]) -> [f64; N] {
         let last = self.times_s.len() - 1;
@@ -142,7 +142,7 @@ mod tests {
         assert_eq!([0.0, 1.5, 3.0, 9.0].map(|t| linear.at(t, straight)[0]), [0.0, 0.5, 2.0, 3.0]);
         let step = track(times(), values(), false, true).expect("a track");
         assert_eq!([0.0, 1.5, 2.0, 3.9, 9.0].map(|t| step.at(t, straight)[0]), [0.0, 0.0, 1.0, 1.0, 3.0]);
-        // x = t²: at rest at 0, of speed 2 at 1.
+        // x = t²: at rest at 0, speed 2 at 1.
         let cubic =
             track(vec![0.0, 1.0], vec![[0.0], [0.0], [0.0], [2.0], [1.0], [2.0]], true, false).expect("a track");
         assert_eq!([0.0, 0.5, 1.0].map(|t| cubic.at(t, straight)[0]), [0.0, 0.25, 1.0]);

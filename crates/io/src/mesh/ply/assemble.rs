@@ -1,4 +1,4 @@
-//! Elements to a mesh.
+//! Assembly of a mesh from elements.
 
 use etendue_scene::asset::{MeshAsset, SlotMaterial};
 
@@ -30,12 +30,12 @@ pub(super) fn mesh(header: &Header, input: &mut Input<'_>) -> Result<MeshAsset, 
     builder.finish(header)
 }
 
-/// The mesh as far as it is read.
+/// Mesh under construction.
 #[derive(Default)]
 struct Builder {
     vertices: Option<Vertices>,
     mesh: MeshAsset,
-    /// Vertices of the mesh, where corners have their own: which of the file's each is.
+    /// Index in the file of each vertex of the mesh, if corners have their own vertices.
     sources: Vec<u32>,
     corners: u64,
     has_strips: bool,
@@ -152,13 +152,13 @@ impl Builder {
     }
 }
 
-/// Reads without moving the input, but to a fault, whose line it then tells.
+/// Reads without moving the input, except to an error, whose line it then states.
 fn ahead<'a>(input: &mut Input<'a>, read: impl FnOnce(&mut Input<'a>) -> Result<(), Problem>) -> Result<(), Problem> {
     let mut ahead = input.clone();
     read(&mut ahead).inspect_err(|_| *input = ahead)
 }
 
-/// Vertices without a usable normal take that of the first triangle that has them.
+/// Vertices without a usable normal take that of the first triangle that uses them.
 fn mend_normals(mesh: &mut MeshAsset) {
     let MeshAsset { normals, triangles, positions, report, .. } = mesh;
     if normals.is_empty() {
@@ -173,7 +173,7 @@ fn mend_normals(mesh: &mut MeshAsset) {
             }
         }
     }
-    normals.iter_mut().filter(|n| **n == [0.0; 3]).for_each(|n| *n = [0.0, 0.0, 1.0]); // of no triangle
+    normals.iter_mut().filter(|n| **n == [0.0; 3]).for_each(|n| *n = [0.0, 0.0, 1.0]); // vertex of no triangle
     if mended > 0 {
         report.push(format!("{mended} vertices without a usable normal take that of a face"));
     }
@@ -199,20 +199,20 @@ fn notes(header: &Header, unused: &[String], elements: &[(String, usize)]) -> Ve
     notes
 }
 
-/// Names of texture coordinates, as writers have them.
+/// Names of texture coordinates, as used by writers.
 const UV_NAMES: [[&str; 2]; 4] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 
-/// The vertices of a file.
+/// Vertices of a file.
 #[derive(Debug, Default)]
 pub(super) struct Vertices {
     pub(super) positions: Vec<[f64; 3]>,
-    /// One a vertex, or none.
+    /// One per vertex, or none.
     pub(super) normals: Vec<[f32; 3]>,
-    /// One a vertex, or none.
+    /// One per vertex, or none.
     pub(super) uvs: Vec<[f32; 2]>,
 }
 
-/// What a property is used for: nothing, or a coordinate of something.
+/// Use of a property: none, or a coordinate.
 #[derive(Clone, Copy)]
 enum Use {
     Nothing,
@@ -221,7 +221,7 @@ enum Use {
     Uv(usize),
 }
 
-/// The uses of the properties of an element.
+/// Uses of the properties of an element.
 struct Uses {
     each: Vec<Use>,
     has_normals: bool,
@@ -250,7 +250,7 @@ impl Uses {
 }
 
 impl Vertices {
-    /// Reads the element; what of it is not used, by its names.
+    /// Reads the element; also returns the names of unused properties.
     pub(super) fn read(element: &Element, input: &mut Input<'_>) -> Result<(Self, Vec<String>), Problem> {
         input.check_rows(element)?;
         if element.count > u32::MAX as usize {

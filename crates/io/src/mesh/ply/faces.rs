@@ -1,36 +1,36 @@
-//! The elements that say surfaces: polygons and strips.
+//! Elements that define surfaces: polygons and strips.
 
 use super::super::vertex::check_range;
 use super::header::{Element, Property};
 use super::input::Input;
 use crate::Problem;
 
-/// The names of the list of a polygon's corners.
+/// Names of the list of a polygon's corners.
 const CORNER_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
-/// The name of the texture coordinates of a polygon's corners, as MeshLab writes them.
+/// Name of the texture coordinates of a polygon's corners, as MeshLab writes them.
 const UV_NAME: &str = "texcoord";
-/// Corners of a polygon, which takes much memory while it is cut into triangles.
+/// Maximum corners of a polygon, which takes much memory while it is cut into triangles.
 const MAX_CORNERS: usize = 1 << 16;
 
-/// Corners of a polygon or a strip, with their texture coordinates where it has some.
+/// Corners of a polygon or a strip, with their texture coordinates if any.
 #[derive(Debug, Default)]
 pub(super) struct Face {
     pub(super) corners: Vec<u32>,
-    /// One a corner, or none.
+    /// One per corner, or none.
     pub(super) uvs: Vec<[f32; 2]>,
 }
 
-/// Whether a property says corners or their texture coordinates.
+/// Returns true if a property holds corners or their texture coordinates.
 pub(super) fn is_used(property: &Property) -> bool {
     property.count.is_some() && (CORNER_NAMES.contains(&&*property.name) || property.name == UV_NAME)
 }
 
-/// Whether faces have texture coordinates of their own.
+/// Returns true if faces have their own texture coordinates.
 pub(super) fn has_uvs(element: &Element) -> bool {
     element.properties.iter().any(|p| p.count.is_some() && p.name == UV_NAME)
 }
 
-/// Reads all faces, each given to `take`, and moves the input behind them.
+/// Reads all faces, passes each to `take`, and moves the input past them.
 pub(super) fn polygons(
     element: &Element,
     input: &mut Input<'_>,
@@ -64,7 +64,7 @@ pub(super) fn polygons(
     Ok(())
 }
 
-/// Reads all strips, each triangle given to `take`: −1 begins a new strip.
+/// Reads all strips and passes each triangle to `take`: −1 begins a new strip.
 pub(super) fn strips(
     element: &Element,
     input: &mut Input<'_>,

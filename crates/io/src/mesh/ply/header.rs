@@ -1,9 +1,9 @@
-//! What the head of a file says stands below it.
+//! Header of a file: encoding, elements and properties.
 
-/// The head of a file is read up to this length, bytes.
+/// Maximum length of a header, bytes.
 const MAX_HEAD: usize = 1 << 16;
 
-/// How numbers are written.
+/// Encoding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Text,
@@ -11,7 +11,7 @@ pub(super) enum Encoding {
     Big,
 }
 
-/// The type of a number.
+/// Type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Number {
     I8,
@@ -24,17 +24,17 @@ pub(super) enum Number {
     F64,
 }
 
-/// A property of an element.
+/// Property of an element.
 #[derive(Clone, Debug)]
 pub(super) struct Property {
     pub(super) name: String,
-    /// The type of its number, or of each of its numbers.
+    /// Type of its number, or of each of its numbers.
     pub(super) number: Number,
-    /// The type of the count of a list; `None` for a single number.
+    /// Type of the count of a list; `None` for a single number.
     pub(super) count: Option<Number>,
 }
 
-/// A table: so many rows of these properties.
+/// Table: a number of rows with these properties.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     pub(super) name: String,
@@ -42,21 +42,21 @@ pub(super) struct Element {
     pub(super) properties: Vec<Property>,
 }
 
-/// The head.
+/// Parsed header.
 #[derive(Clone, Debug)]
 pub(super) struct Header {
     pub(super) encoding: Encoding,
-    /// In the order of the file.
+    /// Elements in the order of the file.
     pub(super) elements: Vec<Element>,
-    /// The picture that a comment of MeshLab names; `None` where none does.
+    /// Image that a comment of MeshLab names; `None` without one.
     pub(super) picture: Option<String>,
-    /// Bytes up to the first row.
+    /// Bytes before the first row.
     pub(super) length: usize,
-    /// Lines up to the first row.
+    /// Lines before the first row.
     pub(super) lines: usize,
 }
 
-/// A fault with its line, counted from 1.
+/// Error with its line, counted from 1.
 type Fault = (usize, String);
 
 impl Number {
@@ -74,7 +74,7 @@ impl Number {
         })
     }
 
-    /// Its length in a binary file, bytes.
+    /// Length in a binary file, bytes.
     pub(super) fn bytes(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -116,7 +116,7 @@ impl Header {
         Ok(header)
     }
 
-    /// The element of this name.
+    /// Element of this name.
     pub(super) fn find(&self, name: &str) -> Option<&Element> {
         self.elements.iter().find(|e| e.name == name)
     }
@@ -165,7 +165,7 @@ impl Header {
     }
 }
 
-/// A word of a file in a message.
+/// Word of a file, shortened for a message.
 pub(super) fn shortened(word: &str) -> String {
     const MAX: usize = 40;
     match word.char_indices().nth(MAX) {
@@ -174,7 +174,7 @@ pub(super) fn shortened(word: &str) -> String {
     }
 }
 
-/// The lines of the head, which end with LF, CR LF or CR.
+/// Lines of the header, which end with LF, CR LF or CR.
 struct Lines<'a> {
     bytes: &'a [u8],
     end: &'static [u8],

@@ -1,25 +1,25 @@
-//! Numbers one after another, from text or bytes.
+//! Sequential reader of numbers, from text or bytes.
 
 use super::header::{Element, Encoding, Header, Number, Property, shortened};
 use crate::Problem;
 
-/// Where reading is.
+/// Reading position.
 #[derive(Clone, Debug)]
 pub(super) struct Input<'a> {
     bytes: &'a [u8],
     at: usize,
     encoding: Encoding,
-    /// The line of the number that was read last, counted from 1; of text.
+    /// Line of the last number, counted from 1; for text only.
     line: usize,
 }
 
 impl<'a> Input<'a> {
-    /// At the first row of the first element.
+    /// Starts at the first row of the first element.
     pub(super) fn new(header: &Header, bytes: &'a [u8]) -> Self {
         Self { bytes, at: header.length, encoding: header.encoding, line: header.lines + 1 }
     }
 
-    /// The line that was read last; `None` where the file has none.
+    /// Line of the last number; `None` for binary files.
     pub(super) fn line(&self) -> Option<usize> {
         (self.encoding == Encoding::Text).then_some(self.line)
     }
@@ -27,11 +27,11 @@ impl<'a> Input<'a> {
     /// Refuses an element of more rows than the rest of the file can hold.
     pub(super) fn check_rows(&self, element: &Element) -> Result<(), Problem> {
         let least = |p: &Property| match self.encoding {
-            Encoding::Text => 2, // a digit and what parts it from the next
+            Encoding::Text => 2, // a digit and a separator
             _ => p.count.unwrap_or(p.number).bytes(),
         };
         let row: usize = element.properties.iter().map(least).sum();
-        // The last number may end with the file.
+        // The last number may be ended by the end of the file.
         let rest = self.bytes.len() - self.at + usize::from(self.encoding == Encoding::Text);
         match element.count.checked_mul(row) {
             Some(bytes) if bytes <= rest => Ok(()),
@@ -43,7 +43,7 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// The next number, finite.
+    /// Reads the next number, which must be finite.
     pub(super) fn number(&mut self, number: Number) -> Result<f64, Problem> {
         let value = match self.encoding {
             Encoding::Text => self.word_number(number)?,
@@ -63,7 +63,7 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// The length of the list that follows, which the rest of the file can hold.
+    /// Reads the length of the next list, which must fit into the rest of the file.
     pub(super) fn list_length(&mut self, property: &Property) -> Result<usize, Problem> {
         let Some(count) = property.count else { return Ok(1) };
         let length = self.number(count)?;
@@ -80,7 +80,7 @@ impl<'a> Input<'a> {
         .into())
     }
 
-    /// Passes over a property.
+    /// Skips a property.
     pub(super) fn skip(&mut self, property: &Property) -> Result<(), Problem> {
         let length = self.list_length(property)?;
         if self.encoding == Encoding::Text {
@@ -89,7 +89,7 @@ impl<'a> Input<'a> {
         self.advance(length.saturating_mul(property.number.bytes()))
     }
 
-    /// Passes over an element.
+    /// Skips an element.
     pub(super) fn skip_element(&mut self, element: &Element) -> Result<(), Problem> {
         self.check_rows(element)?;
         let is_even = element.properties.iter().all(|p| p.count.is_none());
@@ -103,7 +103,7 @@ impl<'a> Input<'a> {
         (0..element.count).try_for_each(|_| element.properties.iter().try_for_each(|p| self.skip(p)))
     }
 
-    /// What a fault of a binary file may come from, as the end of a message.
+    /// Possible cause of an error in a binary file, as the end of a message.
     pub(super) fn byte_order_hint(&self) -> &'static str {
         match self.encoding {
             Encoding::Text => "; export or copy it again",
@@ -156,7 +156,7 @@ impl<'a> Input<'a> {
             .map_err(|_| "bytes that are no text, where the head says `format ascii`; export it again".into())
     }
 
-    /// How many lines end in `blanks`, before which a number stands.
+    /// Number of line ends in `blanks`, the text after a number.
     fn line_ends(&self, blanks: &[u8]) -> usize {
         let feeds = blanks.iter().filter(|b| **b == b'\n').count();
         if feeds > 0 { feeds } else { blanks.iter().filter(|b| **b == b'\r').count() }
@@ -172,7 +172,7 @@ impl<'a> Input<'a> {
     }
 }
 
-/// The number of a type whose little-endian bytes `order` puts in order.
+/// Number of a type from little-endian bytes; `order` corrects their order.
 fn binary(number: Number, bytes: &[u8], order: impl Fn([u8; 8]) -> [u8; 8]) -> f64 {
     let mut all = [0; 8];
     all[..bytes.len()].copy_from_slice(bytes);

@@ -1,12 +1,11 @@
 //! Meshes of PLY files, text and binary of either byte order, and triangles written as PLY or OBJ.
 //!
-//! Source: G. Turk, "The PLY Polygon File Format", 1994, with the names that writers gave to properties since. Read: places and normals of
-//! `vertex`, texture coordinates of its vertices (`u v`, `s t`, `texture_u texture_v`, `texture_s texture_t`) or of the corners of its faces
-//! (`texcoord`), polygons of `face`, and `tristrips`. All other elements and properties are passed over, and said in the report. A file names
-//! no material: it has one slot, without a name.
+//! Source: G. Turk, "The PLY Polygon File Format", 1994, with property names used by later writers. Read: positions and normals of `vertex`, texture
+//! coordinates of its vertices (`u v`, `s t`, `texture_u texture_v`, `texture_s texture_t`) or of the corners of its faces (`texcoord`), polygons of `face`,
+//! and `tristrips`. All other elements and properties are ignored and noted in the report. A file names no material: it has one slot, without a name.
 //!
-//! Refused: numbers that are not finite, indices out of range, faces of fewer than three corners, polygons that cross themselves, and
-//! elements that the bytes of the file cannot hold, before memory is taken for them.
+//! Refused: numbers that are not finite, indices out of range, faces of fewer than three corners, polygons that cross themselves, and elements that the bytes
+//! of the file cannot hold, before memory is taken for them.
 
 mod assemble;
 mod faces;
@@ -22,7 +21,7 @@ use crate::{Error, Problem, hash};
 use header::Header;
 use input::Input;
 
-/// Whether a file is a PLY file by its ending.
+/// Returns true if the file name has the extension of PLY.
 pub(crate) fn is_ply(file: &Path) -> bool {
     file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ply"))
 }
@@ -42,20 +41,20 @@ pub(super) fn read_ply(file: &Path) -> Result<MeshAsset, Error> {
     Ok(mesh)
 }
 
-/// Triangles in the place where they shall stand.
+/// Triangles in world coordinates.
 #[derive(Clone, Debug, Default)]
 pub struct PlacedTriangles {
     /// Vertices.
     pub positions: Vec<[f64; 3]>,
-    /// Normals of any length; one a vertex, or none.
+    /// Normals of any length; one per vertex, or none.
     pub normals: Vec<[f64; 3]>,
-    /// Texture coordinates, v upwards; one a vertex, or none.
+    /// Texture coordinates, v upwards; one per vertex, or none.
     pub uvs: Vec<[f64; 2]>,
     /// Indices of vertices, counter-clockwise as seen from the front.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// A binary little-endian PLY file: coordinates in 64 bits, normals and texture coordinates in 32.
+/// Encodes a binary little-endian PLY file: coordinates in 64 bits, normals and texture coordinates in 32.
 #[must_use]
 pub fn encode_ply(mesh: &PlacedTriangles) -> Vec<u8> {
     let has_normals = mesh.normals.len() == mesh.positions.len();
@@ -86,7 +85,7 @@ pub fn encode_ply(mesh: &PlacedTriangles) -> Vec<u8> {
     bytes
 }
 
-/// A Wavefront OBJ file of places and triangles alone.
+/// Encodes a Wavefront OBJ file of positions and triangles alone.
 #[must_use]
 pub fn encode_obj(mesh: &PlacedTriangles) -> Vec<u8> {
     let mut text = String::new();

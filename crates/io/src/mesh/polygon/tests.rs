@@ -9,14 +9,14 @@ fn area(corners: &[[f64; 3]], triangles: &[[usize; 3]]) -> [f64; 3] {
     triangles.iter().map(|t| newell(&t.map(|i| corners[i]))).fold([0.0; 3], |s, a| std::array::from_fn(|i| s[i] + a[i]))
 }
 
-/// The triangles cover the polygon once: each turns as the polygon does, and their areas add up to its own.
+/// The triangles cover the polygon once: each turns as the polygon does, and their areas add up to its area.
 fn covers(flat: &[[f64; 2]]) {
     let corners = lift(flat);
     let triangles = triangulate(&corners).expect("simple");
     let whole = newell(&corners);
     assert_eq!(triangles.len(), corners.len() - 2);
     for t in &triangles {
-        // Coordinates of 2e5 carry 3e-11 of rounding; triangles may have no area.
+        // Coordinates of 2e5 carry 3e-11 of rounding; triangles may have zero area.
         assert!(dot(newell(&t.map(|i| corners[i])), whole) >= -1e-8, "{t:?}");
     }
     let sum = area(&corners, &triangles);
@@ -58,7 +58,7 @@ fn corners_on_one_line_give_triangles_without_area() {
     assert_eq!(triangulate(&corners).map(|t| t.len()), Ok(2));
 }
 
-/// How many triangles hold a point.
+/// Number of triangles that contain a point.
 fn times_covered(flat: &[[f64; 2]], triangles: &[[usize; 3]], p: [f64; 2]) -> usize {
     let holds = |t: &&[usize; 3]| (0..3).all(|i| turn(flat[t[i]], flat[t[(i + 1) % 3]], p) > 0.0);
     triangles.iter().filter(holds).count()
@@ -91,7 +91,7 @@ fn corners_that_coincide_and_corners_on_edges_are_covered() {
     }
 }
 
-/// The cut that takes the first ear by looking at all corners each time.
+/// Reference: takes the first ear by a search of all corners each time.
 fn by_all_corners(flat: &[[f64; 2]]) -> Option<Vec<[usize; 3]>> {
     let mut left: Vec<usize> = (0..flat.len()).collect();
     let mut triangles = Vec::new();
@@ -119,7 +119,7 @@ fn by_all_corners(flat: &[[f64; 2]]) -> Option<Vec<[usize; 3]>> {
     Some(triangles)
 }
 
-/// Radii of spikes about the origin, as a polygon that is simple.
+/// Spikes of these radii about the origin, as a simple polygon.
 fn spikes(radii: impl ExactSizeIterator<Item = f64>) -> Vec<[f64; 2]> {
     let n = radii.len() as f64;
     let corner = |(i, r): (usize, f64)| {
@@ -149,8 +149,8 @@ fn polygons_of_many_corners_are_covered() {
 }
 
 proptest::proptest! {
-    /// Random outlines on a coarse grid: corners coincide, stand on edges, and lie on one line. Those that cross themselves
-    /// are refused before ears are looked for.
+    /// Random outlines on a coarse grid: corners coincide, lie on edges, and are collinear. Those that cross themselves are refused before ears are searched
+    /// for.
     #[test]
     fn the_first_ear_is_found_as_by_looking_at_all_corners(
         corners in proptest::collection::vec((0_i32..9, 0_i32..9), 4..10)
@@ -189,7 +189,7 @@ fn by_all_pairs(flat: &[Point]) -> bool {
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(4000))]
 
-    /// Corners on a coarse grid coincide, stand on edges, and lie on one line.
+    /// Corners on a coarse grid coincide, lie on edges, and are collinear.
     #[test]
     fn the_sweep_finds_what_all_pairs_find(corners in proptest::collection::vec((0_i32..7, 0_i32..7), 3..12)) {
         let flat: Vec<Point> = corners.iter().map(|(x, y)| [f64::from(*x), f64::from(*y)]).collect();

@@ -1,15 +1,15 @@
 //! The edition of the standard that a file names in its line of identification.
 //!
-//! The standard has `IESNA91`, `IESNA:LM-63-1995`, `IESNA:LM-63-2002` and `IES:LM-63-2019` there, as the first line. Files spell it otherwise: with
-//! blanks, other capitals, another society or two digits of the year, or beneath other lines. Letters and digits alone count here, whatever line
-//! before TILT has them; any other spelling than the standard's is noted. The edition matters as the number after the ballast factor is a factor up
-//! to 1995 and none from 2002 on: a line that names no year is refused where that number would change the light.
+//! The standard specifies `IESNA91`, `IESNA:LM-63-1995`, `IESNA:LM-63-2002` and `IES:LM-63-2019` as the first line. Files also spell it with blanks, other
+//! capitals, another society or a two-digit year, or below other lines. Only letters and digits are compared, in any line before TILT; a spelling other than
+//! the standard's is noted. The edition matters because the number after the ballast factor is a factor up to 1995 and none from 2002 on: a line without a year
+//! is refused if that number would change the light.
 
 use std::path::Path;
 
 use crate::Error;
 
-/// The editions of the standard.
+/// Editions of the standard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Edition {
     Of1986,
@@ -30,7 +30,7 @@ impl Edition {
         }
     }
 
-    /// The edition in force in a year.
+    /// Edition in force in a year.
     fn in_force(year: u32) -> Self {
         match year {
             ..=1990 => Self::Of1986,
@@ -42,21 +42,21 @@ impl Edition {
     }
 }
 
-/// What a file says of its edition.
+/// Edition statement of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Identification {
-    /// Nothing, as files of 1986.
+    /// None, as in files of 1986.
     None,
-    /// A line in the standard's spelling.
+    /// Line in the standard's spelling.
     Standard(Edition),
-    /// A line that is spelt otherwise, or does not stand first.
+    /// Line in another spelling, or not the first line.
     Otherwise { text: String, line: usize, edition: Edition },
-    /// A line without a year.
+    /// Line without a year.
     WithoutYear { text: String, line: usize },
 }
 
 impl Identification {
-    /// A line of identification; `None` for other lines.
+    /// Parses a line of identification; `None` for other lines.
     pub(super) fn read(text: &str, line: usize) -> Option<Self> {
         let text = text.trim();
         let known = match text {
@@ -85,7 +85,7 @@ impl Identification {
         }
     }
 
-    /// The edition, for a number after the ballast factor.
+    /// Edition, for a number after the ballast factor.
     pub(super) fn edition(&self, file: &Path, further: f64) -> Result<Edition, Error> {
         match self {
             Self::None => Ok(Edition::Of1986),
@@ -102,7 +102,7 @@ impl Identification {
         }
     }
 
-    /// What is to be said of its spelling.
+    /// Note on the spelling.
     pub(super) fn note(&self) -> Option<String> {
         match self {
             Self::None | Self::Standard(_) => None,
@@ -115,7 +115,7 @@ impl Identification {
     }
 }
 
-/// A year of four digits, or of two from 1986 on; whatever letters follow it.
+/// Year of four digits, or of two from 1986 on; letters may follow.
 fn year(text: &str) -> Option<u32> {
     let digits: &str = &text[..text.bytes().take_while(u8::is_ascii_digit).count()];
     let number = digits.parse::<u32>().ok()?;

@@ -1,4 +1,4 @@
-//! Files that are refused: where, what, what was expected.
+//! Refused files: place, error, expected form.
 
 use super::support::{Ies, Ldt, read_bytes, steps};
 
@@ -184,7 +184,7 @@ fn no_cut_of_a_file_is_a_lamp_and_none_panics() {
     ];
     for (name, text) in texts {
         read_bytes(name, text.as_bytes()).expect("whole");
-        // The last number may lose digits and be one still.
+        // The last number may lose digits and still be a number.
         for end in 0..text.trim_end().len() - 3 {
             assert!(read_bytes(name, &text.as_bytes()[..end]).is_err(), "{name}, {end} bytes");
         }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::support::{Ies, assert_same_light, read_bytes, steps, told};
 
-/// Whole numbers without any symmetry, so that a wrong place shows.
+/// Whole numbers without any symmetry, so that a wrong place is detected.
 fn odd(h: f64, v: f64) -> f64 {
     1000.0 + 7.0 * h + 0.25 * v
 }
@@ -209,7 +209,7 @@ fn the_flux_is_told_where_it_is_not_what_is_rated() {
 }
 
 proptest! {
-    /// What is written is what is read, for any lamp of any type: numbers read back to the same bits.
+    /// A written lamp of any type reads back to the same bits.
     #[test]
     fn a_lamp_survives_the_way_through_a_file(
         kind in 1_u8..=3,

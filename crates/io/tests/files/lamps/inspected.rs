@@ -1,4 +1,4 @@
-//! What `inspect` tells of a lamp.
+//! Report of `inspect` on a lamp.
 
 use etendue_core::maths::f64::exp;
 use etendue_io::inspect::{FileReport, inspect};
@@ -54,7 +54,7 @@ fn a_street_light_is_told_with_units() {
     assert_eq!(fact(&told, "beam angle, C0–C180"), "90.0° at 50 %, field angle 162.0° at 10 %");
     assert!(told.facts.iter().all(|(name, _)| !name.contains("passing beam")), "no direction ahead");
     assert_eq!(told.notes.len(), 1, "{:?}", told.notes);
-    // Straight down, at half of the radius, the beam is white inside, and outlined where it ends, at 95 % of the radius.
+    // Straight down, at half of the radius, the beam is white inside, and outlined at its end, at 95 % of the radius.
     let picture = told.preview.expect("a picture");
     let pixel = |x: usize, y: usize| picture.rgb[y * picture.width + x];
     let below = (256..512).filter(|y| pixel(256, *y) == [200, 30, 30]).collect::<Vec<_>>();

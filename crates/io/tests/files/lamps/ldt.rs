@@ -4,7 +4,7 @@ use etendue_scene::asset::{OpeningShape, PhotometryAxes, Tilt};
 
 use super::support::{Ldt, assert_same_light, read_bytes, steps};
 
-/// Without any symmetry. Scaled so that the lamps' lumens are met within the factor that is refused.
+/// Without any symmetry. Scaled so that the stated lumens agree within the accepted factor.
 fn odd(c: f64, v: f64) -> f64 {
     50.0 + 0.25 * c + 0.125 * v
 }

@@ -1,4 +1,4 @@
-//! Measured lamps: what files of every kind become, and what is refused.
+//! Measured lamps: results for files of every kind, and refusals.
 
 mod faults;
 mod ies;

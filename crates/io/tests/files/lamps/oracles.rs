@@ -1,4 +1,4 @@
-//! Intensities and fluxes beside other readers, on files of other writers too: tests/oracles/lamps.py.
+//! Intensities and fluxes compared with other readers, also on files of other writers: tests/oracles/lamps.py.
 
 use std::path::{Path, PathBuf};
 
@@ -42,7 +42,7 @@ fn the_flux_is_that_of_a_numerical_quadrature() {
     for (name, expected) in figures()["flux_lm"].as_object().expect("fluxes") {
         let (found, expected) =
             (read_photometry(&lamp(name)).expect("readable").flux_lm(), expected.as_f64().expect("lm"));
-        // The quadrature is asked for 1e-6 cd·deg² a cell at most, and is better by orders of magnitude.
+        // The quadrature is requested with 1e-6 cd·deg² per cell at most, and is better by orders of magnitude.
         assert!((found - expected).abs() < 1e-9 * expected, "{name}: {found}, not {expected}");
     }
 }

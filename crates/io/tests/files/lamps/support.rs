@@ -1,4 +1,4 @@
-//! Lamp files written as their standards say, for tests.
+//! Lamp files written by their standards, for tests.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use etendue_io::photometry::read_photometry;
 use etendue_scene::asset::PhotometryAsset;
 
-/// Reads a lamp file of the given name and contents; faults without the folder.
+/// Reads a lamp file of the given name and contents; errors without the folder.
 pub(crate) fn read_bytes(name: &str, bytes: &[u8]) -> Result<PhotometryAsset, String> {
     let folder = tempfile::tempdir().expect("temporary folder");
     let path = folder.path().join(name);
@@ -18,7 +18,7 @@ pub(crate) fn told(folder: &Path, path: &Path) -> Result<PhotometryAsset, String
     read_photometry(path).map_err(|e| e.to_string().replace(&format!("{}/", folder.display()), ""))
 }
 
-/// A lamp to be written as IES.
+/// Lamp to be written as IES.
 #[derive(Clone, Debug)]
 pub(crate) struct Ies {
     pub(crate) first: &'static str,
@@ -82,13 +82,13 @@ impl Ies {
     }
 }
 
-/// A lamp to be written as EULUMDAT.
+/// Lamp to be written as EULUMDAT.
 #[derive(Clone, Debug)]
 pub(crate) struct Ldt {
     pub(crate) symmetry: u8,
     pub(crate) planes: Vec<f64>,
     pub(crate) vertical: Vec<f64>,
-    /// Of the stored planes, cd per 1 000 lm.
+    /// Values of the stored planes, cd per 1 000 lm.
     pub(crate) values: Vec<f64>,
     /// Light output ratio, per cent; conversion factor; tilt.
     pub(crate) factors: [f64; 3],
@@ -138,7 +138,7 @@ pub(crate) fn steps(low: f64, high: f64, step: f64) -> Vec<f64> {
     (0..=count).map(|i| low + step * i as f64).collect()
 }
 
-/// The same grid and the same intensities; files, texts and hashes apart. Sums and differences of angles are exact.
+/// Checks for the same grid and the same intensities, ignoring files, texts and hashes. Sums and differences of angles are exact.
 pub(crate) fn assert_same_light(a: &PhotometryAsset, b: &PhotometryAsset) {
     assert_eq!((a.axes, &a.horizontal_deg, &a.vertical_deg), (b.axes, &b.horizontal_deg, &b.vertical_deg));
     assert_eq!(a.candela, b.candela);

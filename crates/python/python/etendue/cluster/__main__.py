@@ -46,7 +46,7 @@ def parser():
 
 
 def show(what, done, total):
-    """On a terminal one line that changes; elsewhere a line a step."""
+    """Progress: one changing line on a terminal, elsewhere one line per step."""
     whole = float(done).is_integer()
     text = f"{what} {int(done)}/{total}" if whole else f"{what} {done:.1f}/{total}"
     if sys.stderr.isatty():
@@ -60,13 +60,13 @@ show.last = None
 
 
 def spelled(text):
-    """A message, whose arguments stand in backticks by their names in Python, as of the command line."""
+    """Message whose arguments, in backticks by their Python names, are replaced by those of the command line."""
     options = {action.dest: action.option_strings[-1] for action in parser()._actions if action.option_strings}
     return re.sub(r"`(\w+)`", lambda name: options.get(name[1], name[0]), str(text))
 
 
 def main(arguments=None):
-    """The exit status: 0, 1 where the run failed, 2 where the input is unusable, 130 after Ctrl-C."""
+    """Exit status: 0, 1 if the run failed, 2 if the input is unusable, 130 after Ctrl-C."""
     given = vars(parser().parse_args(arguments))
     warnings.showwarning = lambda message, *_: print(f"warning: {spelled(message)}", file=sys.stderr)
     if importlib.util.find_spec("ray") is None:

@@ -1,7 +1,7 @@
 """The files of a job, for machines that do not have them.
 
-The tree of a bundle has every file under its absolute path as the job spells it, ``..`` taken away: below another root relative paths lead to the same
-files, whatever links there are on the way here. Equal contents are held once.
+The tree of a bundle has every file under its absolute path as the job spells it, with ``..`` resolved: below another root relative paths lead to the same
+files, whatever links the paths contain here. Equal contents are stored once.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ ABSOLUTE = "it is named by an absolute path, or by a file that is, which other m
 
 @dataclass(frozen=True)
 class Bundle:
-    """The job's place in the tree, the content of each file by its place, folders, and contents: SHA-256 to what holds it (bytes, or a reference)."""
+    """Path of the job in the tree, content hash of each file by path, folders, and contents by SHA-256 (bytes, or a reference)."""
 
     job: str
     files: dict[str, str]
@@ -28,12 +28,12 @@ class Bundle:
     contents: dict[str, object]
 
     def digest(self):
-        """Equal for equal trees."""
+        """Hash that is equal for equal trees."""
         told = sorted(self.files.items()), self.job, sorted(self.folders)
         return hashlib.sha256(repr(told).encode()).hexdigest()
 
     def write(self, root):
-        """Writes the tree below a folder, of contents that are bytes or arrays of bytes; answers with the path of the job."""
+        """Writes the tree below a folder, from contents that are bytes or arrays of bytes; returns the path of the job."""
         root = Path(root).resolve()
         for name in sorted(self.folders):
             (root / name).mkdir(parents=True, exist_ok=True)
@@ -44,9 +44,9 @@ class Bundle:
 
 
 def gather(job, files):
-    """The bundle of a job that was opened by the path ``job``, of the paths that it read. Raises InputError with all that can have no place in it."""
+    """Bundle of a job that was opened by the path ``job``, from the paths that it read. Raises InputError with all paths that it cannot contain."""
     job = Path(job)
-    # Below the folder of a job that was opened by an absolute path are those that it names by relative ones, and perhaps others: see open_copy.
+    # Files below the folder of a job opened by an absolute path may be named by relative or absolute paths: see open_copy.
     absolute = [_fault(path, ABSOLUTE) for path in files if path.is_absolute() and job.parent not in path.parents]
     above = [_fault(path, "its .. lead above the root of the file system; leave those out") for path in files if _is_above_root(path)]
     if absolute or above:
@@ -59,14 +59,14 @@ def gather(job, files):
         if places.setdefault(place, name) != name:
             raise InputError([_fault(path, "a link on its way makes two files of one name; name both by their own paths")])
         contents[name] = content
-        # A system follows x/../y through x.
+        # The system resolves x/../y through x.
         folders.update(in_tree(parent) for parent in path.parents if parent.parts)
     return Bundle(in_tree(job), places, frozenset(folders - {""}), contents)
 
 
 def open_copy(bundle, options, plan_hash):
-    """The job, opened from a copy of its files that is gone when they are read. Raises InputError with all files that it reads elsewhere, which it names by
-    absolute paths; RunError where its plan has another hash, or it reads other files."""
+    """The job, opened from a copy of its files that is removed after reading. Raises InputError with all files that it reads outside the copy, by
+    absolute paths; RunError if its plan has another hash, or it reads other files."""
     try:
         with tempfile.TemporaryDirectory(prefix="etendue-") as folder:
             root = Path(folder).resolve()
@@ -83,12 +83,12 @@ def open_copy(bundle, options, plan_hash):
 
 
 def in_tree(path):
-    """Where a path lies in the tree: ``/``-separated, relative to its root."""
+    """Path in the tree: ``/``-separated, relative to its root."""
     return PurePath(os.path.normpath(Path.cwd() / path)).relative_to(Path.cwd().anchor).as_posix()
 
 
 def _is_above_root(path):
-    """Whether ``..`` leads above the root: a system stays there, a tree below another root is left."""
+    """True if ``..`` leads above the root: the system stays at the root, but a tree below another root is left."""
     depth = 0
     for part in (Path.cwd() / path).relative_to(Path.cwd().anchor).parts:
         depth += -1 if part == ".." else 1

@@ -1,4 +1,4 @@
-"""The driver: cuts a job into tasks, hands them to Ray, stores what is finished, and joins it."""
+"""Driver: divides a job into tasks, passes them to Ray, stores the finished parts, and joins them."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from .._errors import InputError, RunError
 from .bundle import gather, open_copy
 from .store import Store
 
-#: Shards of a run at most.
+#: Maximum shards of a run.
 MAX_SHARDS = 65_536
-#: How long the driver waits for tasks before it looks at their progress, s.
+#: Time between checks of the tasks' progress, s.
 LOOK_EVERY_S = 0.5
-#: How long a cluster may take to answer, s.
+#: Timeout for a cluster's answer, s.
 ANSWER_S = 10
 
 
@@ -34,28 +34,28 @@ def render(
     progress=None,
     **options,
 ):
-    """Renders a job on the machines of a Ray cluster into a folder: the files of ``etendue render``, byte for byte. Answers with their paths.
+    """Renders a job on the machines of a Ray cluster into a folder: the files of ``etendue render``, byte for byte. Returns their paths.
 
-    job: the path of a job file. What it reads is sent to the machines, which need a Python with the same etendue and no folder in common.
+    job: the path of a job file. The files that it reads are sent to the machines, which need a Python with the same etendue but no common folder.
     shards: parts of each film, 1 to 65536: every task renders one part of the light of one camera (of cameras of equal light together), where light
     depends on time of one frame.
     frames: a frame's number, or a range of consecutive ones. Default: frame 0.
-    address: of the cluster, "host:port", or "auto" for that of this machine, or "local" for this machine alone. None: that of RAY_ADDRESS, or else this machine alone. Where Ray is
-    initialised already it is taken as it is.
-    threads: processors of a task. Default: those of the smallest machine. No bit depends on it.
-    retries: how often a task is done again whose worker was lost, 0 to 1000.
-    overwrite: replaces what an earlier run left. resume: goes on where a run of the same job, frames and shards was interrupted.
-    progress: called with what is worked on, how much is done (parts of a task counted as such) and of how much; what it raises cancels, as Ctrl-C does.
+    address: address of the cluster, "host:port", or "auto" for that of this machine, or "local" for this machine alone. None: that of RAY_ADDRESS, or else
+    this machine alone. If Ray is already initialised, it is used unchanged.
+    threads: processors of a task. Default: those of the smallest machine. No bit of the results depends on it.
+    retries: maximum repetitions of a task whose worker was lost, 0 to 1000.
+    overwrite: replaces files of an earlier run. resume: continues an interrupted run of the same job, frames and shards.
+    progress: called with the current step, the amount done (including fractions of a task) and the total; an exception from it cancels, like Ctrl-C.
     options: set, spp, noise, seed, integrator, quality, camera of ``Job.open``.
 
-    Raises InputError where the input is unusable, RunError where the run failed: what is finished is kept for ``resume``.
+    Raises InputError if the input is unusable, RunError if the run failed: finished parts are kept for ``resume``.
     """
     _check(shards, retries, threads, overwrite, resume, options)
     import ray
     import ray.util.scheduling_strategies
 
     films, names, plan_hash, bundle = _read(job, frames, options)
-    # As JSON gives it back.
+    # Converted as by JSON.
     run = {"version": __version__, "plan_hash": plan_hash, "frames": _bounds(frames), "shards": shards, "camera": options.get("camera")}
     open_copy(bundle, options, plan_hash)
     store = Store(folder)
@@ -75,23 +75,23 @@ def render(
 
 
 def _read(job, frames, options):
-    """Of a job: the names of its films and of its results, the hash of its plan, and its files. What it took to open it is free again."""
+    """Names of a job's films and results, hash of its plan, and its files. The memory for opening it is freed."""
     opened = Job.open(job, **options)
     return opened.film_names(frames), opened.file_names(frames), opened.plan()["hash"], gather(job, opened.files)
 
 
 class _Tasks:
-    """The tasks of a run, and what is left of them."""
+    """Tasks of a run, and the remaining ones."""
 
     def __init__(self, ray, store, retries, progress):
         self.ray, self.store, self.retries, self.tell = ray, store, retries, progress or (lambda *told: None)
 
     def run(self, bundle, tasks, run, done):
-        """Runs the tasks and stores what they give; ``done`` others were finished before."""
+        """Runs the tasks and stores their results; ``done`` others were finished before."""
         from .worker import Progress, render_film
 
         ray = self.ray
-        # It lives where the driver does: no lost machine takes it along.
+        # It runs on the driver's machine, so the loss of another machine does not affect it.
         here = ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(ray.get_runtime_context().get_node_id(), soft=False)
         progress = Progress.options(scheduling_strategy=here).remote()
         sent = ray.put(_sent(ray, bundle))
@@ -107,7 +107,7 @@ class _Tasks:
                     del pending[reference]
                 self.tell("tasks", self._so_far(progress, pending, total), total)
         finally:
-            # What is pending ends when it cannot tell its progress any more. (Ray 2.60 aborts the driver where it cancels a task that ends.)
+            # Pending tasks end when they can no longer report progress. (Ray 2.60 aborts the driver if it cancels a task that is ending.)
             ray.kill(progress)
 
     def _so_far(self, progress, pending, total):
@@ -161,7 +161,7 @@ def _connected(ray, address):
 
 
 def _check_answers(address):
-    """Refuses an address at which nothing listens: Ray itself would try for minutes."""
+    """Refuses an address without a listener: Ray itself would try for minutes."""
     if address in (None, "auto", "local"):
         return
     host, _, port = address.rpartition(":")
@@ -174,7 +174,7 @@ def _check_answers(address):
 
 
 def _threads(ray, asked):
-    """Processors of a task: those of the smallest machine unless others are asked for."""
+    """Processors of a task: those of the smallest machine unless requested otherwise."""
     counts = [int(node["Resources"].get("CPU", 0)) for node in ray.nodes() if node["Alive"]]
     counts = [count for count in counts if count > 0]
     if not counts:

@@ -1,6 +1,6 @@
-"""What a run has finished, in the folder ``.cluster`` of its results: the next run goes on after it.
+"""Finished parts of a run, in the folder ``.cluster`` of its results, from which the next run continues.
 
-``run.json`` says of which run; ``shard-00003`` is the folder of a shard as ``etendue render --shard`` writes it. A file is under its name when it is whole.
+``run.json`` identifies the run; ``shard-00003`` is the folder of a shard as ``etendue render --shard`` writes it. A file has its final name when complete.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ except ImportError:
 
 FOLDER = ".cluster"
 MANIFEST = "shard.json"
-#: How often a folder is made that other drivers remove at that moment.
+#: Maximum attempts to create a folder that other drivers keep removing.
 TRIES = 100
 
 
 class Store:
-    """The finished films of one run, one driver's at a time."""
+    """Finished films of one run, used by one driver at a time."""
 
     def __init__(self, results):
         self.results = Path(results)
@@ -33,10 +33,10 @@ class Store:
         self._lock, self._taken = None, False
 
     def open(self, run, names, *, overwrite, resume):
-        """Takes the folder for the run that the dict ``run`` describes and whose results have these names. Raises InputError where what is there is in the way."""
+        """Takes the folder for the run that the dict ``run`` describes and whose results have these names. Raises InputError if existing files conflict."""
         self._take()
         try:
-            # What was there before the folder was taken another driver may have removed since.
+            # Another driver may have removed earlier files before the folder was taken.
             old = self._old()
             self._check_in_the_way(old, run, names, overwrite, resume)
         except InputError:
@@ -48,12 +48,12 @@ class Store:
             self._write(self.folder / "run.json", json.dumps(run, indent=1).encode())
 
     def has(self, film, shard):
-        """Whether a film of a shard is finished."""
+        """True if a film of a shard is finished."""
         folder = self._shard(shard)
         return not folder.is_symlink() and (folder / film).is_file() and (folder / MANIFEST).is_file()
 
     def add(self, film, shard, files):
-        """A finished film with its shard's manifest, name to bytes. Adding it again changes nothing."""
+        """Adds a finished film with its shard's manifest, name to bytes. Adding it again changes nothing."""
         self._shard(shard).mkdir(exist_ok=True)
         _check_link(self._shard(shard))
         self._check_beside(self._shard(shard) / MANIFEST, bytes(files[MANIFEST]))
@@ -65,12 +65,12 @@ class Store:
         return [self._shard(shard) for shard in range(count)]
 
     def remove(self):
-        """Removes all that is kept, the results are there, and lets another driver take the folder."""
+        """Removes all parts, once the results exist, and releases the folder for another driver."""
         shutil.rmtree(self.folder)
         self._let_go()
 
     def close(self):
-        """Lets another driver take the folder, and leaves none behind where nothing is finished."""
+        """Releases the folder for another driver, and removes it if nothing is finished."""
         if self._taken and not any(self.folder.glob("shard-*/*")):
             shutil.rmtree(self.folder, ignore_errors=True)
             with contextlib.suppress(OSError):
@@ -78,7 +78,7 @@ class Store:
         self._let_go()
 
     def _give_back(self):
-        """Lets go of a folder in which nothing was written: one that was made for it goes."""
+        """Releases a folder in which nothing was written, and removes it if it was created for that."""
         with contextlib.suppress(OSError):
             self.folder.rmdir()
         self._let_go()
@@ -92,13 +92,13 @@ class Store:
         return self.folder / f"shard-{shard:05}"
 
     def _check_beside(self, path, manifest):
-        """Films of a shard were cut alike: tiles are no part of the plan's hash."""
+        """Checks that films of a shard have equal tiles: tiles are not part of the plan's hash."""
         cut = lambda text: {key: value for key, value in json.loads(text).items() if key != "request"}
         if path.exists() and cut(path.read_bytes()) != cut(manifest):
             raise RunError(f"{path}: its films have other tiles (render.tile_px); begin anew with --overwrite")
 
     def _check_in_the_way(self, old, run, names, overwrite, resume):
-        """Refuses to work over what an ``old`` run left (None: there is none) and over results, unless asked to."""
+        """Refuses to replace parts of an ``old`` run (None: there is none) and results, unless requested."""
         if old is not None and not (overwrite or resume):
             raise _refused(self.folder, "a run was interrupted here; go on with --resume, or begin anew with --overwrite")
         if old is None and not overwrite:
@@ -121,12 +121,12 @@ class Store:
             raise _refused(path, "it is damaged; remove the folder, or begin anew with --overwrite") from None
 
     def _take(self):
-        """Makes the folder and locks it. A driver that ends removes it: what was locked must still be what has the name."""
+        """Creates the folder and locks it. A driver that ends removes it: the locked folder must still have the name."""
         for _ in range(TRIES):
             try:
                 self.folder.mkdir(parents=True, exist_ok=True)
             except (FileNotFoundError, FileExistsError) as cause:
-                # Removed at that moment, or a file is in the way.
+                # Removed concurrently, or there is a file of that name.
                 why = cause.strerror
                 continue
             except OSError as cause:
@@ -140,7 +140,7 @@ class Store:
         raise _refused(self.folder, f"the folder cannot be made: {why}; choose another")
 
     def _is_locked(self):
-        """Locks the folder; whether it is still the one of this name."""
+        """Locks the folder; returns true if it still has this name."""
         try:
             self._lock = os.open(self.folder, os.O_RDONLY)
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -174,7 +174,7 @@ class Store:
 
 
 def _check_link(folder):
-    """Nothing is written or removed through a link, as whoever made it chose where that is."""
+    """Refuses a link: its maker would choose where files are written or removed."""
     if folder.is_symlink():
         raise _refused(folder, "a symbolic link is in the place of a folder of results; remove it, or choose another output folder")
 

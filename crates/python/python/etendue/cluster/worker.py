@@ -1,4 +1,4 @@
-"""What a worker does: one film of one shard. Done twice it gives the same bytes, so that a lost worker's task is done again by another."""
+"""Worker: renders one film of one shard. A repetition gives the same bytes, so the task of a lost worker is repeated by another."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from .. import __version__
 from .._errors import RunError
 from .bundle import open_copy
 
-#: The job that this process has open: tasks of one run follow one another, and reading a scene takes long.
+#: The open job of this process: tasks of one run follow one another, and reading a scene is slow.
 _open = {}
-#: Progress is told once in so many seconds.
+#: Interval of progress reports, s.
 TELL_EVERY_S = 0.5
 
 
 @ray.remote(num_cpus=0)
 class Progress:
-    """How far each task is, from 0 to 1, and on which node."""
+    """Progress of each task, from 0 to 1, and its node."""
 
     def __init__(self):
         self._tasks = {}
@@ -37,7 +37,7 @@ class Progress:
 
 
 class _Line:
-    """A thread that tells the driver how far a task is, and interrupts the task when the driver has given up."""
+    """Thread that reports the progress of a task to the driver, and interrupts the task when the driver has given up."""
 
     def __init__(self, progress, task):
         self.part, self.is_cut = 0.0, False
@@ -59,7 +59,7 @@ class _Line:
                 ray.get(self._progress.tell.remote(self._task, self.part, self._node))
             except ray.exceptions.ActorDiedError:
                 self.is_cut = True
-                # As Ctrl-C: rendering ends before the next pixel.
+                # Like Ctrl-C: rendering ends before the next pixel.
                 _thread.interrupt_main()
                 return
             except ray.exceptions.RayError:
@@ -69,7 +69,7 @@ class _Line:
 
 
 def render_film(bundle, task, run, progress):
-    """The files of the film ``task`` (name of the film, number of the shard) of a run: name to an array of bytes. Empty where the driver has given up."""
+    """Files of the film ``task`` (name of the film, number of the shard) of a run: name to an array of bytes. Empty if the driver has given up."""
     _check_version(run)
     line = _Line(progress, task)
     try:
@@ -83,7 +83,7 @@ def render_film(bundle, task, run, progress):
 
 def _rendered(bundle, task, run, line):
     film, shard = task
-    # One task reads and renders with the processors that it has.
+    # A task reads and renders with its own processors.
     os.environ["RAYON_NUM_THREADS"] = str(run["threads"])
     job = _job(bundle, run)
 
