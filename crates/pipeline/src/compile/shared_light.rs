@@ -82,7 +82,15 @@ impl<'a> LightKey<'a> {
                 spread: camera.spectrum_spread(),
             },
             // Excludes settings with their own place in the key, and the size of a tile, which does not change the light.
-            settings: Settings { tile_px: 0, spp: 0, replicates: 0, seed: 0, route: Route::Lens, ..*s },
+            settings: Settings {
+                tile_px: 0,
+                spp: 0,
+                replicates: 0,
+                seed: 0,
+                route: Route::Lens,
+                spectral_gain: None,
+                ..*s
+            },
             tolerance: camera.tolerance(),
             response: camera.body.sensor.as_ref().filter(|_| s.folded).map(ResponseKey::of),
         }
