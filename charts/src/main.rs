@@ -80,11 +80,11 @@ fn chosen(names: &[String]) -> Result<Vec<ReferenceCamera>, String> {
 
 /// A folder with nothing of earlier runs in it.
 fn emptied(folder: &Path) -> Result<PathBuf, String> {
-    let told = |cause: std::io::Error| format!("{}: {cause}", folder.display());
+    let message = |cause: std::io::Error| format!("{}: {cause}", folder.display());
     if folder.exists() {
-        std::fs::remove_dir_all(folder).map_err(told)?;
+        std::fs::remove_dir_all(folder).map_err(message)?;
     }
-    std::fs::create_dir_all(folder).map_err(told)?;
+    std::fs::create_dir_all(folder).map_err(message)?;
     Ok(folder.to_path_buf())
 }
 
@@ -100,8 +100,8 @@ fn reported(bench: &Bench) -> Result<Report, String> {
 }
 
 fn broken(report: &Report) -> Vec<String> {
-    let told = |r: &comparison::Reached| {
+    let message = |r: &comparison::Reached| {
         format!("{}: {}: {:?}, E_n {:?}; expected {}", report.camera, r.quantity, r.error, r.e_n, r.bound.text())
     };
-    report.reached().filter(|r| !r.holds()).map(told).collect()
+    report.reached().filter(|r| !r.holds()).map(message).collect()
 }

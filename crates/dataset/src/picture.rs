@@ -129,14 +129,14 @@ fn pose_record(pose: &CameraPose) -> Pose {
 /// Run lengths of every identity except 0, for `width` columns.
 fn run_lengths(ids: &[u32], width: usize) -> BTreeMap<u32, Vec<u32>> {
     let height = ids.len().checked_div(width).unwrap_or(0);
-    let mut found: BTreeMap<u32, Runs> = BTreeMap::new();
+    let mut runs: BTreeMap<u32, Runs> = BTreeMap::new();
     for at in 0..ids.len() {
         let id = ids[(at % height) * width + at / height];
         if id > 0 {
-            found.entry(id).or_default().add(at);
+            runs.entry(id).or_default().add(at);
         }
     }
-    found.into_iter().map(|(id, runs)| (id, runs.ended(ids.len()))).collect()
+    runs.into_iter().map(|(id, runs)| (id, runs.ended(ids.len()))).collect()
 }
 
 /// Runs so far.
@@ -191,9 +191,9 @@ mod tests {
     #[test]
     fn runs_go_down_the_columns_and_begin_outside() {
         // Columns: 1 1, 2 0, 1 2.
-        let found = run_lengths(&[1, 2, 1, 1, 0, 2], 3);
-        assert_eq!(found[&1], [0, 2, 2, 1, 1]);
-        assert_eq!(found[&2], [2, 1, 2, 1]);
+        let runs = run_lengths(&[1, 2, 1, 1, 0, 2], 3);
+        assert_eq!(runs[&1], [0, 2, 2, 1, 1]);
+        assert_eq!(runs[&2], [2, 1, 2, 1]);
         assert!(run_lengths(&[], 0).is_empty());
     }
 

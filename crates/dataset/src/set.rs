@@ -151,10 +151,10 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
             format!("{}: \"{}\": {problem}", kind.place, kind.value.escape_debug()),
         ));
     }
-    let told = |name: &Placed<String>| {
+    let message = |name: &Placed<String>| {
         format!("{}: the scene has no class \"{}\"; give one of its [classes]: {}", name.place, name.value, known())
     };
-    let faults: Vec<String> = unknown.map(told).collect();
+    let faults: Vec<String> = unknown.map(message).collect();
     if faults.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::UnknownName, faults)) }
 }
 

@@ -152,17 +152,17 @@ fn cameras_of(
 
 fn camera_of(camera: &GltfCamera, held: &Held<'_>, names: &mut Names, report: &mut Vec<String>) -> ImportedCamera {
     let name = names.take(&camera.name, "camera");
-    let (view, aspect, told) = match camera.projection {
+    let (view, aspect, message) = match camera.projection {
         GltfProjection::Perspective { yfov_rad, aspect } => {
-            let told = format!("perspective of {:.4}° in height", yfov_rad.to_degrees());
-            (View::Perspective { yfov_rad }, aspect, told)
+            let message = format!("perspective of {:.4}° in height", yfov_rad.to_degrees());
+            (View::Perspective { yfov_rad }, aspect, message)
         }
         GltfProjection::Orthographic { half_m: [x, y] } => {
             (View::Orthographic { width_m: 2.0 * x }, Some(x / y), format!("orthographic of {} m in width", 2.0 * x))
         }
     };
     let free = if aspect.is_none() { "; its shape is ours" } else { "" };
-    report.push(format!("camera \"{name}\": {told}{free}; its near and far planes are not used"));
+    report.push(format!("camera \"{name}\": {message}{free}; its near and far planes are not used"));
     // The scale of its node is ignored.
     let (frame, place) = held.place(camera.node, camera.to_file);
     let axis = |v: DVec3| to_world(place.matrix3 * v);

@@ -108,7 +108,7 @@ fn without_usd(file: &Path) -> Error {
     Error::coded(
         ErrorCode::UnsupportedFile,
         format!(
-            "{}: this program was built without the reader of Universal Scene Description; build it with it (cargo build --release --features usd), or convert the scene to glTF",
+            "{}: this program was built without the reader of Universal Scene Description; build it with the feature \"usd\" (docs/import.md), or convert the scene to glTF",
             file.display()
         ),
     )
@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn a_program_without_the_reader_says_how_to_build_it() {
-        let told = without_usd(Path::new("a.usdz")).to_string();
-        assert!(told.contains("a.usdz: ") && told.contains("--features usd"), "{told}");
+        let message = without_usd(Path::new("a.usdz")).to_string();
+        assert!(message.contains("a.usdz: ") && message.contains("the feature \"usd\""), "{message}");
     }
 }

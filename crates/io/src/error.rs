@@ -161,8 +161,9 @@ mod tests {
     #[test]
     fn a_panic_within_is_an_error_of_the_file() {
         // The hook is shared by all tests of the process: this one prints.
-        let told = guarded::<()>(Path::new("a.exr"), || panic!("within a decoder")).expect_err("refused").to_string();
-        assert!(told.starts_with("a.exr: damaged: "), "{told}");
+        let message =
+            guarded::<()>(Path::new("a.exr"), || panic!("within a decoder")).expect_err("refused").to_string();
+        assert!(message.starts_with("a.exr: damaged: "), "{message}");
         assert!(!is_decoding());
         assert_eq!(guarded(Path::new("a.exr"), || Ok(is_decoding())), Ok(true));
     }

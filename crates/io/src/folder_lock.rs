@@ -96,8 +96,8 @@ mod tests {
         parts.iter().for_each(|part| std::fs::create_dir(part).expect("folder"));
         let held = parts.each_ref().map(|part| (FolderLock::shared(root), FolderLock::part(root, part)));
         assert!(held.iter().all(|(whole, part)| whole.is_ok() && part.is_ok()));
-        let told = FolderLock::part(root, &parts[0]).expect_err("taken").error.to_string();
-        assert!(told.contains("another run writes into this folder"), "{told}");
+        let message = FolderLock::part(root, &parts[0]).expect_err("taken").error.to_string();
+        assert!(message.contains("another run writes into this folder"), "{message}");
         FolderLock::alone(root).expect_err("parts are taken");
         drop(held);
         let whole = FolderLock::alone(root).expect("free");

@@ -180,13 +180,13 @@ mod tests {
         fs::write(foreign.join("x"), b"theirs").expect("write");
         symlink(&foreign, root.join("linked")).expect("link");
         symlink(foreign.join("x"), root.join("x")).expect("link");
-        for told in [
+        for message in [
             files_in(&root, &root.join("linked")).map(|_| ()),
             remove_file(&root, &root.join("linked/x")),
             check_folders(&root, &root.join("linked/deep/x")),
         ] {
-            let told = told.expect_err("a link in the place of a folder").to_string();
-            assert!(told.contains("linked: a symbolic link is in the place of a folder of results"), "{told}");
+            let message = message.expect_err("a link in the place of a folder").to_string();
+            assert!(message.contains("linked: a symbolic link is in the place of a folder of results"), "{message}");
         }
         assert_eq!(files_in(&root, &root).expect("readable"), Vec::<PathBuf>::new(), "a link is no file");
         remove_file(&root, &root.join("x")).expect("the link itself");

@@ -216,10 +216,10 @@ fn of_cicp(data: &[u8]) -> Result<Stated, String> {
 /// An embedded profile, by its name.
 fn of_profile(data: &[u8]) -> Result<Stated, String> {
     let name: String = data.iter().take_while(|b| **b != 0).map(|b| char::from(*b)).collect();
-    let told = format!("its colour profile \"{name}\"");
+    let message = format!("its colour profile \"{name}\"");
     let plain = name.to_ascii_lowercase();
     let other = ["lin", "g10", "g18", "g22"].iter().any(|word| plain.contains(word));
-    if plain.contains("srgb") && !other { Ok(Stated::new(Encoding::Srgb, told)) } else { Err(told) }
+    if plain.contains("srgb") && !other { Ok(Stated::new(Encoding::Srgb, message)) } else { Err(message) }
 }
 
 fn of_srgb() -> Stated {

@@ -163,8 +163,8 @@ mod tests {
         let place = tempfile::tempdir().expect("temporary folder");
         std::fs::write(place.path().join("file"), b"").expect("write");
         let store = ScratchFolder::new(Some(&place.path().join("file/folder")));
-        let told = store.room(1).expect_err("a file is no folder");
-        assert!(told.starts_with("the scratch folder ") && told.ends_with("with `scratch`"), "{told}");
+        let message = store.room(1).expect_err("a file is no folder");
+        assert!(message.starts_with("the scratch folder ") && message.ends_with("with `scratch`"), "{message}");
     }
 
     /// `/dev/full` answers every write like a full disk.
@@ -173,7 +173,10 @@ mod tests {
     fn a_full_disk_is_named() {
         let file = OpenOptions::new().write(true).open("/dev/full").expect("a device of the system");
         let scratch = ScratchFile { folder: PathBuf::from("/scratch"), file, bytes: 8_800_000_000 };
-        let told = scratch.write(0, &[1]).expect_err("full");
-        assert!(told.starts_with("a scratch file of 8800 MB in /scratch cannot be written: No space left"), "{told}");
+        let message = scratch.write(0, &[1]).expect_err("full");
+        assert!(
+            message.starts_with("a scratch file of 8800 MB in /scratch cannot be written: No space left"),
+            "{message}"
+        );
     }
 }

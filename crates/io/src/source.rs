@@ -64,10 +64,11 @@ fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), P
     let metadata = std::fs::metadata(file)?;
     let kind = metadata.file_type();
     if !kind.is_file() && !kind.is_dir() {
-        let told = format!("this is {}, not a file on a disk; save what it gives as a file and name that", word(kind));
-        return Err(std::io::Error::new(ErrorKind::InvalidInput, told));
+        let message =
+            format!("this is {}, not a file on a disk; save what it gives as a file and name that", word(kind));
+        return Err(std::io::Error::new(ErrorKind::InvalidInput, message));
     }
-    let too_large = |told: Problem| std::io::Error::new(ErrorKind::FileTooLarge, told.words);
+    let too_large = |message: Problem| std::io::Error::new(ErrorKind::FileTooLarge, message.words);
     check_size(metadata.len()).map_err(too_large)?;
     // A file of /proc has no size, and a file may grow.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
@@ -134,15 +135,15 @@ mod tests {
         let pipe = place.path().join("pipe.obj");
         let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo");
         assert!(made.success());
-        let told = read_bytes(&pipe, "mesh").expect_err("a pipe").to_string();
+        let message = read_bytes(&pipe, "mesh").expect_err("a pipe").to_string();
         assert!(
-            told.ends_with(
+            message.ends_with(
                 "pipe.obj: this is a pipe, not a file on a disk; save what it gives as a file and name that"
             ),
-            "{told}"
+            "{message}"
         );
-        let told = read_bytes(Path::new("/dev/zero"), "mesh").expect_err("a device").to_string();
-        assert!(told.starts_with("/dev/zero: this is a device, not a file on a disk"), "{told}");
+        let message = read_bytes(Path::new("/dev/zero"), "mesh").expect_err("a device").to_string();
+        assert!(message.starts_with("/dev/zero: this is a device, not a file on a disk"), "{message}");
         let link = place.path().join("link.obj");
         std::os::unix::fs::symlink(&pipe, &link).expect("link");
         assert!(read_bytes(&link, "mesh").is_err(), "a link to one is one");

@@ -66,13 +66,13 @@ pub(crate) fn check_bytes(file: &Path, bytes: u128, packed: usize) -> Result<(),
     if bytes <= most {
         return Ok(());
     }
-    let told = format!(
+    let message = format!(
         "unpacks to {} MiB, where a file of its size may unpack to {} MiB; make the picture smaller, {}",
         mebibytes(bytes),
         mebibytes(most),
         PICTURE.remedy_bytes(bytes)
     );
-    Err(Error::coded(ErrorCode::TooLarge, file, told))
+    Err(Error::coded(ErrorCode::TooLarge, file, message))
 }
 
 /// Maximum decompressed bytes of a file of `packed` bytes.
@@ -124,10 +124,10 @@ mod tests {
         // Two megapixels of 38 bands with their variance, however well they compress.
         assert!(check(file, 2_000_000 * 76, 500).is_ok());
         // A header of 20 000² pixels; 100 MB that decompress to 100 GB.
-        let told = check(file, 400_000_000, 500).expect_err("a bomb").to_string();
+        let message = check(file, 400_000_000, 500).expect_err("a bomb").to_string();
         let expected = "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller, or raise the limit: \
                         `limit` picture-mib=1526";
-        assert_eq!(told, expected);
+        assert_eq!(message, expected);
         assert!(check(file, 25_000_000_000, 100_000_000).is_err());
         // A measurement of 40 GB in a file of 5 GB.
         assert!(check(file, 10_000_000_000, 5_000_000_000).is_ok());

@@ -79,8 +79,8 @@ fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str, depth: usize) -
         text.push_str(if value.is_true() { "true" } else { "false" });
     } else if value.is_instance_of::<PyInt>() {
         // An enumeration's number, not its name.
-        let told = |_| PyValueError::new_err(format!("{}: a whole number of a description has 64 bits", named(key)));
-        text.push_str(&value.extract::<i64>().map_err(told)?.to_string());
+        let message = |_| PyValueError::new_err(format!("{}: a whole number of a description has 64 bits", named(key)));
+        text.push_str(&value.extract::<i64>().map_err(message)?.to_string());
     } else if let Ok(value) = value.cast::<PyFloat>() {
         let _ = write!(text, "{}", number(value.value()));
     } else if let Ok(value) = value.cast::<PyString>() {
@@ -96,12 +96,12 @@ fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str, depth: usize) -
             path.to_str().ok_or_else(|| PyValueError::new_err(format!("{}: a path that is no text", named(key))))?;
         text.push_str(&quoted(path));
     } else {
-        let told = format!(
+        let message = format!(
             "{}: a {} is no value of a description: expected a number, text, bool, list, dict, path or array",
             named(key),
             value.get_type().name()?
         );
-        return Err(PyTypeError::new_err(told));
+        return Err(PyTypeError::new_err(message));
     }
     Ok(())
 }

@@ -200,8 +200,8 @@ fn depth_of_field(
         None if blurs && stored.distance.is_some() => Ok(DepthOfField::Physical),
         None => {
             if blurs {
-                let told = format!("{file} has no distances (channel distance.Z): defocus is left out");
-                observer.message(Message::Warning(&told));
+                let sentence = format!("{file} has no distances (channel distance.Z): defocus is left out");
+                observer.message(Message::Warning(&sentence));
             }
             Ok(DepthOfField::None)
         }

@@ -297,8 +297,8 @@ impl Task<'_> {
     fn series(&self, series: &PhotonTransfer, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let channels = self.sensor.parameters().channels.len();
         if channels > 1 {
-            let told = format!("the sensor has {channels} kinds of pixel: measure each kind by itself");
-            self.observer.message(Message::Warning(&told));
+            let sentence = format!("the sensor has {channels} kinds of pixel: measure each kind by itself");
+            self.observer.message(Message::Warning(&sentence));
         }
         let (mut columns, mut rows) = (0, 0);
         for stack in &series.stacks {

@@ -212,10 +212,11 @@ impl Bench<'_> {
         let parameters = sensor.parameters();
         let longest_s = parameters.exposure.exposure_s.min(LITTLE_E / parameters.charge.dark.mean_e_s().max(1e-9));
         let scale = longest_s / parameters.exposure.exposure_s;
-        let told = |error: etendue_pipeline::flat::FlatError| {
+        let message = |error: etendue_pipeline::flat::FlatError| {
             Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", self.request.camera.display()))
         };
-        let series = photon_transfer(sensor, WAVELENGTH_NM, self.request.levels, self.request.stack).map_err(told)?;
+        let series =
+            photon_transfer(sensor, WAVELENGTH_NM, self.request.levels, self.request.stack).map_err(message)?;
         let light = FlatLight { irradiance_w_m2: series.light.irradiance_w_m2 / scale, ..series.light };
         let shorter = |stack: etendue_pipeline::flat::Stack| etendue_pipeline::flat::Stack {
             exposure_s: scale * stack.exposure_s,

@@ -85,9 +85,9 @@ fn add(rig: &mut RigFiles, name: &str, text: String) {
 
 /// Records the reason for which a format omits a camera; returns the sentence.
 fn leave_out(rig: &mut RigFiles, camera: &str, why: &str) -> String {
-    let told = format!("camera {camera}: {why}");
-    rig.left_out.push(format!("calibration files: {told}"));
-    told
+    let message = format!("camera {camera}: {why}");
+    rig.left_out.push(format!("calibration files: {message}"));
+    message
 }
 
 fn add_ros(plan: &Plan, cameras: &[&CameraPlan], found: &[Calibrated<'_>], rig: &mut RigFiles) {

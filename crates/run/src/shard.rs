@@ -48,13 +48,13 @@ impl FromStr for ShardSpec {
 
 impl ShardSpec {
     pub(crate) fn shard(self) -> Result<Shard, Error> {
-        let told = || {
+        let message = || {
             Error::coded(
                 ErrorCode::OutOfRange,
                 format!("shard {}/{}: expected an index below the count", self.index, self.count),
             )
         };
-        Shard::new(self.index, self.count).ok_or_else(told)
+        Shard::new(self.index, self.count).ok_or_else(message)
     }
 }
 

@@ -176,8 +176,8 @@ mod tests {
     #[test]
     fn a_message_says_how_far_to_raise() {
         assert!(DESCRIPTION.check_size(16 << 20).is_ok());
-        let told = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
-        assert!(told.words.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{told}");
+        let message = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
+        assert!(message.words.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{message}");
         assert_eq!([16, 40, 64].map(|most| BASES.next(most)), [32, 64, u64::MAX]);
         assert_eq!(BASES.remedy(65), "no limit can be raised beyond 64");
     }

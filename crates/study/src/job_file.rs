@@ -40,7 +40,7 @@ pub fn job_file(
     );
     let changes = changes(job, camera);
     if !changes.is_empty() {
-        text += &format!("# The study had changes that this file does not hold: {}.\n", changes.join(" "));
+        text += &format!("# The study had changes that this file does not hold: {}.\n", changes.join(", "));
     }
     text += &format!("format = 1\nbase = {:?}\n", path_from(folder, &job.job)?.to_string_lossy());
     if !removed.is_empty() {
@@ -53,9 +53,9 @@ pub fn job_file(
 /// Changes of the command line that a job file does not contain.
 fn changes(job: &JobRequest, camera: &str) -> Vec<String> {
     let held = studied_keys();
-    let set = job.set.iter().filter(|change| !is_of(change, camera, &held)).map(|change| format!("--set {change}"));
-    let quality = job.quality.map(|quality| format!("--quality {}", quality.word()));
-    set.chain(quality).chain(job.seed.map(|seed| format!("--seed {seed}"))).collect()
+    let set = job.set.iter().filter(|change| !is_of(change, camera, &held)).map(|change| format!("set {change}"));
+    let quality = job.quality.map(|quality| format!("quality {}", quality.word()));
+    set.chain(quality).chain(job.seed.map(|seed| format!("seed {seed}"))).collect()
 }
 
 /// Path of a file relative to a folder.

@@ -161,10 +161,10 @@ mod tests {
     #[test]
     fn what_is_no_result_is_refused() {
         let folder = folder(&["notes.txt", "a/camera.json", "picture.0000.png"]);
-        let told = |path: &Path, frames| find(path, frames).expect_err("refused").to_string();
-        assert!(told(&folder.path().join("a"), None).contains("no result: expected files of layers (exr, png"));
-        assert!(told(&folder.path().join("notes.txt"), None).contains("no folder"));
-        assert!(told(&folder.path().join("none"), None).contains("not there; expected the folder of a result"));
-        assert!(told(folder.path(), Some(&(5..6))).contains("`frames`"));
+        let message = |path: &Path, frames| find(path, frames).expect_err("refused").to_string();
+        assert!(message(&folder.path().join("a"), None).contains("no result: expected files of layers (exr, png"));
+        assert!(message(&folder.path().join("notes.txt"), None).contains("no folder"));
+        assert!(message(&folder.path().join("none"), None).contains("not there; expected the folder of a result"));
+        assert!(message(folder.path(), Some(&(5..6))).contains("`frames`"));
     }
 }

@@ -157,8 +157,8 @@ fn the_same_files_give_the_same_bytes_and_an_earlier_page_is_replaced() {
     fs::remove_file(folder.join("front/picture.0003.png")).expect("removed");
     assert_eq!(made().len(), 5, "the chunk of a layer that is gone goes");
     fs::write(folder.join("view/index.html"), "a page of mine").expect("written");
-    let told = view(&request(&folder), None, Existing::Refuse, &Unobserved).expect_err("refused").to_string();
-    assert!(told.contains("already there") && told.contains("`overwrite`"), "{told}");
+    let message = view(&request(&folder), None, Existing::Refuse, &Unobserved).expect_err("refused").to_string();
+    assert!(message.contains("already there") && message.contains("`overwrite`"), "{message}");
     assert_eq!(fs::read_to_string(folder.join("view/index.html")).expect("kept"), "a page of mine");
 }
 
@@ -194,17 +194,20 @@ fn what_cannot_be_shown_is_refused_and_leaves_nothing() {
     let folder = result(&place.path().join("a"), 1.0);
     let page = place.path().join("page");
     let refused = |request: &ViewRequest| {
-        let told = view(request, Some(&page), Existing::Refuse, &Unobserved).expect_err("refused");
-        assert!(matches!(told, Error::Input(_)), "{told}");
+        let message = view(request, Some(&page), Existing::Refuse, &Unobserved).expect_err("refused");
+        assert!(matches!(message, Error::Input(_)), "{message}");
         assert!(!page.exists(), "nothing is left");
-        told.to_string()
+        message.to_string()
     };
     let other = place.path().join("b/front");
     fs::create_dir_all(&other).expect("made");
     fs::write(other.join("picture.0003.png"), picture((2, 2))).expect("written");
     let beside = ViewRequest { beside: Some(place.path().join("b")), ..request(&folder) };
-    let told = refused(&beside);
-    assert!(told.contains("picture is 2 × 2 pixels") && told.contains("6 × 4; give results of one size"), "{told}");
+    let message = refused(&beside);
+    assert!(
+        message.contains("picture is 2 × 2 pixels") && message.contains("6 × 4; give results of one size"),
+        "{message}"
+    );
     fs::rename(other.join("picture.0003.png"), other.join("picture.0009.png")).expect("renamed");
     assert!(refused(&beside).contains("no file has the camera, frame and name of one in"));
     let damaged = folder.join("front/radiance.exr");

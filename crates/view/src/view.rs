@@ -69,11 +69,11 @@ pub fn view(
         total: pairs.len(),
     });
     if build.binned > 0 {
-        let told = format!(
+        let sentence = format!(
             "{} layers are larger than {} MB and have fewer pixels on the page, which says how many; `max_mb` moves this",
             build.binned, request.max_mb
         );
-        observer.message(Message::Note(&told));
+        observer.message(Message::Note(&sentence));
     }
     build.finish()
 }

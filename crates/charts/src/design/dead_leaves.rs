@@ -41,8 +41,8 @@ impl DeadLeaves {
         let texels = (TEXELS * side / seen.pixel_mm).min(MAX_TEXELS).round().max(16.0);
         let (smallest, largest) = (self.smallest_px * seen.pixel_mm / side, self.largest_ratio);
         if !(self.smallest_px > 0.0 && smallest < largest) {
-            let told = "expected a radius above 0 px and below that of the largest leaves";
-            return Err(ChartError::option("smallest_px", self.smallest_px, told));
+            let message = "expected a radius above 0 px and below that of the largest leaves";
+            return Err(ChartError::option("smallest_px", self.smallest_px, message));
         }
         if !(largest > 0.0 && largest <= 0.5) {
             return Err(ChartError::option(
@@ -53,8 +53,8 @@ impl DeadLeaves {
         }
         if smallest * texels < MIN_RADIUS {
             let least_px = MIN_RADIUS * side / (texels * seen.pixel_mm);
-            let told = format!("leaves smaller than half a texel are not drawn: expected {least_px:.4} px or more");
-            return Err(ChartError::option("smallest_px", self.smallest_px, told));
+            let message = format!("leaves smaller than half a texel are not drawn: expected {least_px:.4} px or more");
+            return Err(ChartError::option("smallest_px", self.smallest_px, message));
         }
         let half = DVec2::splat(side / 2.0);
         let (leaves, laid) = leaves(texels as usize, smallest * texels, largest * texels, seed);

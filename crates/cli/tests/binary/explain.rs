@@ -61,6 +61,7 @@ fn replaced(path: &Path, from: &str, to: &str) {
 /// Arguments of a command of the catalogue.
 fn words(command: &str) -> Vec<String> {
     let word = |word: &str| match word.strip_prefix('`').and_then(|word| word.strip_suffix('`')) {
+        Some("memory_mb") => "--memory".to_owned(),
         Some(field) => format!("--{}", field.replace('_', "-")),
         None => word.to_owned(),
     };
@@ -110,9 +111,9 @@ fn every_example_has_its_error_and_none_when_mended() {
 
 #[test]
 fn a_code_is_explained_with_cause_example_and_remedy() {
-    let said = etendue(["explain", "unknown-key"]).ok().out;
+    let printed = etendue(["explain", "unknown-key"]).ok().out;
     for part in ["unknown-key: A table has a key", "focal_lenght_mm = 6", "focal_length_mm = 6", "What to do: "] {
-        assert!(said.contains(part), "{said}");
+        assert!(printed.contains(part), "{printed}");
     }
     assert!(etendue(["explain", "output-exists"]).ok().out.contains("with --overwrite."), "flags are spelled");
     let list = etendue(["explain"]).ok().out;
@@ -138,8 +139,8 @@ fn codes_are_words_of_their_own() {
 fn page() -> String {
     let mut page = String::from("| code | cause | what to do |\n| --- | --- | --- |\n");
     for code in ErrorCode::ALL {
-        let said = etendue(["explain", code.word()]).ok().out;
-        let remedy = said.lines().find_map(|line| line.strip_prefix("What to do: ")).expect("a remedy");
+        let printed = etendue(["explain", code.word()]).ok().out;
+        let remedy = printed.lines().find_map(|line| line.strip_prefix("What to do: ")).expect("a remedy");
         page.push_str(&format!("| `{code}` | {} | {remedy} |\n", code.explanation().cause));
     }
     page

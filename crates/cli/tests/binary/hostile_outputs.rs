@@ -152,9 +152,9 @@ fn names_of_objects_may_be_anything() {
     let set = ["--set", "cameras.front.output.boxes=true"];
     let files = rendered(&text(&job), &[&LIGHT[..], &set].concat());
     let facts: Value = serde_json::from_slice(&files["front/camera.json"]).expect("JSON");
-    let told = facts.to_string();
+    let message = facts.to_string();
     for name in strange {
-        assert!(told.contains(&Value::from(name).to_string()), "{name:?}");
+        assert!(message.contains(&Value::from(name).to_string()), "{name:?}");
     }
     assert!(files.keys().all(|name| name.starts_with("front/")), "{:?}", files.keys());
 }

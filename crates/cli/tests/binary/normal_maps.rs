@@ -96,7 +96,7 @@ fn our_own_maps_tilt_the_card() {
         for (map, colour) in MAPS {
             for (green, sign) in [("up", 1.0), ("down", -1.0)] {
                 let job = place.path().join("job.toml");
-                let told = format!(
+                let message = format!(
                     "format = 1\n[scene]\n[[scene.meshes]]\nname = \"card\"\nfile = \"card.obj\"\nup_axis = \"z\"\n\
                      [[scene.textures]]\nname = \"map\"\nfile = \"{map}\"\nencoding = \"data\"\n\
                      [[scene.materials]]\nname = \"matt\"\ntype = \"diffuse\"\nreflectance = {REFLECTANCE}\n\
@@ -108,7 +108,7 @@ fn our_own_maps_tilt_the_card() {
                      lens = {{ type = \"pinhole\", focal_length_mm = 50, f_number = 8 }}\n\
                      sensor = {{ width_px = 12, height_px = 8, pixel_pitch_um = 100 }}\n[output]\nradiance = true\n"
                 );
-                fs::write(&job, told).expect("written");
+                fs::write(&job, message).expect("written");
                 let expected = expected(colour, right, top.map(|c| c * sign));
                 same(luminance(&job, "eye"), expected, &format!("{name}, {map}, green {green}"));
             }

@@ -9,7 +9,7 @@ mod tests;
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E, LOG10_E};
 
 use super::kernel::{
-    ATAN_QUARTERS, circular_series, exponential_series, in_order, inverse_tangent_series, nearest, out_of_octant,
+    circular_series, exponential_series, in_order, inverse_tangent_series, nearest, nearest_quarter, out_of_octant,
     polynomial, power_of_two, split, turned,
 };
 
@@ -100,11 +100,9 @@ pub fn tan(x: f32) -> f32 {
 /// atan(n/d) for 0 ≤ n ≤ d, d > 0: subtracts the nearest quarter and evaluates a series for the remainder.
 #[inline]
 fn atan_octant(n: f64, d: f64) -> f64 {
-    let (quarters, i) = nearest(4.0 * (n / d));
-    let c = 0.25 * quarters;
-    let t = (n - c * d) / (d + c * n);
+    let ((quarter, _), t) = nearest_quarter(n, d);
     let z = t * t;
-    ATAN_QUARTERS[(i as usize).min(4)].0 + (t + t * z * polynomial(z, &ATAN))
+    quarter + (t + t * z * polynomial(z, &ATAN))
 }
 
 /// Angle of a finite point other than the origin, in double precision. Ignores the sign of zeros.

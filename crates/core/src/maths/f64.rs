@@ -6,8 +6,8 @@
 use core::f64::consts::{FRAC_2_PI, LOG2_E};
 
 use super::kernel::{
-    ATAN_QUARTERS, LN_2_HIGH, LN_2_LOW, circular_series, exponential_series, in_order, inverse_tangent_series, nearest,
-    out_of_octant, polynomial, power_of_two, split, turned,
+    LN_2_HIGH, LN_2_LOW, circular_series, exponential_series, in_order, inverse_tangent_series, nearest,
+    nearest_quarter, out_of_octant, polynomial, power_of_two, split, turned,
 };
 
 /// Largest angle reduced here; libm reduces larger ones.
@@ -82,11 +82,8 @@ pub fn cos(x: f64) -> f64 {
 /// atan(n/d) for 0 ≤ n ≤ d, d neither tiny nor huge: subtracts the nearest quarter and evaluates a series for the remainder.
 #[inline]
 fn atan_octant(n: f64, d: f64) -> f64 {
-    let (quarters, i) = nearest(4.0 * (n / d));
-    let c = 0.25 * quarters;
-    let t = (n - c * d) / (d + c * n);
+    let ((high, low), t) = nearest_quarter(n, d);
     let z = t * t;
-    let (high, low) = ATAN_QUARTERS[(i as usize).min(4)];
     high + (t + (t * z * polynomial(z, &ATAN) + low))
 }
 
@@ -247,6 +244,7 @@ pub fn hypot(x: f64, y: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec2;
 
     // Comparison with libm, whose own error is below 1 unit in the last place.
 
@@ -267,7 +265,7 @@ mod tests {
     }
 
     #[track_caller]
-    fn close(got: f64, exact: f64, bound: u64, x: (f64, f64)) {
+    fn close(got: f64, exact: f64, bound: u64, x: DVec2) {
         if exact.is_nan() {
             return assert!(got.is_nan(), "{x:?}: {got}, not NaN");
         }
@@ -277,7 +275,7 @@ mod tests {
     }
 
     fn compare(f: fn(f64) -> f64, exact: fn(f64) -> f64, arguments: impl Iterator<Item = f64>) {
-        arguments.for_each(|x| close(f(x), exact(x), BOUND, (x, 0.0)));
+        arguments.for_each(|x| close(f(x), exact(x), BOUND, DVec2::new(x, 0.0)));
     }
 
     #[test]
@@ -297,13 +295,13 @@ mod tests {
     #[test]
     fn angles_of_points() {
         for x in everywhere(300_000).chain(between(-5.0, 5.0, 300_000)) {
-            close(atan(x), libm::atan(x), ANGLE_BOUND, (x, 0.0));
+            close(atan(x), libm::atan(x), ANGLE_BOUND, DVec2::new(x, 0.0));
         }
         for y in everywhere(400) {
-            everywhere(400).for_each(|x| close(atan2(y, x), libm::atan2(y, x), ANGLE_BOUND, (y, x)));
+            everywhere(400).for_each(|x| close(atan2(y, x), libm::atan2(y, x), ANGLE_BOUND, DVec2::new(y, x)));
         }
         for y in between(-2.0, 2.0, 400) {
-            between(-2.0, 2.0, 400).for_each(|x| close(atan2(y, x), libm::atan2(y, x), ANGLE_BOUND, (y, x)));
+            between(-2.0, 2.0, 400).for_each(|x| close(atan2(y, x), libm::atan2(y, x), ANGLE_BOUND, DVec2::new(y, x)));
         }
     }
 

@@ -8,7 +8,7 @@ pub(super) const LN_2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
 pub(super) const LN_2_LOW: f64 = f64::from_bits(0x3dea_39ef_3579_3c76);
 
 /// atan(i/4), high and low parts.
-pub(super) const ATAN_QUARTERS: [(f64, f64); 5] = [
+const ATAN_QUARTERS: [(f64, f64); 5] = [
     (0.0, 0.0),
     (f64::from_bits(0x3fcf_5b75_f92c_80dd), f64::from_bits(0x3c68_ab6e_3cf7_afbd)),
     (f64::from_bits(0x3fdd_ac67_0561_bb4f), f64::from_bits(0x3c7a_2b7f_222f_65e2)),
@@ -24,6 +24,14 @@ const TO_WHOLE: f64 = 6_755_399_441_055_744.0;
 pub(super) fn nearest(x: f64) -> (f64, i32) {
     let shifted = x + TO_WHOLE;
     (shifted - TO_WHOLE, shifted.to_bits() as i32)
+}
+
+/// The arctangent of the multiple of 1/4 nearest to n/d, as a high and a low part, and the tangent of the remaining angle; 0 ≤ n ≤ d, d > 0.
+#[inline(always)]
+pub(super) fn nearest_quarter(n: f64, d: f64) -> ((f64, f64), f64) {
+    let (quarters, i) = nearest(4.0 * (n / d));
+    let c = 0.25 * quarters;
+    (ATAN_QUARTERS[(i as usize).min(4)], (n - c * d) / (d + c * n))
 }
 
 /// 2ᵏ for −1022 ≤ k ≤ 1023.

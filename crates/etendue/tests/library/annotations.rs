@@ -84,24 +84,24 @@ fn everything_that_is_asked_for_is_written_and_right() {
 #[test]
 fn what_cannot_be_is_refused_with_its_remedy() {
     let refused = |left: &str, sequence: &str| opened(&job(left, sequence)).map(|_| ()).expect_err("refused");
-    let told = refused("output = { optical_flow = \"exr\" }\n", "");
+    let message = refused("output = { optical_flow = \"exr\" }\n", "");
     assert!(
-        told.contains("\"optical_flow\" looks at the frames before and after") && told.contains("[sequence]"),
-        "{told}"
+        message.contains("\"optical_flow\" looks at the frames before and after") && message.contains("[sequence]"),
+        "{message}"
     );
-    let told = refused("output = { disparity_to = \"top\" }\n", SEQUENCE);
-    assert!(told.contains("there is no other camera \"top\"") && told.contains("give one of right"), "{told}");
-    let told = refused("output = { disparity_format = \"kitti\" }\n", SEQUENCE);
-    assert!(told.contains("\"disparity_format\" has no effect without \"disparity_to\""), "{told}");
+    let message = refused("output = { disparity_to = \"top\" }\n", SEQUENCE);
+    assert!(message.contains("there is no other camera \"top\"") && message.contains("give one of right"), "{message}");
+    let message = refused("output = { disparity_format = \"kitti\" }\n", SEQUENCE);
+    assert!(message.contains("\"disparity_format\" has no effect without \"disparity_to\""), "{message}");
     let turned = job("output = { disparity_to = \"right\" }\n", SEQUENCE).replacen(
         "rotation_deg = [0, 0, 0]",
         "rotation_deg = [0, 1, 0]",
         2,
     );
-    let told = opened(&turned).map(|_| ()).expect_err("refused");
-    assert!(told.contains("are not rectified") && told.contains("one lens without distortion"), "{told}");
+    let message = opened(&turned).map(|_| ()).expect_err("refused");
+    assert!(message.contains("are not rectified") && message.contains("one lens without distortion"), "{message}");
     let swapped =
         job("", SEQUENCE).replace("name = \"right\"", "name = \"right\"\noutput = { disparity_to = \"left\" }");
-    let told = opened(&swapped).map(|_| ()).expect_err("refused");
-    assert!(told.contains("camera \"left\" is not to the right of \"right\""), "{told}");
+    let message = opened(&swapped).map(|_| ()).expect_err("refused");
+    assert!(message.contains("camera \"left\" is not to the right of \"right\""), "{message}");
 }

@@ -69,10 +69,12 @@ impl Trial<'_> {
 
     /// Reason of a failure; `None` if the effect is skipped.
     fn failure(&self) -> Option<String> {
-        let told = |why: &str| format!("{}: {} by {:?}: {why}", self.job.display(), self.name, self.set);
+        let message = |why: &str| format!("{}: {} by {:?}: {why}", self.job.display(), self.name, self.set);
         match plan(self.job, &self.set, &mut Assets::default()) {
-            Err(error) => Some(told(&error)),
-            Ok(plan) if status(&plan, self.camera, self.name).status.is_modelled() => Some(told("it is still there")),
+            Err(error) => Some(message(&error)),
+            Ok(plan) if status(&plan, self.camera, self.name).status.is_modelled() => {
+                Some(message("it is still there"))
+            }
             Ok(_) => None,
         }
     }

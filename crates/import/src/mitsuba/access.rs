@@ -52,8 +52,8 @@ fn value<'a>(parameter: &'a MitsubaElement, tags: &[&str]) -> Result<&'a str, Er
     match parameter.attribute("value") {
         Some(value) if tags.contains(&parameter.tag) => Ok(value),
         _ => {
-            let told = format!("\"{}\": expected <{} value=\"…\"/>", parameter.name(), tags.join("> or <"));
-            Err(parameter.fault(told))
+            let message = format!("\"{}\": expected <{} value=\"…\"/>", parameter.name(), tags.join("> or <"));
+            Err(parameter.fault(message))
         }
     }
 }

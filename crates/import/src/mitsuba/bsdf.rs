@@ -142,8 +142,8 @@ impl<'a> Importer<'a> {
         match self.within(element, "bsdf")?[..] {
             [inner] => self.made(inner, depth + 1),
             ref others => {
-                let told = format!("{} surfaces within a \"{}\"; expected one <bsdf>", others.len(), element.kind());
-                Err(element.fault(told))
+                let message = format!("{} surfaces within a \"{}\"; expected one <bsdf>", others.len(), element.kind());
+                Err(element.fault(message))
             }
         }
     }

@@ -107,8 +107,8 @@ fn yfov_rad(sensor: &MitsubaElement, [width, height]: [u64; 2]) -> Result<f64, E
         "smaller" => w.min(h),
         "larger" => w.max(h),
         other => {
-            let told = format!("\"fov_axis\" of \"{other}\"; expected x, y, diagonal, smaller or larger");
-            return Err(sensor.fault(told));
+            let message = format!("\"fov_axis\" of \"{other}\"; expected x, y, diagonal, smaller or larger");
+            return Err(sensor.fault(message));
         }
     };
     Ok(half_of(maths::tan(0.5 * fov_deg.to_radians()) * h / of))

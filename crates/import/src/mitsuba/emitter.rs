@@ -79,8 +79,8 @@ impl<'a> Importer<'a> {
         let outer_deg = number(element, "cutoff_angle", 20.0)?;
         let inner_deg = number(element, "beam_width", 0.75 * outer_deg)?;
         if !(0.0..=180.0).contains(&outer_deg) || outer_deg == 0.0 || !(0.0..=outer_deg).contains(&inner_deg) {
-            let told = format!("a cone from {inner_deg}° to {outer_deg}°; expected 0 ≤ beam ≤ cutoff ≤ 180");
-            return Err(element.fault(told));
+            let message = format!("a cone from {inner_deg}° to {outer_deg}°; expected 0 ≤ beam ≤ cutoff ≤ 180");
+            return Err(element.fault(message));
         }
         let Some(candela) = self.lit("spot", "cd", unit.luminance) else { return Ok(()) };
         self.scenery.report.note("the edge of a spot falls by our own curve between the same angles");
@@ -133,8 +133,8 @@ impl<'a> Importer<'a> {
         );
         let image = read_picture(&self.file(file)).map_err(|e| element.fault(e.to_string()))?.in_rec_709();
         let Some(pixel) = linear_pixels(&image) else {
-            let told = format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)");
-            self.scenery.report.note(told);
+            let message = format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)");
+            self.scenery.report.note(message);
             return Ok(None);
         };
         // Transform from our environment-map space, by Mitsuba's, to our world.
@@ -142,7 +142,7 @@ impl<'a> Importer<'a> {
         let path = self.path(file);
         let picture = LightPicture { shown: file, path: &path, columns: image.width as usize, pixel: &*pixel };
         let made = self.scenery.light_picture(&picture, image.height as usize, turn, scale);
-        made.map(Some).map_err(|told| element.fault(told))
+        made.map(Some).map_err(|message| element.fault(message))
     }
 }
 
@@ -157,8 +157,8 @@ impl<'a> Importer<'a> {
         let name: Rc<str> = match kind {
             "homogeneous" => self.homogeneous(element)?,
             _ => {
-                let told = format!("the medium \"{kind}\" is not understood and left out: expected homogeneous");
-                self.scenery.report.note(told);
+                let message = format!("the medium \"{kind}\" is not understood and left out: expected homogeneous");
+                self.scenery.report.note(message);
                 element.children.iter().for_each(|child| child.used.set(true));
                 "".into()
             }

@@ -184,8 +184,8 @@ impl<'a> Importer<'a> {
             "shape" => self.shape(element, &Graphics::plain(), 0)?,
             "emitter" => self.emitter(element)?,
             "integrator" | "sampler" => {
-                let told = format!("{} \"{kind}\" is not used: how light is found is the job's", element.tag);
-                self.scenery.report.note(told);
+                let message = format!("{} \"{kind}\" is not used: how light is found is the job's", element.tag);
+                self.scenery.report.note(message);
             }
             // Cameras are already read; elements with an id are used by reference.
             "sensor" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"

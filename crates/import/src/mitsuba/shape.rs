@@ -148,8 +148,8 @@ impl<'a> Importer<'a> {
 
     fn area_light(&mut self, emitter: &'a MitsubaElement) -> Result<Option<AreaLight>, Error> {
         if emitter.kind() != "area" {
-            let told = format!("the emitter \"{}\" of a shape is not understood and left out", emitter.kind());
-            self.scenery.report.note(told);
+            let message = format!("the emitter \"{}\" of a shape is not understood and left out", emitter.kind());
+            self.scenery.report.note(message);
             return Ok(None);
         }
         let unit = self.light(emitter, "radiance")?;

@@ -65,8 +65,8 @@ impl<'a> Importer<'a> {
         let file = text(element, "filename")?.ok_or_else(|| element.fault("a bitmap without \"filename\""))?;
         let ending = file.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         if !ENDINGS.contains(&ending.as_str()) {
-            let told = format!("the picture `{file}` is of a kind that is not read; convert it to PNG or EXR");
-            self.scenery.report.note(told);
+            let message = format!("the picture `{file}` is of a kind that is not read; convert it to PNG or EXR");
+            self.scenery.report.note(message);
             return Ok(None);
         }
         let is_raw = flag(element, "raw", false)?;
@@ -93,7 +93,7 @@ impl<'a> Importer<'a> {
             && let Ok(image) = read_picture(&self.file(file))
         {
             let path = self.scenery.numbers_file(&image, element.attribute("id").unwrap_or("texture"), luma);
-            let path = path.map_err(|told| element.fault(told))?;
+            let path = path.map_err(|message| element.fault(message))?;
             return Ok(Some(self.picture(element, &path, Encoding::Data, wrap, &laid)));
         }
         let path = self.path(file);

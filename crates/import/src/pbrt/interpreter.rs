@@ -175,15 +175,16 @@ impl Interpreter {
 
     fn typed(&mut self, name: &'static str, kind: String, parameters: Vec<PbrtParameter>) -> Result<(), String> {
         let given = Parameters(&parameters);
-        let told = |what: String| format!("{name} \"{kind}\": {what}");
+        let message = |what: String| format!("{name} \"{kind}\": {what}");
         match name {
             "Camera" => {
-                let camera = PbrtCamera::read(&kind, given, &self.graphics, &mut self.scenery.report).map_err(told)?;
+                let camera =
+                    PbrtCamera::read(&kind, given, &self.graphics, &mut self.scenery.report).map_err(message)?;
                 self.systems.insert("camera".to_owned(), self.graphics.to_world.inverse());
                 self.camera = Some(camera);
             }
             "Film" => {
-                self.film = Film::read(given).map_err(told)?;
+                self.film = Film::read(given).map_err(message)?;
                 self.scenery
                     .report
                     .note(format!("the film \"{kind}\" gives the size of the picture, and no more is used of it"));
@@ -192,15 +193,15 @@ impl Interpreter {
                 self.scenery.report.note(format!("{name} \"{kind}\" is not used: how light is found is the job's"));
             }
             "Attribute" => self.scenery.report.note(format!("`Attribute \"{kind}\"` is not understood and left out")),
-            "Material" => self.graphics.material = self.scenery.material(&kind, given, None).map_err(told)?,
+            "Material" => self.graphics.material = self.scenery.material(&kind, given, None).map_err(message)?,
             "MakeNamedMaterial" => {
-                let of = given.text("type").map_err(told)?.unwrap_or("").to_owned();
-                self.scenery.material(&of, given, Some(&kind)).map_err(told)?;
+                let of = given.text("type").map_err(message)?.unwrap_or("").to_owned();
+                self.scenery.material(&of, given, Some(&kind)).map_err(message)?;
             }
-            "MakeNamedMedium" => self.scenery.medium(&kind, given).map_err(told)?,
-            "LightSource" => self.scenery.light_source(&kind, given, &self.graphics).map_err(told)?,
+            "MakeNamedMedium" => self.scenery.medium(&kind, given).map_err(message)?,
+            "LightSource" => self.scenery.light_source(&kind, given, &self.graphics).map_err(message)?,
             "AreaLightSource" => {
-                self.graphics.area_light = self.scenery.area_light(&kind, given).map_err(told)?.map(Rc::new);
+                self.graphics.area_light = self.scenery.area_light(&kind, given).map_err(message)?.map(Rc::new);
             }
             _ => return self.shape(kind, parameters),
         }

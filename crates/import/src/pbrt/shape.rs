@@ -7,27 +7,27 @@ use crate::scenery::{Graphics, Scenery, Triangles, above_zero};
 
 impl Scenery {
     pub(super) fn shape(&mut self, kind: &str, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
-        let told = |what: String| format!("Shape \"{kind}\": {what}");
-        let Some(graphics) = &self.with_alpha(parameters, graphics).map_err(told)? else { return Ok(()) };
+        let message = |what: String| format!("Shape \"{kind}\": {what}");
+        let Some(graphics) = &self.with_alpha(parameters, graphics).map_err(message)? else { return Ok(()) };
         match kind {
             "trianglemesh" => {
-                let mesh = Triangles::of(parameters).map_err(told)?;
+                let mesh = Triangles::of(parameters).map_err(message)?;
                 let mesh = if self.lays_picture(graphics) { mesh.with_uv() } else { mesh };
-                self.mesh(mesh, graphics).map_err(told)?;
+                self.mesh(mesh, graphics).map_err(message)?;
             }
             "plymesh" => {
-                let mesh = self.ply(parameters).map_err(told)?;
+                let mesh = self.ply(parameters).map_err(message)?;
                 let mesh = if self.lays_picture(graphics) { mesh.with_uv() } else { mesh };
-                self.mesh(mesh, graphics).map_err(told)?;
+                self.mesh(mesh, graphics).map_err(message)?;
             }
             "bilinearmesh" => {
                 self.report.note("bilinear patches are two triangles each: exact where they are flat");
-                let mesh = Triangles::of_patches(parameters).map_err(told)?;
-                self.mesh(mesh, graphics).map_err(told)?;
+                let mesh = Triangles::of_patches(parameters).map_err(message)?;
+                self.mesh(mesh, graphics).map_err(message)?;
             }
-            "sphere" => self.sphere(parameters, graphics).map_err(told)?,
-            "disk" => self.disc(parameters, graphics).map_err(told)?,
-            "cylinder" => self.cylinder(parameters, graphics).map_err(told)?,
+            "sphere" => self.sphere(parameters, graphics).map_err(message)?,
+            "disk" => self.disc(parameters, graphics).map_err(message)?,
+            "cylinder" => self.cylinder(parameters, graphics).map_err(message)?,
             other => {
                 let why = match other {
                     "loopsubdiv" => {

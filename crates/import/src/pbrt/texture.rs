@@ -37,15 +37,15 @@ impl Scenery {
         kind: &str,
         parameters: Parameters<'_>,
     ) -> Result<(), String> {
-        let told = |what: String| format!("Texture \"{name}\": {what}");
+        let message = |what: String| format!("Texture \"{name}\": {what}");
         let is_colour = values != "float";
         let known = match kind {
-            "imagemap" => self.picture(name, is_colour, parameters).map_err(told)?,
+            "imagemap" => self.picture(name, is_colour, parameters).map_err(message)?,
             "constant" => match parameters.find("value") {
-                Some(value) => self.even(value).map_err(told)?,
+                Some(value) => self.even(value).map_err(message)?,
                 None => Some(KnownTexture::Even([1.0; 3])),
             },
-            "scale" => self.scaled(is_colour, parameters).map_err(told)?,
+            "scale" => self.scaled(is_colour, parameters).map_err(message)?,
             _ => None,
         };
         let known = known.unwrap_or_else(|| {

@@ -58,8 +58,8 @@ impl<'a> Importer<'a> {
         }
         let image = self.image(stated)?;
         let Some(pixel) = linear_pixels(&image).filter(|_| is_linear(shown)) else {
-            let told = format!("the picture of light `{shown}` is left out: expected linear numbers (EXR, HDR)");
-            self.scenery.report.note(told);
+            let message = format!("the picture of light `{shown}` is left out: expected linear numbers (EXR, HDR)");
+            self.scenery.report.note(message);
             return Ok(None);
         };
         let pole = match text(prim, "poleAxis") {

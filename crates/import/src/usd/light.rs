@@ -19,7 +19,7 @@ const MAX_SUN_DEG: f64 = 20.0;
 
 impl<'a> Importer<'a> {
     pub(super) fn light(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
-        let told = |what: String| format!("{}: {what}", prim.path);
+        let message = |what: String| format!("{}: {what}", prim.path);
         let usual = if prim.kind == "DistantLight" { 50_000.0 } else { 1.0 };
         let kinds =
             ["DistantLight", "SphereLight", "DiskLight", "RectLight", "CylinderLight", "DomeLight", "DomeLight_1"];
@@ -35,7 +35,7 @@ impl<'a> Importer<'a> {
                 self.distant(prim, state, unit, is_divided);
                 return Ok(());
             }
-            "DomeLight" | "DomeLight_1" => return self.dome(prim, state, unit).map_err(told),
+            "DomeLight" | "DomeLight_1" => return self.dome(prim, state, unit).map_err(message),
             _ => {}
         }
         let cone = cone_of(prim);
@@ -57,7 +57,7 @@ impl<'a> Importer<'a> {
         }
         let area = area_of(prim, self.scales(state));
         let luminance = if is_divided && area > 0.0 { unit.luminance / area } else { unit.luminance };
-        self.area(prim, state, LightUnit { luminance, ..unit }).map_err(told)
+        self.area(prim, state, LightUnit { luminance, ..unit }).map_err(message)
     }
 
     /// Lengths of a light's axes in the stage's unit.

@@ -89,8 +89,8 @@ impl<'a> Importer<'a> {
         let (mut triangles, refused) = of.triangles(faces, material.primvar())?;
         if material.has_pictures() && triangles.uvs.is_empty() {
             let name = material.primvar();
-            let told = format!("a mesh without \"{name}\", by which its pictures lie: all of it has their corner");
-            self.scenery.report.note(told);
+            let message = format!("a mesh without \"{name}\", by which its pictures lie: all of it has their corner");
+            self.scenery.report.note(message);
             triangles.uvs = vec![[0.0; 2]; triangles.positions.len()];
         }
         if material.shows_outside(&triangles.uvs) {

@@ -17,14 +17,14 @@ use crate::syntax::usd::UsdPrim;
 impl<'a> Importer<'a> {
     /// Converts the shape of a prim.
     pub(super) fn shape(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
-        let told = |what: String| format!("{}: {what}", prim.path);
+        let message = |what: String| format!("{}: {what}", prim.path);
         let axis = text(prim, "axis");
         // Cylinders, cones and capsules are along z by default.
         let turn = |matrix| DAffine3::from_mat3(matrix);
         let radius = |name: &str, usual: f64| number(prim, name, usual).max(0.0);
         let (mesh, turn) = match prim.kind.as_str() {
-            "Mesh" => return self.polygons(prim, state).map_err(told),
-            "Sphere" => return self.sphere(prim, state).map_err(told),
+            "Mesh" => return self.polygons(prim, state).map_err(message),
+            "Sphere" => return self.sphere(prim, state).map_err(message),
             "Cube" => (cube(number(prim, "size", 2.0).abs()), DAffine3::IDENTITY),
             "Plane" => {
                 let size = [number(prim, "width", 2.0), number(prim, "length", 2.0)].map(f64::abs);
@@ -62,7 +62,7 @@ impl<'a> Importer<'a> {
         }
         let area_light = self.light_of_shape(prim);
         let graphics = Graphics { to_world: graphics.to_world * turn, area_light, ..graphics };
-        self.add(mesh, &graphics).map_err(told)
+        self.add(mesh, &graphics).map_err(message)
     }
 
     /// Graphics state of a shape without emission, with a material by path.

@@ -76,8 +76,8 @@ fn parameters_of_parameters_do_not_fill_the_memory() {
     let doubling: String =
         (1..60).map(|i| format!("<default name=\"p{i:02}\" value=\"$p{0:02}$p{0:02}\"/>", i - 1)).collect();
     let text = format!("<scene version=\"3.0.0\"><default name=\"p00\" value=\"0123456789\"/>{doubling}</scene>");
-    let told = read(&[("a.xml", &text)]).expect_err("too large");
-    assert!(told.contains("16 MiB are allowed"), "{told}");
+    let message = read(&[("a.xml", &text)]).expect_err("too large");
+    assert!(message.contains("16 MiB are allowed"), "{message}");
 }
 
 #[test]
@@ -89,8 +89,8 @@ fn included_files_lie_in_the_sandbox() {
     let file = inner.join("a.xml");
     fs::write(&file, "<scene version=\"3.0.0\"><include filename=\"../secret.xml\"/></scene>").expect("written");
     let sandbox = Sandbox::about(&file, &[]).expect("a sandbox");
-    let told = read_mitsuba(&file, &[], &sandbox).expect_err("outside").to_string();
-    assert!(told.contains("a.xml:1: ") && told.contains("leads out of"), "{told}");
+    let message = read_mitsuba(&file, &[], &sandbox).expect_err("outside").to_string();
+    assert!(message.contains("a.xml:1: ") && message.contains("leads out of"), "{message}");
 }
 
 /// Names of parameters are unchanged, and `$name` uses them so.

@@ -90,6 +90,6 @@ fn included_files_lie_in_the_sandbox() {
     let file = inner.join("a.pbrt");
     fs::write(&file, "Include \"../secret.pbrt\"").expect("written");
     let sandbox = Sandbox::about(Path::new(&file), &[]).expect("a sandbox");
-    let told = read_pbrt(&file, &sandbox, &mut |_, _| Ok(())).expect_err("outside").to_string();
-    assert!(told.contains("a.pbrt:1: ") && told.contains("leads out of"), "{told}");
+    let message = read_pbrt(&file, &sandbox, &mut |_, _| Ok(())).expect_err("outside").to_string();
+    assert!(message.contains("a.pbrt:1: ") && message.contains("leads out of"), "{message}");
 }

@@ -231,8 +231,8 @@ mod tests {
     #[test]
     fn damaged_files_and_empty_planes_are_refused() {
         let bytes = encode_flo(&flow(2, &[[1.0; 2]; 4])).expect("four pixels");
-        let told = decode_flo(Path::new("a.flo"), &bytes[..bytes.len() - 1]).expect_err("cut").to_string();
-        assert!(told.contains("31 bytes of vectors, where 2 × 2 are 32"), "{told}");
+        let message = decode_flo(Path::new("a.flo"), &bytes[..bytes.len() - 1]).expect_err("cut").to_string();
+        assert!(message.contains("31 bytes of vectors, where 2 × 2 are 32"), "{message}");
         assert!(decode_flo(Path::new("a.flo"), b"PIEH").is_err());
         let negative = [&bytes[..4], &(-2_i32).to_le_bytes(), &bytes[8..]].concat();
         assert!(decode_flo(Path::new("a.flo"), &negative).is_err());

@@ -215,10 +215,11 @@ mod tests {
             read.attributes
         );
         let line = space([[0.6, 0.3], [0.4, 0.3], [0.2, 0.3], [0.3, 0.3]]);
-        let told = decode_exr(Path::new("a.exr"), &file(&STORED, line, None)).expect_err("no space").to_string();
+        let message = decode_exr(Path::new("a.exr"), &file(&STORED, line, None)).expect_err("no space").to_string();
         assert!(
-            told.starts_with("a.exr: its chromaticities (red (0.6, 0.3)") && told.contains("correct the attribute"),
-            "{told}"
+            message.starts_with("a.exr: its chromaticities (red (0.6, 0.3)")
+                && message.contains("correct the attribute"),
+            "{message}"
         );
     }
 
@@ -240,8 +241,8 @@ mod tests {
     #[test]
     fn a_cube_map_is_no_picture() {
         let read = |projection| decode_exr(Path::new("a.exr"), &file(&STORED, None, projection)).expect("readable");
-        let told = read(Some(EnvironmentMap::Cube)).check_is_no_cube_map(Path::new("a.exr")).expect_err("a cube");
-        assert!(told.to_string().starts_with("a.exr: a cube map"), "{told}");
+        let message = read(Some(EnvironmentMap::Cube)).check_is_no_cube_map(Path::new("a.exr")).expect_err("a cube");
+        assert!(message.to_string().starts_with("a.exr: a cube map"), "{message}");
         for projection in [None, Some(EnvironmentMap::LatitudeLongitude)] {
             assert!(read(projection).check_is_no_cube_map(Path::new("a.exr")).is_ok());
         }

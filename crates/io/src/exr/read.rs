@@ -305,10 +305,10 @@ mod tests {
 
     #[test]
     fn a_small_file_of_many_pixels_is_refused_by_its_header() {
-        let told = decode_exr(Path::new("a.exr"), &large()).expect_err("too large").to_string();
+        let message = decode_exr(Path::new("a.exr"), &large()).expect_err("too large").to_string();
         let expected =
             "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller";
-        assert!(told.starts_with(expected), "{told}");
+        assert!(message.starts_with(expected), "{message}");
         assert_eq!(stated_samples(&large()), 400_000_000);
     }
 
@@ -318,7 +318,7 @@ mod tests {
         let file = place.path().join("film.exr");
         std::fs::write(&file, picture(20, 10, &["a", "b"], 1.0)).expect("write");
         assert_eq!(read_exr_within(&file, 1600).expect("a film").channels.len(), 2);
-        let told = read_exr_within(&file, 1599).expect_err("more than known").to_string();
-        assert!(told.contains("unpacks to 1 MiB, where 1 MiB are expected"), "{told}");
+        let message = read_exr_within(&file, 1599).expect_err("more than known").to_string();
+        assert!(message.contains("unpacks to 1 MiB, where 1 MiB are expected"), "{message}");
     }
 }

@@ -78,13 +78,13 @@ fn stated_quantity(file: &Path, exr: &ExrFile, notes: &mut Vec<String>) -> Resul
     if let (Some(quantity), Some(unit)) = (exr.attributes.get("etendue:quantity"), exr.attributes.get("etendue:units"))
     {
         let found = known.iter().find(|(name, its_unit)| name == quantity && its_unit == unit);
-        let told = || {
+        let message = || {
             format!(
                 "holds {quantity} in {unit}; expected {} in {} or {} in {}",
                 known[0].0, known[0].1, known[1].0, known[1].1
             )
         };
-        return found.map(|(name, _)| *name).ok_or_else(|| Error::new(file, told()));
+        return found.map(|(name, _)| *name).ok_or_else(|| Error::new(file, message()));
     }
     match exr.attributes.get("emissiveUnits").map(|unit| unit.trim_end_matches(".nm^-1")) {
         Some("W.m^-2.sr^-1") => {
@@ -189,8 +189,11 @@ mod tests {
 
     #[test]
     fn what_is_no_set_of_bands_is_refused_in_words() {
-        let told = bands_of(&[400.0, 410.0, 425.0], None).expect_err("uneven");
-        assert!(told.contains("not evenly spaced by 12.5 nm (410 nm stands where 412.5 nm was expected)"), "{told}");
+        let message = bands_of(&[400.0, 410.0, 425.0], None).expect_err("uneven");
+        assert!(
+            message.contains("not evenly spaced by 12.5 nm (410 nm stands where 412.5 nm was expected)"),
+            "{message}"
+        );
         assert!(bands_of(&[550.0], None).is_err());
         assert!(bands_of(&[100.0, 200.0], None).expect_err("range").contains("300 to 1100 nm"));
     }

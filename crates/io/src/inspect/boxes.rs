@@ -45,8 +45,9 @@ pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
     let Preview { width, height, .. } = *preview;
     if (width, height) != (found.width_px, found.height_px) {
         let (w, h) = (found.width_px, found.height_px);
-        let told = format!("boxes of a picture of {w} x {h} pixels, for one of {width} x {height}; give those of it");
-        return Err(Error::new(boxes, told));
+        let message =
+            format!("boxes of a picture of {w} x {h} pixels, for one of {width} x {height}; give those of it");
+        return Err(Error::new(boxes, message));
     }
     drawing::draw_boxes(preview, &found.objects);
     let seen = found.objects.iter().filter(|object| object.visible_box_px.is_some()).count();

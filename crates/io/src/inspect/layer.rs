@@ -54,30 +54,30 @@ fn single(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
     let (width, height) = (exr.width, exr.height);
     let found = exr.channels.iter().find(|c| c.name == name || c.name.rsplit_once('.').is_some_and(|(l, _)| l == name));
     let channel = found?;
-    let (rgb, told) = match &channel.samples {
+    let (rgb, message) = match &channel.samples {
         Samples::Uint(ids) => (of_identities(ids), format!("the picture shows {}, a colour each", channel.name)),
         samples if channel.name.ends_with(".Z") => lengths(&channel.name, &samples.to_floats()),
         samples => {
-            let told = format!("the picture shows channel {}", channel.name);
-            return Some((Preview::of_grey(width, height, &samples.to_floats()), told));
+            let message = format!("the picture shows channel {}", channel.name);
+            return Some((Preview::of_grey(width, height, &samples.to_floats()), message));
         }
     };
-    Some((Preview { width, height, rgb }, told))
+    Some((Preview { width, height, rgb }, message))
 }
 
 fn lengths(name: &str, values: &[f32]) -> (Vec<[u8; 3]>, String) {
     let (rgb, [near, far]) = of_lengths(values);
-    let told = format!(
+    let message = format!(
         "the picture shows {name} in the colours of viridis by the logarithm, from {near:.4} (yellow) to {far:.4} (violet); white is infinite"
     );
-    (rgb, told)
+    (rgb, message)
 }
 
 /// Image of disparities or other numbers of one channel.
 pub(super) fn differences(width: usize, height: usize, values: &[f32]) -> (Preview, String) {
     let (rgb, [low, high]) = of_differences(values);
-    let told = format!(
+    let message = format!(
         "the picture shows the numbers in the colours of viridis, from {low:.4} (violet) to {high:.4} (yellow); white is infinite"
     );
-    (Preview { width, height, rgb }, told)
+    (Preview { width, height, rgb }, message)
 }

@@ -57,8 +57,8 @@ impl<'a> Listing<'a> {
                     let rows = &mut tables.last_mut().expect("one was begun").rows;
                     if let Some(first) = rows.first().filter(|first| first.numbers.len() != numbers.len()) {
                         let (found, before) = (numbers.len(), first.numbers.len());
-                        let told = format!("found {found} numbers where the table has {before} in a row");
-                        return Err(Error::at(file, number, told));
+                        let message = format!("found {found} numbers where the table has {before} in a row");
+                        return Err(Error::at(file, number, message));
                     }
                     if let Some(wrong) = numbers.iter().find(|number| !number.is_finite()) {
                         return Err(Error::at(file, number, format!("found {wrong}; expected finite numbers")));

@@ -68,11 +68,11 @@ fn size(listing: &Listing<'_>, table: &Table<'_>) -> Result<[usize; 2], Error> {
     let stated = said(listing, "image grid size").map(|(line, text)| (line, numbers(text)));
     match stated {
         Some((line, stated)) if stated.len() == 2 && stated != found.map(|n| n as f64) => {
-            let told = format!(
+            let message = format!(
                 "the head states {} by {} samples, and {} rows of {} are there; save the whole listing",
                 stated[0], stated[1], found[1], found[0]
             );
-            Err(listing.fault(line, told))
+            Err(listing.fault(line, message))
         }
         _ => Ok(found),
     }

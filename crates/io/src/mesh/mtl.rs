@@ -108,13 +108,13 @@ fn numbers(statement: &Statement<'_>, count: usize, high: f64) -> Result<String,
         (_, f64::MAX) => "a number of 0 or more".to_owned(),
         _ => format!("a number from 0 to {high}"),
     };
-    let told = |what: &str| format!("`{} {}`: {what}; expected {expected}", statement.keyword(), statement.rest());
-    let values = statement.numbers().map_err(|what| told(&what.words))?;
+    let message = |what: &str| format!("`{} {}`: {what}; expected {expected}", statement.keyword(), statement.rest());
+    let values = statement.numbers().map_err(|what| message(&what.words))?;
     if values.len() != count && values.len() != 1 {
-        return Err(told(&format!("{} numbers", values.len())));
+        return Err(message(&format!("{} numbers", values.len())));
     }
     if values.iter().any(|v| !(0.0..=high).contains(v)) {
-        return Err(told("out of range"));
+        return Err(message("out of range"));
     }
     Ok(values.iter().cycle().take(count).map(f64::to_string).collect::<Vec<_>>().join(" "))
 }
@@ -188,20 +188,20 @@ mod tests {
 
     #[test]
     fn a_broken_value_is_refused_with_its_line() {
-        let told = |text: &str| read(text).expect_err(text);
+        let message = |text: &str| read(text).expect_err(text);
         assert_eq!(
-            told("newmtl a\nKd 0.5 x 1"),
+            message("newmtl a\nKd 0.5 x 1"),
             "lib/a.mtl:2: `Kd 0.5 x 1`: `x` is not a number; expected three numbers of 0 or more"
         );
         assert_eq!(
-            told("newmtl a\nKd 0.5 1"),
+            message("newmtl a\nKd 0.5 1"),
             "lib/a.mtl:2: `Kd 0.5 1`: 2 numbers; expected three numbers of 0 or more"
         );
-        assert_eq!(told("newmtl a\n\nPr 1.5"), "lib/a.mtl:3: `Pr 1.5`: out of range; expected a number from 0 to 1");
-        assert_eq!(told("newmtl a\nNs"), "lib/a.mtl:2: `Ns `: 0 numbers; expected a number of 0 or more");
-        assert_eq!(told("Kd 1 1 1"), "lib/a.mtl:1: `Kd` stands before any `newmtl`");
+        assert_eq!(message("newmtl a\n\nPr 1.5"), "lib/a.mtl:3: `Pr 1.5`: out of range; expected a number from 0 to 1");
+        assert_eq!(message("newmtl a\nNs"), "lib/a.mtl:2: `Ns `: 0 numbers; expected a number of 0 or more");
+        assert_eq!(message("Kd 1 1 1"), "lib/a.mtl:1: `Kd` stands before any `newmtl`");
         assert_eq!(
-            told("newmtl a\nnewmtl a"),
+            message("newmtl a\nnewmtl a"),
             "lib/a.mtl:2: material \"a\" is defined a second time, first at a.mtl:1; rename one of them"
         );
     }

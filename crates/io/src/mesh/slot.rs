@@ -70,8 +70,8 @@ fn library_paths(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<(Vec<PathB
         }
         let new: Vec<PathBuf> = named.into_iter().filter(|path| known.insert(path.clone())).collect();
         let (there, absent): (Vec<_>, Vec<_>) = new.into_iter().partition(|path| path.exists());
-        let told = |path: &PathBuf| format!("line {line}: the material library `{}` does not exist", path.display());
-        missing.extend(absent.iter().map(told));
+        let message = |path: &PathBuf| format!("line {line}: the material library `{}` does not exist", path.display());
+        missing.extend(absent.iter().map(message));
         paths.extend(there);
     }
     Ok((paths, missing))

@@ -50,10 +50,10 @@ fn an_earlier_result_is_kept_unless_replacing_is_allowed() {
     let place = tempfile::tempdir().expect("temporary folder");
     fs::write(place.path().join("x.txt"), b"old").expect("write");
     let refusing = OutputFolder::open(place.path(), Existing::Refuse).expect("open");
-    let told = refusing.claim(["y.txt", "x.txt"]).expect_err("x.txt is there").to_string();
+    let message = refusing.claim(["y.txt", "x.txt"]).expect_err("x.txt is there").to_string();
     assert!(
-        told.ends_with("x.txt: already there; choose another output folder, or allow it with `overwrite`"),
-        "{told}"
+        message.ends_with("x.txt: already there; choose another output folder, or allow it with `overwrite`"),
+        "{message}"
     );
     drop(refusing);
     let mut replacing = OutputFolder::open(place.path(), Existing::Replace).expect("open");
@@ -79,8 +79,8 @@ fn a_file_that_appears_during_the_run_is_not_overwritten() {
 fn one_run_at_a_time_has_a_folder() {
     let place = tempfile::tempdir().expect("temporary folder");
     let first = OutputFolder::open(place.path(), Existing::Refuse).expect("free");
-    let told = OutputFolder::open(place.path(), Existing::Replace).expect_err("taken").to_string();
-    assert!(told.contains("another run of this process writes into this folder"), "{told}");
+    let message = OutputFolder::open(place.path(), Existing::Replace).expect_err("taken").to_string();
+    assert!(message.contains("another run of this process writes into this folder"), "{message}");
     OutputFolder::open_part(place.path(), "a", Existing::Refuse).expect_err("taken");
     let again = first.again(Existing::Replace).expect("the same run");
     drop(first);
@@ -124,14 +124,14 @@ fn links_are_not_followed() {
     symlink(&foreign, root.join("deep")).expect("link");
     let refusing = OutputFolder::open(&root, Existing::Refuse).expect("open");
     for name in ["x.txt", "y.txt"] {
-        let told = refusing.claim([name]).expect_err("a link is there").to_string();
-        assert!(told.contains("already there"), "{told}");
+        let message = refusing.claim([name]).expect_err("a link is there").to_string();
+        assert!(message.contains("already there"), "{message}");
     }
     drop(refusing);
     let mut replacing = OutputFolder::open(&root, Existing::Replace).expect("open");
-    for told in [replacing.claim(["deep/z.txt"]), replacing.write("deep/z.txt", b"")] {
-        let told = told.expect_err("a link in the place of a folder").to_string();
-        assert!(told.contains("a symbolic link is in the place of a folder of results"), "{told}");
+    for message in [replacing.claim(["deep/z.txt"]), replacing.write("deep/z.txt", b"")] {
+        let message = message.expect_err("a link in the place of a folder").to_string();
+        assert!(message.contains("a symbolic link is in the place of a folder of results"), "{message}");
     }
     ["x.txt", "y.txt"].iter().for_each(|name| replacing.write(name, b"ours").expect("write"));
     replacing.commit().expect("commit");
@@ -144,8 +144,8 @@ fn links_are_not_followed() {
 fn a_name_that_is_too_long_is_refused_before_anything_is_made() {
     let place = tempfile::tempdir().expect("temporary folder");
     let out = OutputFolder::open(place.path(), Existing::Replace).expect("open");
-    let told = out.claim([format!("{}/x.txt", "n".repeat(300)).as_str()]).expect_err("too long").to_string();
-    assert!(told.contains("cannot be written: "), "{told}");
+    let message = out.claim([format!("{}/x.txt", "n".repeat(300)).as_str()]).expect_err("too long").to_string();
+    assert!(message.contains("cannot be written: "), "{message}");
 }
 
 #[test]
@@ -164,6 +164,6 @@ fn a_file_in_the_place_of_the_folder_is_named() {
     let place = tempfile::tempdir().expect("temporary folder");
     let file = place.path().join("taken");
     fs::write(&file, b"").expect("write");
-    let told = OutputFolder::open(&file, Existing::Replace).expect_err("a file").to_string();
-    assert!(told.contains("expected a folder for the results, but this is a file"), "{told}");
+    let message = OutputFolder::open(&file, Existing::Replace).expect_err("a file").to_string();
+    assert!(message.contains("expected a folder for the results, but this is a file"), "{message}");
 }

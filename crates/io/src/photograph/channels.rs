@@ -187,8 +187,8 @@ mod tests {
             let read = decode_pfm(Path::new("a.pfm"), &file).expect("a PFM");
             assert_eq!((read.width, read.height), (2, 2));
             assert_eq!(read.channels[0].samples, [f32::INFINITY, 4.0, 1.0, 2.0]);
-            let told = decode_pfm(Path::new("a.pfm"), &file[..file.len() - 1]).expect_err("cut").to_string();
-            assert!(told.contains("15 bytes of pixels"), "{told}");
+            let message = decode_pfm(Path::new("a.pfm"), &file[..file.len() - 1]).expect_err("cut").to_string();
+            assert!(message.contains("15 bytes of pixels"), "{message}");
         }
         for header in ["Pf\n2 0\n-1\n", "Pf\n2 2\n0\n", "Pf\n2"] {
             assert!(decode_pfm(Path::new("a.pfm"), header.as_bytes()).is_err(), "{header}");

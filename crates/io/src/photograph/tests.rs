@@ -43,15 +43,15 @@ fn tiff_of_every_width_keeps_its_numbers() {
 #[test]
 fn a_tiff_that_is_cut_or_strange_is_refused() {
     let whole = tiff::<colortype::Gray16>(64, 64, &[7; 4096]);
-    let told = read(&whole[..whole.len() / 2]).expect_err("cut");
-    assert!(told.starts_with("t.tif: not a readable TIFF"), "{told}");
-    let told = read(&tiff::<colortype::CMYK8>(1, 1, &[1, 2, 3, 4])).expect_err("ink");
-    assert_eq!(told, "t.tif: a TIFF of CMYK(8); expected grey or RGB: convert it");
-    let told = read(b"{}").expect_err("no picture");
+    let message = read(&whole[..whole.len() / 2]).expect_err("cut");
+    assert!(message.starts_with("t.tif: not a readable TIFF"), "{message}");
+    let message = read(&tiff::<colortype::CMYK8>(1, 1, &[1, 2, 3, 4])).expect_err("ink");
+    assert_eq!(message, "t.tif: a TIFF of CMYK(8); expected grey or RGB: convert it");
+    let message = read(b"{}").expect_err("no picture");
     let kinds = "expected PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR, PFM or OpenEXR";
-    assert_eq!(told, format!("t.tif: not a picture of a known kind; {kinds}"));
-    let told = read(&tiff::<colortype::Gray32Float>(1, 1, &[f32::NAN])).expect_err("no number");
-    assert_eq!(told, "t.tif: sample 0 is NaN; expected finite numbers");
+    assert_eq!(message, format!("t.tif: not a picture of a known kind; {kinds}"));
+    let message = read(&tiff::<colortype::Gray32Float>(1, 1, &[f32::NAN])).expect_err("no number");
+    assert_eq!(message, "t.tif: sample 0 is NaN; expected finite numbers");
 }
 
 #[test]

@@ -53,8 +53,8 @@ impl<'a> Lines<'a> {
 
     fn above_0(&self, line: usize, what: &str) -> Result<f64, Error> {
         let value = self.number(line, what)?;
-        let told = || Error::at(self.file, line, format!("found {value}; expected {what}: above 0"));
-        if value > 0.0 { Ok(value) } else { Err(told()) }
+        let message = || Error::at(self.file, line, format!("found {value}; expected {what}: above 0"));
+        if value > 0.0 { Ok(value) } else { Err(message()) }
     }
 }
 

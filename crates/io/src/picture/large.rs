@@ -273,17 +273,17 @@ mod tests {
         picture.save_with_format(&file, ImageFormat::Png).expect("writable");
         let whole = std::fs::read(&file).expect("file");
         std::fs::write(&file, &whole[..whole.len() / 2]).expect("write");
-        let told = rows(&file).expect_err("half of it");
-        assert_eq!(told, read_picture(&file).expect_err("half of it").to_string());
-        assert!(told.contains("it may be truncated or damaged"), "{told}");
+        let message = rows(&file).expect_err("half of it");
+        assert_eq!(message, read_picture(&file).expect_err("half of it").to_string());
+        assert!(message.contains("it may be truncated or damaged"), "{message}");
         std::fs::write(&file, &whole).expect("write");
         let large = large_picture(&file, head(&file).expect("a head")).expect("readable");
         std::fs::write(&file, &whole[..whole.len() / 2]).expect("write");
-        let told = large.rows.read(&mut |_| Ok(())).expect_err("another file");
-        assert!(told.ends_with("t.png: the file was changed while it was read; run again"), "{told}");
+        let message = large.rows.read(&mut |_| Ok(())).expect_err("another file");
+        assert!(message.ends_with("t.png: the file was changed while it was read; run again"), "{message}");
         std::fs::remove_file(&file).expect("remove");
-        let told = large.rows.read(&mut |_| Ok(())).expect_err("no file");
-        assert!(told.ends_with("t.png: no such picture file; check the path"), "{told}");
+        let message = large.rows.read(&mut |_| Ok(())).expect_err("no file");
+        assert!(message.ends_with("t.png: no such picture file; check the path"), "{message}");
     }
 
     #[test]

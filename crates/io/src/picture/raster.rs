@@ -187,11 +187,11 @@ pub(super) fn check_finite(file: &Path, width: u32, pixels: &ImagePixels) -> Res
 fn check<const N: usize>(file: &Path, width: u32, pixels: &[[f32; N]]) -> Result<(), Error> {
     let Some(at) = pixels.iter().position(|p| !p.iter().all(|v| v.is_finite())) else { return Ok(()) };
     let (x, y) = (at % width as usize, at / width as usize);
-    let told = format!(
+    let message = format!(
         "pixel ({x}, {y}) is {:?}; expected finite numbers: cut the picture to its range before use",
         pixels[at]
     );
-    Err(Error::new(file, told))
+    Err(Error::new(file, message))
 }
 
 #[cfg(test)]
@@ -235,8 +235,11 @@ mod tests {
         assert_eq!(read(&exr).expect("readable"), ImagePixels::Rgba32F(vec![[0.25; 4]]));
         let exr = crate::exr::tests_support::picture(1, 1, &["Y", "A"], 0.5);
         assert_eq!(read(&exr).expect("readable"), ImagePixels::Rgba32F(vec![[0.5; 4]]));
-        let told = read(&crate::exr::tests_support::picture(1, 1, &["Y", "A"], f32::NAN)).expect_err("no number");
-        assert!(told.starts_with("t.png: pixel (0, 0) is [NaN, NaN, NaN, NaN]; expected finite numbers"), "{told}");
+        let message = read(&crate::exr::tests_support::picture(1, 1, &["Y", "A"], f32::NAN)).expect_err("no number");
+        assert!(
+            message.starts_with("t.png: pixel (0, 0) is [NaN, NaN, NaN, NaN]; expected finite numbers"),
+            "{message}"
+        );
     }
 
     #[test]
@@ -267,11 +270,11 @@ mod tests {
         for format in [ImageFormat::Png, ImageFormat::Jpeg] {
             let bytes = encoded(&picture, format);
             read(&bytes).expect("whole");
-            let told = read(&bytes[..bytes.len() * 2 / 3]).expect_err("truncated");
-            assert!(told.starts_with("t.png: ") && told.contains("truncated"), "{told}");
+            let message = read(&bytes[..bytes.len() * 2 / 3]).expect_err("truncated");
+            assert!(message.starts_with("t.png: ") && message.contains("truncated"), "{message}");
         }
-        let told = read(b"#!/bin/sh\n").expect_err("a script");
-        assert_eq!(told, "t.png: not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR");
+        let message = read(b"#!/bin/sh\n").expect_err("a script");
+        assert_eq!(message, "t.png: not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR");
     }
 
     #[test]
@@ -279,10 +282,10 @@ mod tests {
         let mut exr = crate::exr::tests_support::picture(2, 2, &["R", "G", "B"], 1.0);
         assert!(matches!(read(&exr), Ok(ImagePixels::Rgb32F(_))));
         exr = crate::exr::tests_support::picture(2, 2, &["R", "G", "B"], f32::INFINITY);
-        let told = read(&exr).expect_err("infinite");
-        assert!(told.starts_with("t.png: pixel (0, 0) is [inf, inf, inf]; expected finite numbers"), "{told}");
-        let told = read(&crate::exr::tests_support::picture(2, 2, &["depth.Z"], 1.0)).expect_err("no colours");
-        assert_eq!(told, "t.png: no picture of R, G, B or Y; its channels are depth.Z");
+        let message = read(&exr).expect_err("infinite");
+        assert!(message.starts_with("t.png: pixel (0, 0) is [inf, inf, inf]; expected finite numbers"), "{message}");
+        let message = read(&crate::exr::tests_support::picture(2, 2, &["depth.Z"], 1.0)).expect_err("no colours");
+        assert_eq!(message, "t.png: no picture of R, G, B or Y; its channels are depth.Z");
     }
 
     #[test]

@@ -63,8 +63,8 @@ fn terms(item: &Node) -> Read<Vec<TermAsset>> {
     let counts = [coefficients.len(), powers[0].len(), powers[1].len(), powers[2].len()];
     if counts.iter().any(|count| *count != counts[0]) {
         let [c, r, dx, dy] = counts;
-        let told = format!("found {c} coefficients and {r}, {dx} and {dy} powers; expected as many of each");
-        return Err(Fault::at(item.line, told));
+        let message = format!("found {c} coefficients and {r}, {dx} and {dy} powers; expected as many of each");
+        return Err(Fault::at(item.line, message));
     }
     if counts[0] > MAX_TERMS {
         return Err(Fault::coded(
@@ -80,8 +80,8 @@ fn terms(item: &Node) -> Read<Vec<TermAsset>> {
 fn powers(node: &Node) -> Read<Vec<u8>> {
     let power = |value: f64| {
         let whole = value.fract() == 0.0 && (0.0..=f64::from(MAX_POWER)).contains(&value);
-        let told = || format!("found the power {value}; expected a whole number from 0 to {MAX_POWER}");
-        if whole { Ok(value as u8) } else { Err(Fault::at(node.line, told())) }
+        let message = || format!("found the power {value}; expected a whole number from 0 to {MAX_POWER}");
+        if whole { Ok(value as u8) } else { Err(Fault::at(node.line, message())) }
     };
     node.numbers()?.into_iter().map(power).collect()
 }

@@ -62,8 +62,8 @@ fn read(text: &str) -> Read<RayTransferAsset> {
     let read = |node: &Node| functions::read(node, output_offset_mm, with_dz);
     let mut transfers = items.iter().map(read).collect::<Read<Vec<_>>>()?;
     if transfers.len() > MAX_WAVELENGTHS {
-        let told = format!("holds {} wavelengths; expected {MAX_WAVELENGTHS} at most", transfers.len());
-        return Err(Fault::at(polynomials.line, told));
+        let message = format!("holds {} wavelengths; expected {MAX_WAVELENGTHS} at most", transfers.len());
+        return Err(Fault::at(polynomials.line, message));
     }
     if transfers.is_empty() {
         return Err(Fault::coded(ErrorCode::Empty, polynomials.line, "holds no wavelength; expected one at least"));

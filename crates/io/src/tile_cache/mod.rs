@@ -191,10 +191,10 @@ mod tests {
         fs::write(&file, bytes).expect("write");
         let found = cache.find(&KEY, &LENGTHS).expect("head and length are right");
         assert_eq!(read(&*found, 0), Ok(block(0)));
-        let told = read(&*found, 2).expect_err("one bit is another");
+        let message = read(&*found, 2).expect_err("one bit is another");
         assert!(
-            told.ends_with(".tiles: block 2 is damaged; the file was removed: run again, and it is made anew"),
-            "{told}"
+            message.ends_with(".tiles: block 2 is damaged; the file was removed: run again, and it is made anew"),
+            "{message}"
         );
         assert!(!file.exists());
     }
@@ -211,8 +211,11 @@ mod tests {
         assert_eq!(fs::read_dir(place.path()).expect("folder").count(), 0);
         fs::write(place.path().join("file"), b"").expect("write");
         let in_file = TileCache::new(Some(&place.path().join("file/folder")), CacheUse::Keep);
-        let told = in_file.make(&KEY, &LENGTHS, &mut fill).expect_err("a file is no folder");
-        assert!(told.starts_with("the cache folder ") && told.contains("file/folder cannot be written: "), "{told}");
+        let message = in_file.make(&KEY, &LENGTHS, &mut fill).expect_err("a file is no folder");
+        assert!(
+            message.starts_with("the cache folder ") && message.contains("file/folder cannot be written: "),
+            "{message}"
+        );
     }
 
     /// The test's own limit applies to all tests of the process: it is far above what they write.

@@ -105,10 +105,10 @@ fn lamps_and_tables_are_read_by_their_kind() {
     assert_eq!(assets.indices[&folder.join("nk.csv")].points[1], (500.0, 1.0, 3.0));
     assert_eq!(assets.retro_tables[&folder.join("ra.csv")].row(0), [70.0, 30.0]);
     write(folder, &[("l.ies", &lamp[..lamp.len() - 3])]);
-    let told = load_assets(&requests).expect_err("a truncated lamp")[0].to_string();
+    let message = load_assets(&requests).expect_err("a truncated lamp")[0].to_string();
     assert!(
-        told.contains("l.ies:6: the file ends here; expected intensity 2 of 2") && told.contains("(named at "),
-        "{told}"
+        message.contains("l.ies:6: the file ends here; expected intensity 2 of 2") && message.contains("(named at "),
+        "{message}"
     );
 }
 
@@ -161,12 +161,12 @@ fn a_texture_that_a_mesh_names_in_vain_is_told_with_the_mesh() {
     write(folder, &[("m.obj", PLAIN_OBJ.as_bytes()), ("m.mtl", b"newmtl x\nmap_Kd lost.png\n")]);
     write(folder, &[("t.png", &png(10)), ("b.csv", b"400,0.5\n700,0.5\n")]);
     let errors = load_assets(&description(folder).assets()).expect_err("a lost texture");
-    let told = errors[0].to_string().replace(&format!("{}/", folder.display()), "");
-    assert!(errors.len() == 1 && told.starts_with("lost.png: no such picture file; check the path"), "{told}");
-    assert!(told.contains("named at m.obj"), "{told}");
-    assert!(told.ends_with("; a path is relative to the file that names it)"), "{told}");
-    let told = read_picture(&folder.join("lost.png")).expect_err("nobody names it").to_string();
-    assert!(told.ends_with("lost.png: no such picture file; check the path"), "{told}");
-    let told = read_picture(folder).expect_err("a folder").to_string();
-    assert!(told.ends_with(": this is a folder; name a file in it"), "{told}");
+    let message = errors[0].to_string().replace(&format!("{}/", folder.display()), "");
+    assert!(errors.len() == 1 && message.starts_with("lost.png: no such picture file; check the path"), "{message}");
+    assert!(message.contains("named at m.obj"), "{message}");
+    assert!(message.ends_with("; a path is relative to the file that names it)"), "{message}");
+    let message = read_picture(&folder.join("lost.png")).expect_err("nobody names it").to_string();
+    assert!(message.ends_with("lost.png: no such picture file; check the path"), "{message}");
+    let message = read_picture(folder).expect_err("a folder").to_string();
+    assert!(message.ends_with(": this is a folder; name a file in it"), "{message}");
 }

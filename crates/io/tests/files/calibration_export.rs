@@ -128,9 +128,9 @@ fn a_skew_is_refused_by_all() {
     let skewed = CameraMatrix { skew: 0.8, ..MATRIX };
     let calibration = Calibration::new(perspective(&[]), skewed, [640, 480]).expect("legal");
     let named = NamedCamera { name: "left", calibration: &calibration };
-    let refused = |told: Result<String, String>| {
-        let told = told.expect_err("a skew");
-        assert!(told.contains("the skew of 0.8 px"), "{told}");
+    let refused = |message: Result<String, String>| {
+        let message = message.expect_err("a skew");
+        assert!(message.contains("the skew of 0.8 px"), "{message}");
     };
     refused(ros::camera_info(&named, 0.0));
     refused(kalibr::intrinsics(&named).map(|_| String::new()));

@@ -125,10 +125,10 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     assert_eq!(shown("instance.ID"), shown("semantic"));
     assert_eq!(shown("instance")[0], [0; 3], "the background");
     assert_eq!(shown("N"), [[128, 204, 26]; 6]);
-    let told = of("flow").expect_err("none").to_string();
-    assert!(told.ends_with("there is no layer \"flow\"; give one of N, depth, instance, semantic"), "{told}");
-    let told = inspect(&written(folder.path(), "job.toml", b"format = 1\n")).expect_err("no result").to_string();
-    assert!(told.contains("job.toml: a description, neither result nor asset"), "{told}");
+    let message = of("flow").expect_err("none").to_string();
+    assert!(message.ends_with("there is no layer \"flow\"; give one of N, depth, instance, semantic"), "{message}");
+    let message = inspect(&written(folder.path(), "job.toml", b"format = 1\n")).expect_err("no result").to_string();
+    assert!(message.contains("job.toml: a description, neither result nor asset"), "{message}");
 }
 
 #[test]
@@ -150,8 +150,8 @@ fn a_truncated_file_is_refused() {
     let bytes = encode_spectral(&cube::<Radiance>(0.0), None, &provenance()).expect("encodable");
     for share in [0.01, 0.3, 0.9] {
         let path = written(folder.path(), "a.exr", &bytes[..(bytes.len() as f64 * share) as usize]);
-        let told = read_spectral(&path).expect_err("truncated").to_string();
-        assert!(told.contains("a.exr: not a readable EXR file") && told.contains("truncated"), "{told}");
+        let message = read_spectral(&path).expect_err("truncated").to_string();
+        assert!(message.contains("a.exr: not a readable EXR file") && message.contains("truncated"), "{message}");
     }
 }
 
@@ -159,8 +159,8 @@ fn a_truncated_file_is_refused() {
 fn what_is_no_spectral_image_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let plane = encode_plane(&Plane::<MeanElectrons>::new(2, 2), None, &provenance()).expect("encodable");
-    let told = read_spectral(&written(folder.path(), "a.exr", &plane)).expect_err("electrons").to_string();
-    assert!(told.contains("holds electrons in e; expected spectral radiance in W.m^-2.sr^-1.nm^-1"), "{told}");
+    let message = read_spectral(&written(folder.path(), "a.exr", &plane)).expect_err("electrons").to_string();
+    assert!(message.contains("holds electrons in e; expected spectral radiance in W.m^-2.sr^-1.nm^-1"), "{message}");
 }
 
 #[test]

@@ -123,8 +123,8 @@ fn changed(change: impl FnOnce(&mut Value)) -> Result<MeshAsset, String> {
 
 #[track_caller]
 fn refused(phrases: &[&str], change: impl FnOnce(&mut Value)) {
-    let told = changed(change).expect_err("damaged");
-    assert!(told.starts_with("a.gltf: ") && phrases.iter().all(|p| told.contains(p)), "{told}");
+    let message = changed(change).expect_err("damaged");
+    assert!(message.starts_with("a.gltf: ") && phrases.iter().all(|p| message.contains(p)), "{message}");
 }
 
 /// A tiny PNG of one colour.
@@ -300,10 +300,12 @@ fn buffers_and_pictures_are_found_beside_the_file() {
     let whole =
         read_bytes("a.gltf", file.to_string().as_bytes(), &[("my data.bin", &bytes)]).expect("found by its name");
     assert_eq!(whole.positions, changed(|_| {}).expect("whole").positions);
-    let told = read_bytes("a.gltf", file.to_string().as_bytes(), &[]).expect_err("missing");
+    let message = read_bytes("a.gltf", file.to_string().as_bytes(), &[]).expect_err("missing");
     assert!(
-        told.contains("buffer 0 is not there") && told.contains("far away/my data.bin") && told.contains("nor "),
-        "{told}"
+        message.contains("buffer 0 is not there")
+            && message.contains("far away/my data.bin")
+            && message.contains("nor "),
+        "{message}"
     );
 }
 
@@ -311,8 +313,8 @@ fn buffers_and_pictures_are_found_beside_the_file() {
 fn damage_is_told() {
     let glb = fs::read(oracle("scene.glb")).expect("the file");
     for cut in [4, 11, 20, 100, glb.len() - 1] {
-        let told = read_bytes("a.glb", &glb[..cut], &[]).expect_err("truncated");
-        assert!(told.starts_with("a.glb: ") && told.contains("truncated"), "{cut}: {told}");
+        let message = read_bytes("a.glb", &glb[..cut], &[]).expect_err("truncated");
+        assert!(message.starts_with("a.glb: ") && message.contains("truncated"), "{cut}: {message}");
     }
     refused(&["EXT_unheard", "not known"], |file| {
         file["extensionsUsed"] = json!(["EXT_unheard"]);
@@ -354,8 +356,8 @@ fn damage_is_told() {
     });
     refused(&["version 1.0"], |file| file["asset"]["version"] = json!("1.0"));
     refused(&["no triangles"], |file| file["scenes"][0]["nodes"] = json!([]));
-    let told = read_bytes("a.gltf", b"{ \"asset\": ", &[]).expect_err("cut off");
-    assert!(told.contains("JSON") && told.contains("line 1"), "{told}");
+    let message = read_bytes("a.gltf", b"{ \"asset\": ", &[]).expect_err("cut off");
+    assert!(message.contains("JSON") && message.contains("line 1"), "{message}");
 }
 
 /// A small file must not fill the memory through nodes that show a mesh repeatedly.
@@ -374,6 +376,6 @@ fn nodes_that_multiply_a_mesh_are_limited() {
 #[test]
 fn lists_of_empty_objects_are_limited() {
     let json = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"materials\":[{}{{}}]}}", "{},".repeat(5_000_000));
-    let told = read_bytes("a.gltf", json.as_bytes(), &[]).expect_err("too many");
-    assert!(told.contains("5000003 objects") && told.contains("mesh-mib"), "{told}");
+    let message = read_bytes("a.gltf", json.as_bytes(), &[]).expect_err("too many");
+    assert!(message.contains("5000003 objects") && message.contains("mesh-mib"), "{message}");
 }

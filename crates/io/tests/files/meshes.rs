@@ -22,8 +22,8 @@ fn read(text: &str, others: &[(&str, &str)]) -> Result<MeshAsset, String> {
 
 #[test]
 fn a_missing_mesh_says_so() {
-    let told = read_mesh(Path::new("nowhere/a.obj")).expect_err("missing").to_string();
-    assert_eq!(told, "nowhere/a.obj: no such mesh file; check the path");
+    let message = read_mesh(Path::new("nowhere/a.obj")).expect_err("missing").to_string();
+    assert_eq!(message, "nowhere/a.obj: no such mesh file; check the path");
     assert_eq!(read("", &[]), Err("a.obj: this mesh file is empty".to_owned()));
 }
 

@@ -182,9 +182,9 @@ fn damaged_rows_are_refused_with_their_line() {
         "a.ply:23: face 0: polygon of 4 corners crosses itself; triangulate the mesh where it was modelled",
     );
     let whole = STAR.len();
-    let told = read_bytes("a.ply", &STAR.as_bytes()[..whole - 5]).expect_err("truncated");
+    let message = read_bytes("a.ply", &STAR.as_bytes()[..whole - 5]).expect_err("truncated");
     assert_eq!(
-        told,
+        message,
         "a.ply:23: the head tells of 1 elements `edge`, for which the file is too short: it is truncated, or its head is wrong; export or copy it again"
     );
     refused_star(
@@ -207,8 +207,8 @@ fn huge_counts_are_refused_at_once() {
         ("element face 1", "element face 18446744073709551615", "18446744073709551615 elements `face`"),
         ("element edge 1", "element edge 99999999999", "99999999999 elements `edge`"),
     ] {
-        let told = read_bytes("a.ply", STAR.replace(from, to).as_bytes()).expect_err("too many");
-        assert!(told.contains(element) && told.contains("too short"), "{told}");
+        let message = read_bytes("a.ply", STAR.replace(from, to).as_bytes()).expect_err("too many");
+        assert!(message.contains(element) && message.contains("too short"), "{message}");
     }
     refused_star(
         "7 5 0 1 2 3 4",
@@ -224,14 +224,14 @@ fn the_wrong_order_of_bytes_is_told() {
     let head = little.windows(11).position(|w| w == b"end_header\n").expect("a head");
     let text = String::from_utf8(little[..head].to_vec()).expect("text").replace("little_endian", "big_endian");
     let bytes = [text.as_bytes(), &little[head..]].concat();
-    let told = read_bytes("a.ply", &bytes).expect_err("the wrong order");
+    let message = read_bytes("a.ply", &bytes).expect_err("the wrong order");
     assert!(
-        told.starts_with("a.ply: ")
-            && told.ends_with("or its numbers are little-endian where the head says big-endian; export it again"),
-        "{told}"
+        message.starts_with("a.ply: ")
+            && message.ends_with("or its numbers are little-endian where the head says big-endian; export it again"),
+        "{message}"
     );
     for end in [little.len() - 1, little.len() / 2, head + 20] {
-        let told = read_bytes("a.ply", &little[..end]).expect_err("truncated");
-        assert!(told.contains("truncated"), "{told}");
+        let message = read_bytes("a.ply", &little[..end]).expect_err("truncated");
+        assert!(message.contains("truncated"), "{message}");
     }
 }

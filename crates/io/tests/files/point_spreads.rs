@@ -115,7 +115,7 @@ fn listings_that_cannot_be_used_are_told_with_their_line() {
         (format!("{NEW}\nand\n1 2\n"), &["psf.txt:29", "second table"]),
         ("Listing of Huygens PSF Data\n".to_owned(), &["no row of numbers"]),
     ] {
-        let told = read(&listing).expect_err("cannot be used");
-        assert!(phrases.iter().all(|phrase| told.contains(phrase)), "{phrases:?}: {told}");
+        let message = read(&listing).expect_err("cannot be used");
+        assert!(phrases.iter().all(|phrase| message.contains(phrase)), "{phrases:?}: {message}");
     }
 }

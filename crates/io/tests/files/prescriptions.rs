@@ -114,11 +114,11 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
     ] {
         let (glass, notes) = glass_of(line);
         assert_eq!(glass, GlassAsset::Named(today.into()));
-        let told = format!(
+        let message = format!(
             "line 26: no catalogue here has {}: its successor {today} is taken",
             &line[5..line.find(" 0").expect("a mode")]
         );
-        assert!(notes[0].starts_with(&told), "{notes:?}");
+        assert!(notes[0].starts_with(&message), "{notes:?}");
         assert_eq!(
             notes[0].contains("of its line, which a catalogue glass leaves unused"),
             !line.contains("1.5 "),
@@ -152,8 +152,11 @@ fn a_glass_without_successor_is_taken_by_its_line_and_one_name_has_one_index() {
     assert!(twice("GLAS FCD505 0 0 1.59282 68.63").is_ok());
     // A model glass is defined by its numbers.
     assert!(twice("GLAS FCD505 1 0 1.7 40").is_ok());
-    let told = twice("GLAS FCD505 0 0 1.61765 55.14").expect_err("two indices of one glass");
-    assert!(told.contains("FCD505 has n_d 1.61765 and V_d 55.14 here, n_d 1.59282 and V_d 68.63 in line 26"), "{told}");
+    let message = twice("GLAS FCD505 0 0 1.61765 55.14").expect_err("two indices of one glass");
+    assert!(
+        message.contains("FCD505 has n_d 1.61765 and V_d 55.14 here, n_d 1.59282 and V_d 68.63 in line 26"),
+        "{message}"
+    );
 }
 
 #[test]

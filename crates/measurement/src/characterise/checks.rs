@@ -67,14 +67,14 @@ fn differing(shots: &[&Shot], name: &str, fact: Fact) -> Vec<String> {
     }
     let Some((usual, (_, first))) = counts.iter().max_by_key(|(_, (count, _))| *count) else { return Vec::new() };
     let others = shots.iter().filter_map(|shot| Some((shot, fact(shot).filter(|said| said != usual)?)));
-    let told = |(shot, said): (&&Shot, String)| {
+    let message = |(shot, said): (&&Shot, String)| {
         format!(
             "{}: not of the same camera and setting as {}: its {name} is {said}, there {usual}; a laboratory folder holds pictures of one camera at one gain",
             shot.name(),
             first.name()
         )
     };
-    others.map(told).collect()
+    others.map(message).collect()
 }
 
 fn copies(shots: &[Shot]) -> Vec<String> {

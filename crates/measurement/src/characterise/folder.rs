@@ -97,14 +97,14 @@ fn exposure_s(root: &Path, stated: &record::Laboratory, file: &Path) -> Option<f
 /// Refuses named folders that do not exist: a key without effect is a mistake.
 fn check_stated(root: &Path, file: &Path, stated: &record::Laboratory) -> Result<(), Error> {
     let lost = stated.exposures_s.iter().filter(|(folder, _)| !root.join(&folder.value).is_dir());
-    let told = |folder: &str| {
+    let sentence = |folder: &str| {
         format!(
             "{}: exposures_s: there is no folder {folder} here; name one from the laboratory folder",
             file.display()
         )
     };
     let mut faults: Vec<Fault> =
-        lost.map(|(folder, _)| Fault::new(ErrorCode::MissingFile, told(&folder.value))).collect();
+        lost.map(|(folder, _)| Fault::new(ErrorCode::MissingFile, sentence(&folder.value))).collect();
     let tables = [
         (stated.flat.is_some(), Kind::Flat),
         (stated.chart.is_some(), Kind::Chart),
@@ -134,11 +134,11 @@ fn files(root: &Path) -> Result<Vec<(Kind, PathBuf)>, Error> {
     }
     if found.is_empty() {
         let names = Kind::ALL.map(|kind| format!("{}/ ({})", kind.folder(), kind.about())).join(", ");
-        let told = format!(
+        let message = format!(
             "{}: no pictures to characterise a camera by; expected folders of these names with pictures in them: {names}",
             root.display()
         );
-        return Err(Error::coded(ErrorCode::Empty, told));
+        return Err(Error::coded(ErrorCode::Empty, message));
     }
     Ok(found)
 }

@@ -120,13 +120,13 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
             DepthAlignment::Median => Alignment::Median,
         },
     };
-    let told = |error| {
+    let message = |error| {
         Error::coded(
             ErrorCode::NotComparable,
             format!("{} against {}: {error}", request.estimate.display(), request.truth.display()),
         )
     };
-    let found = measure_depth(&estimate, &truth, &settings).map_err(told)?;
+    let found = measure_depth(&estimate, &truth, &settings).map_err(message)?;
     let mut report =
         Report::new("depth", "depth against the truth, pixels at edges apart (± one standard uncertainty)");
     report.figure("bias_m", "bias", "m", found.all.bias_m);

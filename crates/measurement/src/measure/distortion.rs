@@ -43,8 +43,8 @@ impl DistortionRequest {
 pub fn distortion(request: &DistortionRequest) -> Result<Report, Error> {
     let seen = request.chart.seen(&request.file)?;
     let centre = request.centre_px.map(DVec2::from);
-    let told = |error| Error::coded(ErrorCode::NotMeasurable, format!("{}: {error}", request.file.display()));
-    let found = fitted(&seen.grid, seen.size_px, centre).map_err(told)?;
+    let message = |error| Error::coded(ErrorCode::NotMeasurable, format!("{}: {error}", request.file.display()));
+    let found = fitted(&seen.grid, seen.size_px, centre).map_err(message)?;
     Ok(report(&seen, &found, request.chart.points))
 }
 

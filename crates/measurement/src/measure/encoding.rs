@@ -44,8 +44,9 @@ fn table(file: &Path) -> Result<Encoding, Error> {
     let table = read_numbers(file).map_err(Error::input)?;
     if table.columns != 2 {
         let file = file.display();
-        let told = format!("{file}: {} columns; expected two: light and number, or exposure and number", table.columns);
-        return Err(Error::coded(ErrorCode::UnsuitableFile, told));
+        let message =
+            format!("{file}: {} columns; expected two: light and number, or exposure and number", table.columns);
+        return Err(Error::coded(ErrorCode::UnsuitableFile, message));
     }
     let points: Vec<(f64, f64)> = table.rows().map(|row| (row[0], row[1])).collect();
     let of_light = points.first().is_some_and(|first| first.0 == 0.0);
@@ -75,8 +76,8 @@ impl EncodingChoice {
         let Some(stated) = self.stated()? else { return Ok(photograph) };
         if photograph.raw.is_some() && stated.encoding != Encoding::Linear {
             let (file, reason) = (file.display(), &photograph.stated.reason);
-            let told = format!("{file}: raw numbers in proportion to light ({reason}): leave `encoding` out");
-            return Err(Error::coded(ErrorCode::NoEffect, told));
+            let message = format!("{file}: raw numbers in proportion to light ({reason}): leave `encoding` out");
+            return Err(Error::coded(ErrorCode::NoEffect, message));
         }
         photograph.stated = stated;
         Ok(photograph)

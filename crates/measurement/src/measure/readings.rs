@@ -80,8 +80,8 @@ impl Readings {
         let [x, y, width, height] = region;
         let (columns, rows) = self.picture_px;
         if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
-            let told = format!("{name}: lies beyond the {columns} × {rows} pixels that are measured");
-            return Err(Error::coded(ErrorCode::OutOfRange, told));
+            let message = format!("{name}: lies beyond the {columns} × {rows} pixels that are measured");
+            return Err(Error::coded(ErrorCode::OutOfRange, message));
         }
         let at = self.of_region(region);
         let none = || {

@@ -1,8 +1,8 @@
 //! Errors shared by the points of one line of the chart, and their effect on the camera's covariance.
 //!
 //! In a frontal view all points of a column have the same sub-pixel phase, so the pixel raster affects them equally. Row and
-//! column noise of the sensor, and a displaced line of the printed chart, are shared as well. The error model is therefore e = ε
-//! + a column's + a row's, separately for x and y, independent with variances σ² and τₖ² of four kinds k. They are estimated by
+//! column noise of the sensor, and a displaced line of the printed chart, are shared as well. The error model is therefore e = ε + a
+//! column's + a row's, separately for x and y, independent with variances σ² and τₖ² of four kinds k. They are estimated by
 //! moments: with residuals r = M e, M = 1 − J (JᵀJ)⁻¹Jᵀ, and z_g the indicator vector (0 and 1) of line g of n_g points,
 //!
 //! ```text

@@ -233,9 +233,9 @@ mod tests {
     use super::*;
 
     /// A star blurred by a Gaussian (exact from its local frequency for many cycles) and a square pixel (by 6 × 6 points).
-    fn picture(centre: (f64, f64), cycles: f64, sigma: f64) -> Image {
+    fn star_image(centre_x: f64, centre_y: f64, cycles: f64, sigma: f64) -> Image {
         let at = |x: f64, y: f64| {
-            let (dx, dy) = (x - centre.0, y - centre.1);
+            let (dx, dy) = (x - centre_x, y - centre_y);
             let f = cycles / (TAU * hypot(dx, dy).max(1.0));
             let blur = exp(-2.0 * PI * PI * sigma * sigma * f * f);
             1000.0 * (1.0 + 0.8 * blur * sin_cos(cycles * atan2(dy, dx)).1)
@@ -251,7 +251,7 @@ mod tests {
     #[test]
     fn a_star_gives_the_response_of_lens_and_pixel() {
         let (centre, sigma) = ((80.6, 79.2), 0.5);
-        let image = picture(centre, 48.0, sigma);
+        let image = star_image(centre.0, centre.1, 48.0, sigma);
         let star = Star {
             centre_px: (80.0, 80.0),
             cycles: 48,
@@ -284,11 +284,11 @@ mod tests {
         assert!(matches!(measure_star(&even, &star), Err(TextureError::NoStar { .. } | TextureError::Star(_))));
         let large = Star { outer_px: 79.0, ..star };
         assert!(matches!(measure_star(&even, &large), Err(TextureError::Star(_))));
-        let image = picture((82.9, 79.3), 48.0, 0.5);
+        let image = star_image(82.9, 79.3, 48.0, 0.5);
         let beside = measure_star(&image, &Star { outer_px: 70.0, ..star });
         assert!(matches!(beside, Err(TextureError::NoStar { .. } | TextureError::Star(_))), "{beside:?}");
         let clipped = Star { full_scale: Some(1500.0), ..star };
-        let bright = picture(star.centre_px, 48.0, 0.5);
+        let bright = star_image(star.centre_px.0, star.centre_px.1, 48.0, 0.5);
         assert!(matches!(measure_star(&bright, &clipped), Err(TextureError::Saturated { .. })));
     }
 }

@@ -66,15 +66,15 @@ fn etendue_and_samples_hold_every_opening() {
         for (s_mm, openings) in [(0.0, 3), (0.4, 3), (0.8, 2), (1.0, 2), (1.2, 2)] {
             let (exact, parts) = counted(&lens, s_mm, 1600);
             assert_eq!(parts, openings, "parts of the meridian");
-            let told = format!("stop at {stop_mm} mm, {s_mm} mm from the axis: {exact} sr");
+            let message = format!("stop at {stop_mm} mm, {s_mm} mm from the axis: {exact} sr");
             // The grid counts a thin ring to about 1e-3, samples scatter by 2e-3.
             let projected_solid_angle_sr = lens.projected_solid_angle_sr(DVec2::new(s_mm, 0.0));
             assert!(
                 (projected_solid_angle_sr / exact - 1.0).abs() < 2e-3,
-                "{told}, étendue {projected_solid_angle_sr}"
+                "{message}, étendue {projected_solid_angle_sr}"
             );
             let sampled_sr = sampled(&lens, s_mm);
-            assert!((sampled_sr / exact - 1.0).abs() < 6e-3, "{told}, samples {sampled_sr}");
+            assert!((sampled_sr / exact - 1.0).abs() < 6e-3, "{message}, samples {sampled_sr}");
         }
     }
 }

@@ -97,8 +97,8 @@ impl Assembly {
         let mesh = mesh.with_origin(DVec3::from_array(asset.origin));
         if dropped != DroppedTriangles::default() {
             let DroppedTriangles { zero_area, duplicate, .. } = dropped;
-            let told = format!("{zero_area} triangles of no area and {duplicate} duplicates dropped");
-            context.warn_on(file.value.display(), told);
+            let message = format!("{zero_area} triangles of no area and {duplicate} duplicates dropped");
+            context.warn_on(file.value.display(), message);
         }
         let id = self.builder.add_mesh(mesh);
         self.meshes.insert(record.name.value.clone(), id);

@@ -30,8 +30,8 @@ impl Plan {
     fn dark_cameras(&self) -> Option<String> {
         let dark = self.cameras.iter().filter(|camera| light_counts(self, camera).is_dark());
         let names: Vec<&str> = dark.map(|camera| camera.name.as_str()).collect();
-        let told = format!("camera {}: nothing gives light, so that the picture will be black", names.join(", "));
-        (!names.is_empty()).then_some(told)
+        let message = format!("camera {}: nothing gives light, so that the picture will be black", names.join(", "));
+        (!names.is_empty()).then_some(message)
     }
 }
 

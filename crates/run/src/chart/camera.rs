@@ -43,8 +43,8 @@ impl ChartCamera {
             None if given.ends_with(".toml") => Source::File(PathBuf::from(given)),
             None => {
                 let names = STAND_INS.map(|(name, _)| name).join(", ");
-                let told = format!("`camera` {given}: expected a camera file (.toml) or one of {names}");
-                return Err(Error::argument("camera", told));
+                let message = format!("`camera` {given}: expected a camera file (.toml) or one of {names}");
+                return Err(Error::argument("camera", message));
             }
         };
         let (path, text) = match &source {
@@ -81,13 +81,13 @@ impl ChartCamera {
         };
         let from_to = relative_path(&whole(folder)?, &whole(file)?);
         let text = from_to.to_str().filter(|text| !text.contains(['"', '\\']));
-        let told = || {
+        let message = || {
             Error::coded(
                 ErrorCode::InvalidArgument,
                 format!("{}: give a path without quotes and backslashes", file.display()),
             )
         };
-        text.map(str::to_owned).ok_or_else(told)
+        text.map(str::to_owned).ok_or_else(message)
     }
 
     /// Keys removed from a chart's cameras: those that change the exposure from frame to frame.

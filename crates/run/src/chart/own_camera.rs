@@ -109,10 +109,10 @@ fn load(file: &Path, sandbox: &Sandbox, overrides: &Overrides) -> Result<Descrip
 
 /// A camera of a job, with absolute paths of its files.
 fn setup(job: &JobRequest, camera: &str) -> Result<CameraSetup, Error> {
-    let told = |error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", job.job.display()));
+    let message = |error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", job.job.display()));
     // Canonicalises the folder only: relative names start from the folder of a link, not from that of its target.
     let parent = job.job.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let file = parent.canonicalize().map_err(told)?.join(job.job.file_name().unwrap_or_default());
+    let file = parent.canonicalize().map_err(message)?.join(job.job.file_name().unwrap_or_default());
     let description = load(&file, &job.folders()?, &job.overrides())?;
     let setup = description.cameras.into_iter().find(|setup| setup.name.value == camera);
     setup.ok_or_else(|| Error::coded(ErrorCode::UnknownName, format!("{}: no camera {camera}", job.job.display())))

@@ -46,8 +46,8 @@ impl DoneFrames {
                     return Err(refused(&path, why));
                 }
                 if let Err(why) = metadata::check_whole(&value, frame, &folder.join(&camera.name)) {
-                    let told = format!("{}: {why}; frame {frame} of {} is made anew", path.display(), camera.name);
-                    observer.message(Message::Note(&told));
+                    let sentence = format!("{}: {why}; frame {frame} of {} is made anew", path.display(), camera.name);
+                    observer.message(Message::Note(&sentence));
                     continue;
                 }
                 facts.insert((camera.name.clone(), frame), value);

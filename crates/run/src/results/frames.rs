@@ -87,8 +87,8 @@ pub(crate) fn write_frames<'a>(
         }
         if !frame.raw.invalid.is_empty() {
             let count = frame.raw.invalid.len();
-            let told = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
-            wanted.observer.message(Message::Warning(&told));
+            let sentence = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
+            wanted.observer.message(Message::Warning(&sentence));
         }
         let file = products.raw.then(|| Files::raw(number, products.raw_format));
         points.push(metadata::raw_frame(number, file, &frame.raw));

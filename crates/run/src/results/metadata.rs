@@ -199,8 +199,8 @@ pub(crate) fn pupil_geometry(
         let cube = face_px
             .and_then(|face_px| stated_cube(face_px, views))
             .filter(|c| (c.width(), c.height()) == (width, height));
-        let told = || format!("its geometry, {VIEWS} = \"{views}\", is not one that etendue writes");
-        return Some(cube.map(PupilProjection::Cube).ok_or_else(told));
+        let message = || format!("its geometry, {VIEWS} = \"{views}\", is not one that etendue writes");
+        return Some(cube.map(PupilProjection::Cube).ok_or_else(message));
     }
     let principal = DVec2::new(number(PRINCIPAL_X_PX)?, number(PRINCIPAL_Y_PX)?);
     let view = PupilProjection::rectilinear(width, height, number(PITCH_TAN)?, principal);
@@ -274,7 +274,9 @@ const NOT_IN_SIDECARS: [&str; 8] =
 /// Settings of a camera's light; some have names of their own in side-cars.
 fn sampling(camera: &CameraPlan) -> Value {
     let settings = &camera.settings;
-    let Ok(Value::Object(mut sampling)) = serde_json::to_value(settings) else { return Value::Null };
+    let Ok(Value::Object(mut sampling)) = serde_json::to_value(settings) else {
+        unreachable!("settings are a map of numbers and words")
+    };
     for key in NOT_IN_SIDECARS {
         sampling.remove(key);
     }

@@ -57,8 +57,8 @@ impl MeshFrameAsset {
         let faces = |frame: &Self| frame.parts.iter().flat_map(MeshFramePart::faces).collect::<Vec<_>>();
         let (own, others) = (faces(self), faces(other));
         let face = own.iter().zip(&others).position(|(a, b)| a != b)?;
-        let told = |face: &(Vec<u32>, Vec<u32>)| format!("{} corners", face.0.len());
-        let [a, b] = [told(&own[face]), told(&others[face])];
+        let message = |face: &(Vec<u32>, Vec<u32>)| format!("{} corners", face.0.len());
+        let [a, b] = [message(&own[face]), message(&others[face])];
         let at = |tell: String| format!("as face {} (by material) one of {tell}", face + 1);
         Some(if a == b { [at(a), "another of as many there".to_owned()] } else { [at(a), format!("one of {b} there")] })
     }

@@ -208,8 +208,8 @@ error_codes! {
         Example::command("plan job.toml `spp` many", "plan job.toml `spp` 16");
     NotEnoughMemory "not-enough-memory":
         "The run needs more memory than is free, or than it may take.",
-        "Free memory, render fewer pixels, bands or cameras at once, or raise `memory`.",
-        Example::command("render job.toml `output` out `memory` 1", "render job.toml `output` out `memory` 0");
+        "Free memory, render fewer pixels, bands or cameras at once, or raise `memory_mb`.",
+        Example::command("render job.toml `output` out `memory_mb` 1", "render job.toml `output` out `memory_mb` 0");
 }
 
 /// An error whose place the caller knows: its kind and its description.

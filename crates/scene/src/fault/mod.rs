@@ -47,9 +47,9 @@ impl Named {
 /// Displays on one line: names and texts of a file may hold line breaks and control sequences of terminals, which are escaped.
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let told = format!("{}: {}", self.place, self.problem);
+        let message = format!("{}: {}", self.place, self.problem);
         let remedy = if self.remedy.is_empty() { String::new() } else { format!("; {}", self.remedy) };
-        told.chars().chain(remedy.chars()).try_for_each(|c| match c.is_control() {
+        message.chars().chain(remedy.chars()).try_for_each(|c| match c.is_control() {
             true => write!(f, "{}", c.escape_default()),
             false => f.write_char(c),
         })

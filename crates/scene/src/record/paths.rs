@@ -7,7 +7,7 @@ use crate::reader::{among, flag, record, whole};
 record! {
     /// Settings of the path integrator.
     pub struct PathKeys {
-        /// Maximum number of surfaces along a path, 1 … 1 024. Belongs to integrator = "path". Default: 16, or as set by `--quality`.
+        /// Maximum number of surfaces along a path, 1 … 1 024. Belongs to integrator = "path". Default: 16, or that of the quality preset.
         optional max_bounces: Placed<u64> = whole(1, 1024);
         /// Includes caustics: light of suns and glowing surfaces that smooth surfaces focus onto diffuse ones, and mirrors onto much less glossy
         /// ones. Without them the image lacks that light and the rare bright samples (fireflies) that find it, and rain or snow deflects only light

@@ -12,12 +12,12 @@ pub const MAX_SPP: u64 = 1 << 20;
 record! {
     /// Number of samples.
     pub struct SampleKeys {
-        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or as set by `--quality`.
+        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or that of the quality preset.
         optional spp: Placed<u64> = whole(1, MAX_SPP);
         /// Samples per pixel of each pass; the image is the weighted mean of the passes. [8, 8, 16] gives 32 in three independent passes. Each is a
         /// multiple of "replicates", or a smaller number: then that many on average, as an evenly spread part of the pixels receives one sample per
-        /// replicate. At least one pass is a multiple of "replicates"; 64 passes at most. Excludes "spp". Default: one pass of "spp" samples; with
-        /// `--progressive`, its schedule.
+        /// replicate. At least one pass is a multiple of "replicates"; 64 passes at most. Excludes "spp". Default: one pass of "spp" samples; a
+        /// progressive run has its own schedule.
         many passes: Placed<f64> = list(number("").above(0.0).at_most(MAX_SPP as f64), 1);
         /// Independent replicates from which the variance is estimated, 1 … 1 024; one gives no variance. Samples are stratified within a replicate
         /// only: where light is uniform, one replicate of few samples is less noisy than several. Wavelengths of bands are stratified over all

@@ -285,23 +285,23 @@ fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>,
 
 #[test]
 fn the_command_line_supersedes_what_it_makes_meaningless() {
-    let told = notices("max_bounces = 8\ncaustics = false", |o| o.push("render.integrator=direct"));
+    let message = notices("max_bounces = 8\ncaustics = false", |o| o.push("render.integrator=direct"));
     let expected =
         "`set` render.integrator=direct supersedes \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
-    assert_eq!(told, Ok(vec![expected.to_owned()]));
-    let told = notices("max_bounces = 8", |o| o.push_render("`integrator` flat", "integrator", "\"flat\""));
-    assert_eq!(told, Ok(vec!["`integrator` flat supersedes \"max_bounces\" (job.toml:31)".to_owned()]));
-    let told = notices("route = \"pupil\"\noverscan = 0.1", |o| o.push("render.route=lens"));
-    assert_eq!(told, Ok(vec!["`set` render.route=lens supersedes \"overscan\" (job.toml:32)".to_owned()]));
-    let told = notices("", |o| o.push("cameras.front.lens.type=pinhole"));
+    assert_eq!(message, Ok(vec![expected.to_owned()]));
+    let message = notices("max_bounces = 8", |o| o.push_render("`integrator` flat", "integrator", "\"flat\""));
+    assert_eq!(message, Ok(vec!["`integrator` flat supersedes \"max_bounces\" (job.toml:31)".to_owned()]));
+    let message = notices("route = \"pupil\"\noverscan = 0.1", |o| o.push("render.route=lens"));
+    assert_eq!(message, Ok(vec!["`set` render.route=lens supersedes \"overscan\" (job.toml:32)".to_owned()]));
+    let message = notices("", |o| o.push("cameras.front.lens.type=pinhole"));
     let expected = "`set` cameras.front.lens.type=pinhole supersedes \"focus_distance_m\" (job.toml:12)";
-    assert_eq!(told, Ok(vec![expected.to_owned()]));
-    let told = notices("integrator = \"direct\"\nmax_bounces = 8", |_| {}).expect_err("the file contradicts itself");
-    assert!(told.starts_with("job.toml:32:15: render.max_bounces: \"max_bounces\" has no effect here"), "{told}");
+    assert_eq!(message, Ok(vec![expected.to_owned()]));
+    let message = notices("integrator = \"direct\"\nmax_bounces = 8", |_| {}).expect_err("the file contradicts itself");
+    assert!(message.starts_with("job.toml:32:15: render.max_bounces: \"max_bounces\" has no effect here"), "{message}");
     let both =
         |o: &mut Overrides| ["render.integrator=direct", "render.max_bounces=8"].iter().for_each(|set| o.push(set));
-    let told = notices("", both).expect_err("the command line contradicts itself");
-    assert!(told.starts_with("`set` render.max_bounces=8: \"max_bounces\" has no effect here"), "{told}");
+    let message = notices("", both).expect_err("the command line contradicts itself");
+    assert!(message.starts_with("`set` render.max_bounces=8: \"max_bounces\" has no effect here"), "{message}");
 }
 
 #[test]
@@ -312,8 +312,8 @@ fn a_flag_goes_through_the_check_of_its_key() {
         assert_eq!(spp(n), Err(format!("`spp` {n}: found {n}; give a whole number from 1 to 1048576")));
     }
     let seed = notices("", |o| o.push_render("`seed` 18446744073709551615", "seed", "18446744073709551615"));
-    let told = seed.expect_err("larger than a key can hold");
-    assert!(told.starts_with("`seed` 18446744073709551615: found an integer too large for 64 bits"), "{told}");
+    let message = seed.expect_err("larger than a key can hold");
+    assert!(message.starts_with("`seed` 18446744073709551615: found an integer too large for 64 bits"), "{message}");
 }
 
 #[test]

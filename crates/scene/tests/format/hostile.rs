@@ -28,8 +28,8 @@ fn a_hundred_thousand_objects_on_one_line() {
     let mut files = files;
     files.edit("job.toml", "[5,0,99999]", "[5,0,\"x\"]");
     let column = files.text("job.toml").lines().last().expect("the list").find("\"x\"").expect("the fault") + 1;
-    let told = load(&files, &[]).expect_err("a text for a number").to_string();
-    assert!(told.starts_with(&format!("job.toml:25:{column}: scene.objects.o99999.position_m")), "{told}");
+    let message = load(&files, &[]).expect_err("a text for a number").to_string();
+    assert!(message.starts_with(&format!("job.toml:25:{column}: scene.objects.o99999.position_m")), "{message}");
 }
 
 #[test]
@@ -47,8 +47,8 @@ fn a_base_of_many_objects_under_as_many() {
 #[test]
 fn a_key_of_twenty_thousand_parts() {
     let set = format!("{}=1", vec!["a"; 20_000].join("."));
-    let told = load(&Files::with_camera(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
-    assert!(told.starts_with("`set` a.a.a.a."), "{told}");
+    let message = load(&Files::with_camera(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
+    assert!(message.starts_with("`set` a.a.a.a."), "{message}");
     let end = "…: this key has 20000 parts, and no description is deeper than 80; correct the key: render.spp=16";
-    assert!(told.ends_with(end) && told.len() < 400, "{told}");
+    assert!(message.ends_with(end) && message.len() < 400, "{message}");
 }

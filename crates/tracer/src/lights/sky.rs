@@ -1,7 +1,7 @@
 //! The clear sky of Hosek and Wilkie as surroundings.
 //!
-//! Above the horizon a direction at the angle θ from the zenith and γ from the sun has, in each of eleven bands, L = L̄ · gradient(cos θ) · (glow(γ)
-//! + rise · √cos θ), not below zero (`etendue_spectra::sky`, which also describes the conversion of bands to wavelengths). The two functions are
+//! Above the horizon a direction at the angle θ from the zenith and γ from the sun has, in each of eleven bands, L = L̄ · gradient(cos θ) · (glow(γ) + rise
+//! · √cos θ), not below zero (`etendue_spectra::sky`, which also describes the conversion of bands to wavelengths). The two functions are
 //! stored as tables, linear between nodes of √cos θ and of √sin(γ/2). In these variables they are smooth, with the finest steps at the horizon and at
 //! the sun. The error against the model is below 1e-3.
 //!

@@ -1,7 +1,7 @@
 //! Leaves, paper, lampshades: thin sheets that scatter light to both sides.
 //!
-//! f = ρ/π on the viewer's side, τ/π behind it (1/sr), at every pair of directions: Lambert's law twice. ρ is the reflectance, τ the transmittance, ρ
-//! + τ ≤ 1 at every wavelength. Both sides are equal. Sampled by the cosine, the side by its fraction of ρ + τ. (The bi-Lambertian leaf of canopy
+//! f = ρ/π on the viewer's side, τ/π behind it (1/sr), at every pair of directions: Lambert's law twice. ρ is the reflectance, τ the transmittance, ρ + τ
+//! ≤ 1 at every wavelength. Both sides are equal. Sampled by the cosine, the side by its fraction of ρ + τ. (The bi-Lambertian leaf of canopy
 //! models: Ross 1981, *The Radiation Regime and Architecture of Plant Stands*, ch. II.) Left out: the waxy shine of leaves, and differences between
 //! their two sides.
 

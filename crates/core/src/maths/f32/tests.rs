@@ -1,4 +1,5 @@
 use super::*;
+use glam::Vec2;
 
 // Comparison with libm in double precision, whose own error (below 1e-8 units of an `f32`) is negligible.
 
@@ -24,7 +25,7 @@ fn unit_in_last_place(exact: f64) -> f64 {
 }
 
 #[track_caller]
-fn close(got: f32, exact: f64, x: (f32, f32)) {
+fn close(got: f32, exact: f64, x: Vec2) {
     if exact.is_nan() {
         return assert!(got.is_nan(), "{x:?}: {got}, not NaN");
     }
@@ -37,7 +38,7 @@ fn close(got: f32, exact: f64, x: (f32, f32)) {
 }
 
 fn compare(f: fn(f32) -> f32, exact: fn(f64) -> f64, arguments: impl Iterator<Item = f32>) {
-    arguments.for_each(|x| close(f(x), exact(f64::from(x)), (x, 0.0)));
+    arguments.for_each(|x| close(f(x), exact(f64::from(x)), Vec2::new(x, 0.0)));
 }
 
 const STEP: usize = 9973;
@@ -62,10 +63,10 @@ fn inverse_circular_functions() {
         compare(f, exact, between(-1.0, 1.0, 200_000));
     }
     for y in everywhere(5_000_011) {
-        everywhere(5_000_011).for_each(|x| close(atan2(y, x), libm::atan2(y.into(), x.into()), (y, x)));
+        everywhere(5_000_011).for_each(|x| close(atan2(y, x), libm::atan2(y.into(), x.into()), Vec2::new(y, x)));
     }
     for y in between(-2.0, 2.0, 400) {
-        between(-2.0, 2.0, 400).for_each(|x| close(atan2(y, x), libm::atan2(y.into(), x.into()), (y, x)));
+        between(-2.0, 2.0, 400).for_each(|x| close(atan2(y, x), libm::atan2(y.into(), x.into()), Vec2::new(y, x)));
     }
 }
 
@@ -93,14 +94,14 @@ fn exponentials_and_logarithms() {
 fn powers_and_lengths() {
     for x in everywhere(5_000_011) {
         for y in everywhere(5_000_011) {
-            close(hypot(x, y), libm::hypot(x.into(), y.into()), (x, y));
+            close(hypot(x, y), libm::hypot(x.into(), y.into()), Vec2::new(x, y));
         }
         for y in between(-3.0, 3.0, 96).chain([0.0, -0.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 1e30, -1e30]) {
-            close(pow(x, y), libm::pow(x.into(), y.into()), (x, y));
+            close(pow(x, y), libm::pow(x.into(), y.into()), Vec2::new(x, y));
         }
     }
     for x in between(0.0, 2.0, 1000) {
-        between(-20.0, 20.0, 200).for_each(|y| close(pow(x, y), libm::pow(x.into(), y.into()), (x, y)));
+        between(-20.0, 20.0, 200).for_each(|y| close(pow(x, y), libm::pow(x.into(), y.into()), Vec2::new(x, y)));
     }
 }
 

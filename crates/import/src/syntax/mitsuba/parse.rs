@@ -62,11 +62,11 @@ impl<'a> Reading<'a> {
     fn file(&mut self, file: &Path, includes: usize) -> Result<MitsubaElement, Error> {
         let bytes = read_description_bytes(file, "scene")?;
         self.bytes += bytes.len() as u64;
-        limits::DESCRIPTION.check_unpacked(self.bytes).map_err(|told| Error::new(file, told))?;
+        limits::DESCRIPTION.check_unpacked(self.bytes).map_err(|message| Error::new(file, message))?;
         let text = decode_text(file, &bytes)?;
         let document = Document::parse(text).map_err(|e| {
-            let told = format!("no well-formed XML: {}", shortened(&e.to_string()));
-            Error::at(file, e.pos().row as usize, told)
+            let message = format!("no well-formed XML: {}", shortened(&e.to_string()));
+            Error::at(file, e.pos().row as usize, message)
         })?;
         let root = document.root_element();
         let mut open = OpenFile { path: file.into(), lines: Lines::of(text), is_old: false, includes };
@@ -77,8 +77,8 @@ impl<'a> Reading<'a> {
         open.is_old = match major {
             Some(major @ 0..=3) => major < 2,
             _ => {
-                let told = format!("version \"{}\"; expected one up to 3, as \"3.0.0\"", shortened(version));
-                return Err(open.fault(&root, told));
+                let message = format!("version \"{}\"; expected one up to 3, as \"3.0.0\"", shortened(version));
+                return Err(open.fault(&root, message));
             }
         };
         self.element(&root, &open, 0)
@@ -167,8 +167,9 @@ impl<'a> Reading<'a> {
         let path = self.folders.find(name);
         self.sandbox.check(&path).map_err(|why| at.fault(format!("<include filename=\"{name}\">: {why}")))?;
         if file.includes + 1 >= MAX_INCLUDES {
-            let told = format!("files include one another more than {MAX_INCLUDES} deep; include less, or each once");
-            return Err(at.fault(told));
+            let message =
+                format!("files include one another more than {MAX_INCLUDES} deep; include less, or each once");
+            return Err(at.fault(message));
         }
         let included = self.file(&path, file.includes + 1);
         self.folders.end(&mark);

@@ -60,16 +60,16 @@ impl Reading<'_, '_> {
     }
 
     fn include(&mut self, file: &Path, line: usize, name: &str, depth: usize) -> Result<(), Error> {
-        let told = |what: String| Error::at(file, line, what);
+        let message = |what: String| Error::at(file, line, what);
         let path = self.folder.join(name);
-        self.sandbox.check(&path).map_err(|why| told(format!("`Include \"{name}\"`: {why}")))?;
+        self.sandbox.check(&path).map_err(|why| message(format!("`Include \"{name}\"`: {why}")))?;
         if depth + 1 >= MAX_DEPTH {
-            return Err(told(format!(
+            return Err(message(format!(
                 "files include one another more than {MAX_DEPTH} deep; include less, or each once"
             )));
         }
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz")) {
-            return Err(told(format!(
+            return Err(message(format!(
                 "`Include \"{name}\"`: compressed files are not read; unpack it and change the name"
             )));
         }

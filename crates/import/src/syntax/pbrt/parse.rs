@@ -162,8 +162,8 @@ impl<'a> Parser<'a> {
         self.tokens.take()?;
         let mut words = head.split_ascii_whitespace();
         let (Some(kind), Some(name), None) = (words.next(), words.next(), words.next()) else {
-            let told = format!("\"{}\": expected a parameter of the form \"type name\"", shortened(head));
-            return Err((line, told));
+            let message = format!("\"{}\": expected a parameter of the form \"type name\"", shortened(head));
+            return Err((line, message));
         };
         let (kind, name) = (kind.to_owned(), name.to_owned());
         let values = self.values(&name, line)?;

@@ -60,8 +60,8 @@ impl Reading<'_> {
         self.time = stage.start_time_code();
         let metres = number(&stage, "metersPerUnit");
         if let Some(wrong) = metres.filter(|m| !(*m > 0.0 && m.is_finite())) {
-            let told = format!("\"metersPerUnit\" of {wrong}; expected a finite number above 0");
-            return Err(Error::new(self.file, told));
+            let message = format!("\"metersPerUnit\" of {wrong}; expected a finite number above 0");
+            return Err(Error::new(self.file, message));
         }
         let up = match stage.stage_metadata("upAxis") {
             Ok(Some(Value::Token(axis))) if axis.as_str() == "Z" => UsdAxis::Z,

@@ -37,8 +37,8 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
                 depths[kind] += 1;
                 let most = if kind == 0 { MAX_DEPTH } else { MAX_LISTS };
                 if depths[kind] > most {
-                    let told = format!("prims and values stand more than {most} deep in one another");
-                    return Err(format!("line {}: {told}", line(at)));
+                    let message = format!("prims and values stand more than {most} deep in one another");
+                    return Err(format!("line {}: {message}", line(at)));
                 }
             }
             (_, Some(kind)) => depths[kind] = depths[kind].saturating_sub(1),

@@ -1,7 +1,7 @@
 //! COLMAP's text model: `cameras.txt`, `images.txt` and an empty `points3D.txt`.
 //!
-//! Poses are those of the world in the camera's frame: a quaternion (w, x, y, z; w not below 0) and a translation (m). Pixel centres are at
-//! + 0.5, as in the raster.
+//! Poses are those of the world in the camera's frame: a quaternion (w, x, y, z; w not below 0) and a translation (m). Pixel centres are at + 0.5,
+//! as in the raster.
 
 use etendue_core::CameraPose;
 use etendue_projection::{Model, plane::DistortionTerms};

@@ -76,8 +76,9 @@ pub(super) fn state(lamp: &PhotometryAsset, report: &mut FileReport) {
         met[1] += usize::from(limit.is_met(mirrored));
     }
     let count = POINTS.len();
-    let told = format!("{} of {count} points met for right-hand, {} of {count} for left-hand traffic", met[0], met[1]);
-    report.state("passing beam, UN R112/R149 class B", told);
+    let message =
+        format!("{} of {count} points met for right-hand, {} of {count} for left-hand traffic", met[0], met[1]);
+    report.state("passing beam, UN R112/R149 class B", message);
 }
 
 fn side(angle_deg: f64, positive: &str, negative: &str) -> String {

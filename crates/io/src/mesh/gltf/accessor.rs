@@ -14,16 +14,16 @@ pub(super) fn numbers<const N: usize>(
     what: &str,
 ) -> Result<Vec<[f64; N]>, String> {
     let number = index.value();
-    let told = |problem: &str| format!("its accessor {number} ({what}) {problem}");
-    let accessor = root.accessors.get(number).ok_or_else(|| told("is not there"))?;
+    let message = |problem: &str| format!("its accessor {number} ({what}) {problem}");
+    let accessor = root.accessors.get(number).ok_or_else(|| message("is not there"))?;
     let (Checked::Valid(kind), Checked::Valid(component)) = (&accessor.type_, &accessor.component_type) else {
-        return Err(told("is of no known type"));
+        return Err(message("is of no known type"));
     };
     let (components, component) = (components(*kind), component.0);
     if components != N {
-        return Err(told(&format!("has {components} numbers an element; expected {N}")));
+        return Err(message(&format!("has {components} numbers an element; expected {N}")));
     }
-    let count = usize::try_from(accessor.count.0).map_err(|_| told("is too long"))?;
+    let count = usize::try_from(accessor.count.0).map_err(|_| message("is too long"))?;
     let decode = |bytes: &[u8]| -> [f64; N] {
         let size = component.size();
         std::array::from_fn(|i| number_of(&bytes[i * size..(i + 1) * size], component, accessor.normalized))
@@ -34,36 +34,36 @@ pub(super) fn numbers<const N: usize>(
             // The length of an accessor with only a sparse part is limited by the count of that part.
             let most = accessor.sparse.as_ref().map_or(0, |sparse| sparse.count.0.saturating_mul(64).max(1 << 16));
             if accessor.count.0 > most {
-                return Err(told("has no data"));
+                return Err(message("has no data"));
             }
             vec![[0.0; N]; count]
         }
         Some(view) => {
-            let view = root.buffer_views.get(view.value()).ok_or_else(|| told("names no view"))?;
-            let bytes = buffers.view(view).map_err(|problem| told(&format!("names {problem}")))?;
+            let view = root.buffer_views.get(view.value()).ok_or_else(|| message("names no view"))?;
+            let bytes = buffers.view(view).map_err(|problem| message(&format!("names {problem}")))?;
             let stride = view.byte_stride.map_or(element, |stride| stride.0);
             let offset = accessor.byte_offset.unwrap_or_default().0;
             elements(bytes, offset, stride, element, count)
-                .ok_or_else(|| told("reaches beyond its view"))?
+                .ok_or_else(|| message("reaches beyond its view"))?
                 .map(decode)
                 .collect()
         }
     };
     if let Some(sparse) = &accessor.sparse {
         let Checked::Valid(indices_type) = &sparse.indices.component_type else {
-            return Err(told("is of no known type"));
+            return Err(message("is of no known type"));
         };
-        let many = usize::try_from(sparse.count.0).map_err(|_| told("is too long"))?;
+        let many = usize::try_from(sparse.count.0).map_err(|_| message("is too long"))?;
         let part = |view: Index<gltf::json::buffer::View>, offset: u64, size: usize| {
-            let view = root.buffer_views.get(view.value()).ok_or_else(|| told("names no view"))?;
-            let bytes = buffers.view(view).map_err(|problem| told(&format!("names {problem}")))?;
-            elements(bytes, offset, size, size, many).ok_or_else(|| told("reaches beyond its view"))
+            let view = root.buffer_views.get(view.value()).ok_or_else(|| message("names no view"))?;
+            let bytes = buffers.view(view).map_err(|problem| message(&format!("names {problem}")))?;
+            elements(bytes, offset, size, size, many).ok_or_else(|| message("reaches beyond its view"))
         };
         let places = part(sparse.indices.buffer_view, sparse.indices.byte_offset.0, indices_type.0.size())?;
         let new = part(sparse.values.buffer_view, sparse.values.byte_offset.0, element)?;
         for (place, value) in places.zip(new) {
             let place = number_of(place, indices_type.0, false) as usize;
-            *values.get_mut(place).ok_or_else(|| told("has a sparse index beyond its end"))? = decode(value);
+            *values.get_mut(place).ok_or_else(|| message("has a sparse index beyond its end"))? = decode(value);
         }
     }
     Ok(values)

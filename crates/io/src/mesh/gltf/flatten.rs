@@ -55,16 +55,16 @@ pub(super) fn flatten(
             continue;
         }
         for (i, primitive) in mesh.primitives.iter().enumerate() {
-            let told = |problem| format!("mesh {number}, primitive {i}: {problem}");
+            let message = |problem| format!("mesh {number}, primitive {i}: {problem}");
             if !is_surface(primitive) {
                 builder.lines += 1;
                 continue;
             }
             let (slot, layout) = slot_of(primitive.material.map(|m| m.value()))?;
-            let parts = Parts::read(root, buffers, primitive, &layout).map_err(told)?;
+            let parts = Parts::read(root, buffers, primitive, &layout).map_err(message)?;
             builder.bare_vertices += if parts.uvs.is_empty() { parts.positions.len() * places.len() } else { 0 };
             for place in &places {
-                builder.add(&parts, place, slot).map_err(told)?;
+                builder.add(&parts, place, slot).map_err(message)?;
             }
         }
     }

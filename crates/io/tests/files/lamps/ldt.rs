@@ -84,9 +84,9 @@ fn the_tilt_of_the_measurement_is_told() {
 fn a_share_in_place_of_per_cent_is_found_by_the_flux() {
     let mut lamp = Ldt::of(1, &[0.0], &[0.0], &[0.0, 90.0], |_, _| 160.0);
     lamp.factors[0] = 0.8;
-    let told = read_bytes("l.ldt", lamp.text().as_bytes()).expect_err("more than a hundred times");
+    let message = read_bytes("l.ldt", lamp.text().as_bytes()).expect_err("more than a hundred times");
     assert!(
-        told.ends_with("correct the lumens, the conversion factor or the light output ratio (in per cent)"),
-        "{told}"
+        message.ends_with("correct the lumens, the conversion factor or the light output ratio (in per cent)"),
+        "{message}"
     );
 }

@@ -108,8 +108,9 @@ fn remarks(sheet: &DataSheet) -> Vec<String> {
     }
     for (channel, points) in sheet.quantum_efficiency_percent.curves() {
         if let [only] = points.as_slice() {
-            let told = format!("the efficiency of \"{channel}\" at {} nm is taken at all wavelengths", only.value[0]);
-            remarks.push(format!("{}: {told}", only.place));
+            let message =
+                format!("the efficiency of \"{channel}\" at {} nm is taken at all wavelengths", only.value[0]);
+            remarks.push(format!("{}: {message}", only.place));
         }
     }
     remarks

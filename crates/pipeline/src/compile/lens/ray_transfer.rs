@@ -34,10 +34,10 @@ pub(super) fn lens(
     context.remark_on(record.file.value.display(), known(&lens));
     let (lit, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
     if lit < needed * (1.0 - 1e-9) {
-        let told = format!(
+        let message = format!(
             "the functions know light to {lit:.3} mm from the axis of the sensor, the picture reaches {needed:.3} mm"
         );
-        context.warn_on(&record.place, told);
+        context.warn_on(&record.place, message);
     }
     Some(Lens::ray_transfer(lens))
 }

@@ -201,12 +201,12 @@ fn a_baffle_of_a_file_takes_light_on_the_axis() {
 #[test]
 fn a_file_that_says_too_little_of_its_light_is_refused() {
     let pupil = Some(LensOpening::EntrancePupil { diameter_mm: 2.0 });
-    let told = |opening, fields| plan_of_file(open_asset(opening, fields)).map(|_| ()).expect_err("refused");
+    let message = |opening, fields| plan_of_file(open_asset(opening, fields)).map(|_| ()).expect_err("refused");
     let angles = |deg: f64| Some(LensFields::AnglesDeg(vec![deg]));
-    assert!(told(pupil, None).contains("1 (line 12)") && told(pupil, None).contains("no fields"));
-    assert!(told(None, angles(5.0)).contains("no aperture (EPD, FNO, NA)"));
-    assert!(told(pupil, angles(85.0)).contains("field 1 does not come through"));
-    assert!(told(pupil, Some(LensFields::ObjectMm(vec![5.0]))).contains("an object at infinity"));
+    assert!(message(pupil, None).contains("1 (line 12)") && message(pupil, None).contains("no fields"));
+    assert!(message(None, angles(5.0)).contains("no aperture (EPD, FNO, NA)"));
+    assert!(message(pupil, angles(85.0)).contains("field 1 does not come through"));
+    assert!(message(pupil, Some(LensFields::ObjectMm(vec![5.0]))).contains("an object at infinity"));
 }
 
 #[test]
@@ -225,8 +225,8 @@ fn the_cone_to_the_image_opens_the_lens_for_its_object() {
         + lens.prescription().paraxial().entrance_pupil_position_mm;
     let wanted_mm = 0.05 / (1.0_f64 - 0.05 * 0.05).sqrt() * distance_mm;
     assert!((near.1 / wanted_mm - 1.0).abs() < 1e-6, "{near:?} {wanted_mm}");
-    let told = plan_of_file(cone(0.9, 11.0)).map(|_| ()).expect_err("too large a cone");
-    assert!(told.contains("(line 3)") && told.contains("cone of sine"), "{told}");
+    let message = plan_of_file(cone(0.9, 11.0)).map(|_| ()).expect_err("too large a cone");
+    assert!(message.contains("(line 3)") && message.contains("cone of sine"), "{message}");
 }
 
 /// 64 × 48 px: outside the image, and as with a calibration of an image a third of the size.

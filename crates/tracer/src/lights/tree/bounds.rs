@@ -15,8 +15,8 @@ pub(in crate::lights) struct LightBounds {
     pub(in crate::lights) radius: f32,
     /// Mean intensity along the axis, W·sr⁻¹·nm⁻¹.
     pub(in crate::lights) intensity: f64,
-    /// Unit axis, and half angles (rad): the intensity is constant up to `theta_o` from the axis, and falls beyond it to zero at `theta_o`
-    /// + `theta_e`.
+    /// Unit axis, and half angles (rad): the intensity is constant up to `theta_o` from the axis, and falls beyond it to zero at `theta_o` + `theta_e`.
+    /// 
     pub(in crate::lights) axis: Vec3,
     pub(in crate::lights) theta_o: f32,
     pub(in crate::lights) theta_e: f32,
