@@ -34,25 +34,25 @@ def dots(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Black dots over all of the field: focal length, distortion, chromatic displacement (ISO 17850, ISO 19084).
+    """Black dots over the whole field: focal length, distortion, chromatic displacement (ISO 17850, ISO 19084).
 
-    columns: Columns [default: as many as the field takes].
-    rows: Rows [default: as many as the field takes].
-    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    columns: Columns [default: as many as fit the field].
+    rows: Rows [default: as many as fit the field].
+    pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
     dot_ratio: Diameter of a dot over the distance between centres. Default: 0.5.
-    views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
-    hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
+    views: Views of the chart: the first perpendicular to it, the others tilted by 25 degrees in all directions. Default: 1.
+    hand_held: Simulate hand-held views: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, at random by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -78,24 +78,24 @@ def checkerboard(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """A checkerboard, all of it in view: calibration.
+    """A checkerboard, fully in view: calibration.
 
-    columns: Columns [default: as many as the field takes].
-    rows: Rows [default: as many as the field takes].
-    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
-    views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
-    hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
+    columns: Columns [default: as many as fit the field].
+    rows: Rows [default: as many as fit the field].
+    pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
+    views: Views of the chart: the first perpendicular to it, the others tilted by 25 degrees in all directions. Default: 1.
+    hand_held: Simulate hand-held views: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, at random by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -122,25 +122,25 @@ def circles(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Circles in a square or a staggered lattice, all in view: calibration.
+    """Circles in a square or a staggered lattice, fully in view: calibration.
 
-    columns: Columns [default: as many as the field takes].
-    rows: Rows [default: as many as the field takes].
-    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    columns: Columns [default: as many as fit the field].
+    rows: Rows [default: as many as fit the field].
+    pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
     asymmetric: A staggered lattice: every other cell of each row holds a circle.
-    views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
-    hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
+    views: Views of the chart: the first perpendicular to it, the others tilted by 25 degrees in all directions. Default: 1.
+    hand_held: Simulate hand-held views: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, at random by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -167,25 +167,25 @@ def flat_field(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """An even white sheet in even light: vignetting, shading, photon transfer (ISO 17957, EMVA 1288).
+    """A uniform white sheet in uniform illumination: vignetting, shading, photon transfer (ISO 17957, EMVA 1288).
 
     reflectance: Reflectance of the sheet. Default: 0.9.
-    exposures: How many exposures, one camera each.
-    spacing: How they are spaced from --lowest to --highest [default: log]. One of log, linear.
-    lowest: Share of saturation that white reaches in the shortest [default: 0.003].
-    highest: The same in the longest [default: 1.3].
-    levels: The shares themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
+    exposures: Number of exposures, one camera each.
+    spacing: Spacing from --lowest to --highest [default: log]. One of log, linear.
+    lowest: Fraction of saturation that white reaches in the shortest exposure [default: 0.003].
+    highest: The same in the longest exposure [default: 1.3].
+    levels: The fractions themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -212,25 +212,25 @@ def backlit(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """A panel that shines by itself in the dark, with a series of exposures: tone curve, photon transfer.
+    """A luminous panel in the dark, with a series of exposures: tone curve, photon transfer.
 
-    exposures: How many exposures, one camera each.
-    spacing: How they are spaced from --lowest to --highest [default: log]. One of log, linear.
-    lowest: Share of saturation that white reaches in the shortest [default: 0.003].
-    highest: The same in the longest [default: 1.3].
-    levels: The shares themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
+    exposures: Number of exposures, one camera each.
+    spacing: Spacing from --lowest to --highest [default: log]. One of log, linear.
+    lowest: Fraction of saturation that white reaches in the shortest exposure [default: 0.003].
+    highest: The same in the longest exposure [default: 1.3].
+    levels: The fractions themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
     dark: A dark frame for each exposure.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -256,24 +256,24 @@ def slanted_edges(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Squares turned by a small angle over the field: spatial frequency response by place and direction (ISO 12233).
+    """Squares turned by a small angle over the field: spatial frequency response by position and direction (ISO 12233).
 
-    columns: Columns [default: as many as the field takes].
-    rows: Rows [default: as many as the field takes].
-    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
-    angle_deg: By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45. Default: 5.
-    contrast: Luminance of light over dark. Default: 4.
+    columns: Columns [default: as many as fit the field].
+    rows: Rows [default: as many as fit the field].
+    pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
+    angle_deg: Clockwise rotation, degrees: a square by 2 … 43 in either direction, or the first edge of a star by up to 45. Default: 5.
+    contrast: Luminance of the bright side over that of the dark side. Default: 4.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -302,23 +302,23 @@ def slanted_star(
 ) -> list[Path]:
     """Stars of slanted wedges: spatial frequency response in many directions (ISO 12233).
 
-    columns: Columns [default: as many as the field takes].
-    rows: Rows [default: as many as the field takes].
-    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    columns: Columns [default: as many as fit the field].
+    rows: Rows [default: as many as fit the field].
+    pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
     spokes: Dark wedges of a star. Default: 8.
-    angle_deg: By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45. Default: 5.
-    contrast: Luminance of light over dark. Default: 4.
+    angle_deg: Clockwise rotation, degrees: a square by 2 … 43 in either direction, or the first edge of a star by up to 45. Default: 5.
+    contrast: Luminance of the bright side over that of the dark side. Default: 4.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -344,18 +344,18 @@ def siemens_star(
     """A star of many cycles: modulation over spatial frequency (ISO 12233).
 
     cycles: Cycles around the centre. Default: 72.
-    binary: In black and white instead of a cosine.
+    binary: Black and white instead of a cosine.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -378,21 +378,21 @@ def dead_leaves(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Discs upon discs, with the statistics of natural scenes: loss of texture (ISO 19567-2).
+    """Overlapping discs with the statistics of natural scenes: texture loss (ISO 19567-2).
 
     smallest_px: Radius of the smallest leaves, px. Default: 1.
     largest_ratio: Radius of the largest leaves over the side of the chart. Default: 0.2.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -418,20 +418,20 @@ def oecf_steps(
 ) -> list[Path]:
     """Grey steps around a ring: opto-electronic conversion function (ISO 14524).
 
-    steps: How many steps. Default: 12.
+    steps: Number of steps. Default: 12.
     density: Density of the darkest step [default: 2, with --backlit 3].
-    backlit: A transparency on a light box in the dark instead of a print in even light.
+    backlit: A transparency on a light box in the dark instead of a print in uniform illumination.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -455,16 +455,16 @@ def colorchecker(
     """The 24 patches of the ColorChecker by their measured spectra: colour error.
 
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -489,23 +489,23 @@ def contrast_patches(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Shining grey patches over several decades: contrast detection probability.
+    """Luminous grey patches over several decades: contrast detection probability.
 
-    columns: Columns [default: as many as the field takes].
-    rows: Rows [default: as many as the field takes].
-    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    columns: Columns [default: as many as fit the field].
+    rows: Rows [default: as many as fit the field].
+    pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
     decades: Decades of luminance from the brightest patch to the darkest. Default: 3.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -532,21 +532,21 @@ def flare(
 ) -> list[Path]:
     """A white field with light traps: veiling glare (ISO 18844).
 
-    columns: Columns [default: as many as the field takes].
-    rows: Rows [default: as many as the field takes].
-    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    columns: Columns [default: as many as fit the field].
+    rows: Rows [default: as many as fit the field].
+    pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
     trap_ratio: Diameter of a trap's opening over the distance between traps. Default: 0.25.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -569,21 +569,21 @@ def led_flicker(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Lamps in pulses of several frequencies and duties, in the dark: LED flicker (IEEE P2020).
+    """Pulsed lamps of several frequencies and duty cycles, in the dark: LED flicker (IEEE P2020).
 
     frequencies_hz: Frequencies of the columns, Hz. One, or a sequence of them. Default: 90,110,200,400.
-    duty_cycles: Duties of the rows: shares of the period that a pulse lasts. One, or a sequence of them. Default: 0.1,0.25,0.5.
+    duty_cycles: Duty cycles of the rows: fractions of the period that a pulse lasts. One, or a sequence of them. Default: 0.1,0.25,0.5.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -610,21 +610,21 @@ def points(
 ) -> list[Path]:
     """Small lamps in the dark: point-spread function, chromatic displacement.
 
-    columns: Columns [default: as many as the field takes].
-    rows: Rows [default: as many as the field takes].
-    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
-    diameter_px: Diameter of a lamp, px of the picture's middle. Default: 0.5.
+    columns: Columns [default: as many as fit the field].
+    rows: Rows [default: as many as fit the field].
+    pitch_mm: Distance between centres (of squares: their side), mm [default: as the columns allow].
+    diameter_px: Diameter of a lamp, px of the image's middle. Default: 0.5.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -652,16 +652,16 @@ def depth_wedge(
     steps: Steps of the staircase. Default: 8.
     far_ratio: Distance of the farthest panel over that of the nearest. Default: 3.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
-    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
-    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
-    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
-    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
-    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
-    seed: The seed of all random numbers. Default: 0.
-    png: Write the print as chart.png too, at this many pixels an inch.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is made for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: the camera's focus distance, or 1].
+    width_mm: Width of the sheet that the camera sees, mm; determines the distance.
+    illuminant: Spectrum of the light: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: as required by --white].
+    white: Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: Seed of all random numbers. Default: 0.
+    png: Also write the print as chart.png, at this many pixels per inch.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.

@@ -27,12 +27,12 @@ def lens(
 ) -> dict[str, Any]:
     """Focal lengths, principal planes, pupils and field of view; by field: distortion, illumination, spots, field curvature, colour.
 
-    lens: A camera file (TOML), a lens of Zemax (.zmx) or CODE V (.seq), or the name of a published lens (double-gauss, wide-angle, fisheye, telephoto).
+    lens: Camera file (TOML), lens of Zemax (.zmx) or CODE V (.seq), or name of a published lens (double-gauss, wide-angle, fisheye, telephoto).
     set: Change a key of the camera, e.g. --set lens.f_number=4. A dict of dotted keys to values, or texts key=value.
-    f_number: The f-number at infinity focus, in place of the camera's or the lens file's.
-    fields: How many field heights, from the axis to the picture's edge. Default: 6.
-    picture_radius_mm: For a lens without a sensor: how far the picture reaches from the axis, mm [default: the largest field that a lens file states, otherwise 21.64; or as far as there is light].
-    wavelength_nm: The wavelength of the first-order figures of a prescription, nm [default: the primary wavelength of a lens file, otherwise 587.56]; fields stay at 587.56 nm.
+    f_number: F-number at infinity focus, in place of the camera's or the lens file's.
+    fields: Number of field heights, from the axis to the edge of the image. Default: 6.
+    picture_radius_mm: For a lens without a sensor: radius of the image from the axis, mm [default: the largest field that a lens file states, otherwise 21.64; or as far as there is light].
+    wavelength_nm: Wavelength of the first-order figures of a prescription, nm [default: the primary wavelength of a lens file, otherwise 587.56]; fields stay at 587.56 nm.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.
@@ -58,24 +58,24 @@ def distortion(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> Report:
-    """Distortion from one picture of a plane chart, without a model: the curve over the field, line distortion, k1 and k2 (ISO 17850).
+    """Distortion from one image of a plane chart, without a model: the curve over the field, line distortion, k1 and k2 (ISO 17850).
 
-    file: A picture of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px, y_px).
-    target: The chart [default: whichever shows more points]. One of checkerboard, dots.
+    file: Image of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px, y_px).
+    target: The chart [default: the one that shows more points]. One of checkerboard, dots.
     grid: Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found].
-    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    region: Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture.
-    size_px: Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen.
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    points: List every point of the chart in the text, too; JSON has them anyway.
-    centre_px: The point to which distances are taken, raster coordinates, px [default: the picture's middle].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
-    camera_out: Write what was found as keys of a camera file.
-    overwrite: Replace a camera file that is already there.
+    channel: Channel: R, G, B or Y of an image, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with colours balanced to one grey [default: the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    region: Part of the image to search for the chart: left column, top row, width and height, pixels of the image.
+    size_px: For lists of points (CSV) in place of images: columns and rows of the images in which they were seen.
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    points: List every point of the chart in the text, too; JSON always has them.
+    centre_px: Centre of the radial distances, raster coordinates, px [default: the image centre].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
+    camera_out: Write the results as keys of a camera file.
+    overwrite: Replace an existing camera file.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -108,31 +108,31 @@ def focal(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> Report:
-    """Focal length and principal point, from one picture of a chart at a known distance or from several.
+    """Focal length and principal point, from one image of a chart at a known distance or from several.
 
-    files: Pictures of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together. One, or a sequence of them.
-    target: The chart [default: whichever shows more points]. One of checkerboard, dots.
+    files: Images of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together. One, or a sequence of them.
+    target: The chart [default: the one that shows more points]. One of checkerboard, dots.
     grid: Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found].
-    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    region: Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture.
-    size_px: Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen.
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    points: List every point of the chart in the text, too; JSON has them anyway.
-    pitch_mm: The distance of neighbouring points of the chart, mm [with --truth: as it says].
-    model: The camera model. One of pinhole, opencv, opencv5, opencv8, radial, radial-inverse, kannala-brandt, division, field-of-view, unified, extended-unified, double-sphere, equidistant, equisolid, stereographic, orthographic. Default: opencv.
-    square_pixels: Pixels are square: one focal length for columns and rows.
-    principal_px: The principal point is known, raster coordinates, px.
-    distance_mm: The distance from the entrance pupil to the chart's plane, mm, the same in every picture.
-    distance_uncertainty_mm: Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit].
-    pixel_pitch_um: The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well.
-    robust: Points far from the fit count less (Huber).
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
-    camera_out: Write what was found as keys of a camera file.
-    overwrite: Replace a camera file that is already there.
+    channel: Channel: R, G, B or Y of an image, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with colours balanced to one grey [default: the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    region: Part of the image to search for the chart: left column, top row, width and height, pixels of the image.
+    size_px: For lists of points (CSV) in place of images: columns and rows of the images in which they were seen.
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    points: List every point of the chart in the text, too; JSON always has them.
+    pitch_mm: Distance of neighbouring points of the chart, mm [with --truth: as it states].
+    model: Camera model. One of pinhole, opencv, opencv5, opencv8, radial, radial-inverse, kannala-brandt, division, field-of-view, unified, extended-unified, double-sphere, equidistant, equisolid, stereographic, orthographic. Default: opencv.
+    square_pixels: Assume square pixels: one focal length for columns and rows.
+    principal_px: Known principal point, raster coordinates, px.
+    distance_mm: Distance from the entrance pupil to the chart's plane, mm, the same in every image.
+    distance_uncertainty_mm: Standard uncertainty of the distance, mm; 0 if exact [default: of rounding to its last digit].
+    pixel_pitch_um: Pixel pitch of the sensor, µm: adds focal lengths in mm.
+    robust: Reduce the weight of points far from the fit (Huber).
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
+    camera_out: Write the results as keys of a camera file.
+    overwrite: Replace an existing camera file.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -157,19 +157,19 @@ def chromatic(
 ) -> Report:
     """Lateral chromatic displacement of red and blue against green (ISO 19084).
 
-    file: A picture in colour of a plane chart that fills the field.
-    target: The chart [default: whichever shows more points]. One of checkerboard, dots.
+    file: Colour image of a plane chart that fills the field.
+    target: The chart [default: the one that shows more points]. One of checkerboard, dots.
     grid: Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found].
-    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    region: Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture.
-    size_px: Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen.
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    points: List every point of the chart in the text, too; JSON has them anyway.
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    channel: Channel: R, G, B or Y of an image, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with colours balanced to one grey [default: the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    region: Part of the image to search for the chart: left column, top row, width and height, pixels of the image.
+    size_px: For lists of points (CSV) in place of images: columns and rows of the images in which they were seen.
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    points: List every point of the chart in the text, too; JSON always has them.
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -191,16 +191,16 @@ def ptc(
 ) -> Report:
     """Photon transfer after EMVA 1288: gain, quantum efficiency, dark noise, saturation, linearity, DSNU, PRNU.
 
-    descriptor: A descriptor file of the EMVA 1288 reference program: levels of light with their pictures, two a level for the curve, more for DSNU and PRNU.
-    relative_light: The descriptor's photons are relative: leave out what needs their number.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
-    camera_out: Write what was found as keys of a camera file.
-    overwrite: Replace a camera file that is already there.
+    descriptor: Descriptor file of the EMVA 1288 reference program: light levels with their images, two per level for the curve, more for DSNU and PRNU.
+    relative_light: The descriptor's photons are relative: leave out results that need their number.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
+    camera_out: Write the results as keys of a camera file.
+    overwrite: Replace an existing camera file.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -229,23 +229,23 @@ def sfr(
 ) -> Report:
     """Slanted edges: the spatial frequency response with MTF50 and MTF10 (ISO 12233).
 
-    picture: A picture of one or more slanted edges.
-    edge: A part of the picture that holds one edge: left column, top row, width, height; once an edge [default: all of it]. One, or a sequence of them.
-    edge_degree: Degree of the curve that the edges follow: 2 or 3 where the lens bends them. Default: 1.
-    reach_px: How far from the edge its profile has fine detail, pixels [default: 10].
-    shading_degree: Take off shading by surfaces of this degree, one on either side of the edge: 1 or 2 where the lens's fall-off makes the sides slope. Default: 0.
-    pixel_pitch_um: The pixels' pitch, µm: tells MTF50 and MTF10 in line pairs a millimetre, too.
-    pixels_per_degree: From where the picture is viewed, for acutance: its pixels a degree at the eye. Default: 60.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    picture: Image of one or more slanted edges.
+    edge: Part of the image that contains one edge: left column, top row, width, height; once per edge [default: all of it]. One, or a sequence of them.
+    edge_degree: Degree of the curve of the edges: 2 or 3 if the lens bends them. Default: 1.
+    reach_px: Reach of the profile's fine detail on either side of the edge, pixels [default: 10].
+    shading_degree: Degree of the surfaces that model shading, one on either side of the edge: 1 or 2 if the lens's fall-off makes the sides slope. Default: 0.
+    pixel_pitch_um: Pixel pitch, µm: adds MTF50 and MTF10 in line pairs per millimetre.
+    pixels_per_degree: Viewing condition for acutance: pixels per degree at the eye. Default: 60.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -270,23 +270,23 @@ def oecf(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """The tone curve from a series of exposures or from steps, with linearity and dynamic range (ISO 14524); the camera's response from a scene at exposures known relatively.
+    """Tone curve from a series of exposures or from steps, with linearity and dynamic range (ISO 14524); camera response from a scene at exposures with known ratios.
 
-    pictures: Pictures of one even surface, one an exposure; with --steps, or the --truth of a chart of steps, one picture. One, or a sequence of them.
-    exposures: Exposure of each picture in their order, any unit [default: the side-cars' exposure_s]. One, or a sequence of them.
-    steps: A table of steps in the picture: x, y, width, height, luminance; one step a line, # for comments.
-    response: Find the camera's response from pictures of one scene (not even) at exposures known relatively.
+    pictures: Images of one uniform surface, one per exposure; with --steps, or the --truth of a chart of steps, one image. One, or a sequence of them.
+    exposures: Exposure of each image in order, any unit [default: the side-cars' exposure_s]. One, or a sequence of them.
+    steps: Table of steps in the image: x, y, width, height, luminance; one step per line, # for comments.
+    response: Find the camera's response from images of one non-uniform scene at relatively known exposures.
     refine: With --response: find the ratios of the exposures too.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -312,24 +312,24 @@ def vignetting(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> Report:
-    """A flat field's fall-off over the radial field position.
+    """Fall-off of a flat field over the radial field position.
 
-    picture: A picture of an evenly lit surface.
-    centre_px: Centre of the fall-off, raster coordinates [default: the picture's].
+    picture: Image of a uniformly lit surface.
+    centre_px: Centre of the fall-off, raster coordinates [default: the image centre].
     rings: Rings of the profile over the radial field position. Default: 20.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    pixel_pitch_um: The pixels' pitch, µm, for --camera-out.
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
-    camera_out: Write what was found as keys of a camera file.
-    overwrite: Replace a camera file that is already there.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    pixel_pitch_um: Pixel pitch, µm, for --camera-out.
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
+    camera_out: Write the results as keys of a camera file.
+    overwrite: Replace an existing camera file.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -353,22 +353,22 @@ def shading(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """A flat field's fall-off as a map, and its colour shading (ISO 17957).
+    """Fall-off of a flat field as a map, and its colour shading (ISO 17957).
 
-    picture: A picture of an evenly lit surface.
-    centre_px: Centre of the fall-off, raster coordinates [default: the picture's].
+    picture: Image of a uniformly lit surface.
+    centre_px: Centre of the fall-off, raster coordinates [default: the image centre].
     rings: Rings of the profile over the radial field position. Default: 20.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
     blocks: Blocks of the map along each side, an odd number. Default: 11.
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -389,19 +389,19 @@ def noise(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """Temporal and fixed-pattern noise of an even surface (ISO 15739).
+    """Temporal and fixed-pattern noise of a uniform surface (ISO 15739).
 
-    frames: Eight or more frames of one even surface, or of a chart with --truth. One, or a sequence of them.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    frames: Eight or more frames of one uniform surface, or of a chart with --truth. One, or a sequence of them.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -424,21 +424,21 @@ def flare(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """Light in traps that send none (ISO 18844).
+    """Flare: light in the image of light traps (ISO 18844).
 
-    picture: A picture of light traps in a white field.
-    trap: A part of a light trap: left column, top row, width, height; once a trap. One, or a sequence of them.
-    white: A part of the white field.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    picture: Image of light traps in a white field.
+    trap: Part of a light trap: left column, top row, width, height; once per trap. One, or a sequence of them.
+    white: Part of the white field.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -462,22 +462,22 @@ def flicker(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """Light that goes up and down: frequency, modulation over rows and frames, duty of pulses (IEEE P2020).
+    """Flicker of a light: frequency, modulation over rows and frames, duty cycle of pulses (IEEE P2020).
 
-    frames: Frames of a sequence in their order, or one of a rolling shutter. One, or a sequence of them.
+    frames: Frames of a sequence in order, or one frame of a rolling shutter. One, or a sequence of them.
     row_time_us: Time from one row of the file to the next, µs, of a rolling shutter [default: the side-car's, or all rows are exposed together].
-    frame_rate_hz: Frames a second [default: the side-car's, or not known; each frame is measured by itself].
-    exposure_us: Exposure of a row, µs: tells the light's own modulation and the duty of its pulses [default: the side-car's, or not known].
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    frame_rate_hz: Frames per second [default: the side-car's, or unknown: each frame is measured separately].
+    exposure_us: Exposure of a row, µs: adds the light's own modulation and the duty cycle of its pulses [default: the side-car's, or unknown].
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -502,19 +502,19 @@ def colour(
 ) -> Report:
     """Colours of a ColorChecker after a fitted matrix, CIEDE2000.
 
-    picture: A picture of a ColorChecker of 24 patches, in colour.
-    corners: Middles of the four corner patches, raster coordinates, in the chart's order: dark skin, bluish green, black, white. One, or a sequence of them.
-    patch: Side of the squares that are read, of the distance of patches. Default: 0.5.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    picture: Colour image of a ColorChecker with 24 patches.
+    corners: Centres of the four corner patches, raster coordinates, in the chart's order: dark skin, bluish green, black, white. One, or a sequence of them.
+    patch: Side of the measured squares, as a fraction of the patch spacing. Default: 0.5.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -541,21 +541,21 @@ def cdp(
 ) -> Report:
     """Contrast detection probability of pairs of patches (IEEE P2020).
 
-    picture: A picture of grey patches.
-    darker: The darker patch of a pair: left column, top row, width, height; once a pair. One, or a sequence of them.
-    brighter: The brighter patch of a pair, in the same order. One, or a sequence of them.
-    contrast: The scene's Weber contrast of a pair: brighter over darker luminance, less 1; in the same order. One, or a sequence of them.
-    tolerance: How much a measured contrast may differ from the scene's, share. Default: 0.5.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    picture: Image of grey patches.
+    darker: Darker patch of a pair: left column, top row, width, height; once per pair. One, or a sequence of them.
+    brighter: Brighter patch of a pair, in the same order. One, or a sequence of them.
+    contrast: Weber contrast of a pair in the scene: brighter over darker luminance, less 1; in the same order. One, or a sequence of them.
+    tolerance: Maximum relative deviation of a measured contrast from the scene's. Default: 0.5.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -580,23 +580,23 @@ def depth(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """An estimated depth picture against the truth: bias, error and outliers by range, edges apart.
+    """An estimated depth image against ground truth: bias, error and outliers by range, edges separately.
 
-    estimate: The estimate: one channel of depth (EXR, PFM, TIFF of floats, PNG of 16 bits …; 0, NaN and infinity are missing).
-    truth: The truth: a ground-truth EXR, or one channel of depth.
-    estimate_channel: The estimate's channel [default: depth.Z, or the only one].
-    truth_channel: The truth's channel [default: depth.Z, or the only one].
-    estimate_unit_m: Metres a number of the estimate, e.g. 0.001 for millimetres. Default: 1.
-    truth_unit_m: Metres a number of the truth. Default: 1.
+    estimate: Estimate: one channel of depth (EXR, PFM, TIFF of floats, PNG of 16 bits …; 0, NaN and infinity are missing).
+    truth: Ground truth: a ground-truth EXR, or one channel of depth.
+    estimate_channel: Channel of the estimate [default: depth.Z, or the only one].
+    truth_channel: Channel of the ground truth [default: depth.Z, or the only one].
+    estimate_unit_m: Metres per unit of the estimate, e.g. 0.001 for millimetres. Default: 1.
+    truth_unit_m: Metres per unit of the ground truth. Default: 1.
     ranges_m: Limits of the ranges, m, e.g. 0,10,30,100. One, or a sequence of them.
-    outlier_ratio: An outlier is off by more than this share of the depth. Default: 0.05.
-    outlier_least_m: … and by more than this, m. Default: 0.
-    focal_base_px_m: A stereo rig's focal length in pixels times its base in metres: tells errors of disparity (D1, EPE) as well.
-    align: What is done to the estimate first: networks may know depth but for a factor. One of none, median. Default: none.
-    edge_ratio: A jump of the truth by more than this share of the depth is an edge. Default: 0.1.
-    edge_px: Pixels this near to an edge are told apart. Default: 2.
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    outlier_ratio: Minimum error of an outlier as a fraction of the depth. Default: 0.05.
+    outlier_least_m: … and its minimum error, m. Default: 0.
+    focal_base_px_m: Focal length in pixels times baseline in metres of a stereo rig: adds disparity errors (D1, EPE).
+    align: Alignment of the estimate before the comparison: networks may estimate depth up to a factor. One of none, median. Default: none.
+    edge_ratio: Minimum depth jump of the ground truth at an edge, as a fraction of the depth. Default: 0.1.
+    edge_px: Distance, px, within which pixels near an edge are reported separately. Default: 2.
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -614,16 +614,16 @@ def dark_current(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """The dark current's growth with temperature, by three laws.
+    """Increase of the dark current with temperature, by three laws.
 
-    series: Descriptors of photon transfer at several temperatures of the sensor in °C, three or more. One, or a sequence of them.
-    reference_c: The temperature that the dark current is told at, °C. Default: 25.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    series: Photon-transfer descriptors at several sensor temperatures in °C, three or more. One, or a sequence of them.
+    reference_c: Temperature at which the dark current is reported, °C. Default: 25.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -650,21 +650,21 @@ def star(
 ) -> Report:
     """A Siemens star: response over frequency (ISO 12233).
 
-    picture: A picture of a Siemens star.
-    centre_px: The star's centre, raster coordinates, within two pixels.
-    cycles: Cycles of dark and bright all round.
-    inner_px: The smallest circle, px [with --truth: where the star has half a cycle a pixel, or begins].
-    outer_px: The largest circle, px: the response is 1 there [with --truth: a little within the star's rim].
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    picture: Image of a Siemens star.
+    centre_px: Centre of the star, raster coordinates, within two pixels.
+    cycles: Number of dark and bright cycles around the circle.
+    inner_px: Radius of the smallest circle, px [with --truth: where the star has half a cycle per pixel, or begins].
+    outer_px: Radius of the largest circle, px, where the response is set to 1 [with --truth: slightly inside the star's edge].
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -687,21 +687,21 @@ def texture(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """Texture such as dead leaves against its reference: response, invented structure, coherence.
+    """Texture such as dead leaves against its reference: response, artefacts, coherence.
 
-    picture: A picture of a texture such as dead leaves.
-    reference: The texture itself at the same place, pixel by pixel: a sharp render without noise (radiance.exr of --set output.radiance=true).
-    even: A picture of an even surface of the same brightness, for the noise.
-    channel: The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    region: Measure this part only: left column, top row, width and height, pixels of the file.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    black: The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0].
-    full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    picture: Image of a texture such as dead leaves.
+    reference: The texture itself at the same position, pixel by pixel: a sharp render without noise (radiance.exr of --set output.radiance=true).
+    even: Image of a uniform surface of the same brightness, for the noise.
+    channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    region: Part to measure: left column, top row, width and height, pixels of the file.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    black: Reading without light, as stored; 0 to 1 for an image decoded from an encoding [default: the side-car's, or 0].
+    full_scale: Reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -718,15 +718,15 @@ def compare(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """Two cameras' measurements side by side, or a camera file against what was measured; exit status 1 where they differ.
+    """Measurements of two cameras side by side, or a camera file against its measurements; exit status 1 if they differ.
 
-    a: A measurement (what --json printed), or the camera file (TOML) that was measured.
-    b: The same of the other; relative errors are against this one.
-    wavelength_nm: Where a camera file is compared with photon transfer: the light's wavelength, for the quantum efficiency.
-    illuminant: Where a camera file is compared with the response of edges or a tone curve: the light's spectrum [default: D65].
+    a: Measurement (output of --json), or the camera file (TOML) that was measured.
+    b: The same for the other side; reference of the relative errors.
+    wavelength_nm: Wavelength of the light for the quantum efficiency, when a camera file is compared with photon transfer.
+    illuminant: Spectrum of the light, when a camera file is compared with the response of edges or a tone curve [default: D65].
     set: Change a key of the camera file, e.g. --set sensor.exposure_s=0.002. A dict of dotted keys to values, or texts key=value.
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.

@@ -25,10 +25,10 @@ def merge(
 ) -> list[Path]:
     """Join the shards of one job to the result of an unsharded run, byte for byte.
 
-    shards: The folders of all shards. One, or a sequence of them.
-    job: Where the job file is, where the shards were rendered from another place, as on another machine [default: as they state it].
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    shards: Folders of all shards. One, or a sequence of them.
+    job: Path of the job file, if the shards were rendered from another path or machine [default: as stated in the shards].
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -57,26 +57,26 @@ def rig(
     frames: range | tuple[int, int] | None = None,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Write where a job's cameras stand and how they project, as ROS, Kalibr and COLMAP know them; nothing is rendered.
+    """Write poses and projections of a job's cameras for ROS, Kalibr and COLMAP; nothing is rendered.
 
     job: The job file (TOML).
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
-    spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
-    noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
-    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and the same mean level, with one pixel in the place of K × K; it sets sensor.scale of all cameras.
-    integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
-    quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
+    spp: Samples per pixel, over all replicates, of every camera [default: that of the job or of the quality].
+    noise: Sample each pixel until its standard error is F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp samples.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel in place of K × K; sets sensor.scale of all cameras.
+    integrator: Light paths that every camera simulates, as in render.integrator [default: the job's, or path]. One of flat, direct, path.
+    quality: Preset of samples and bounces, for keys that the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
-    seed: The seed of all random numbers [default: the job's, or 0].
-    sandboxed: Refuse every file outside the folder of the job, whoever names it and through whatever link: for the jobs of others (docs/limits.md).
-    allow_outside: With --sandboxed: files may lie in this folder, too. One, or a sequence of them.
-    texture_memory: Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result does not depend on it. Default: 512.
-    cache: The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
-    film_memory: Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it. Default: 2048.
-    memory: Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what the process, its control group and the machine have free].
-    scratch: The folder of these scratch files, which are gone when the run ends [default: that of --cache].
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    seed: Seed of all random numbers [default: the job's, or 0].
+    sandboxed: Refuse every file outside the folder of the job, whichever file names it and through any link: for untrusted jobs (docs/limits.md).
+    allow_outside: With --sandboxed: also allow files in this folder. One, or a sequence of them.
+    texture_memory: Memory of textures. If they need more, large ones are stored as tiles on disk and read on demand. The result does not depend on it. Default: 512.
+    cache: Folder of these tiles, reused by later runs [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
+    film_memory: Memory of the bands of one film: means and variances, 8 bytes per pixel and band. Larger films are stored in a scratch file on disk; files, effects and electrons are then computed from it some rows or one band at a time. The result does not depend on it. Default: 2048.
+    memory: Memory limit of the run, without the program itself; a run with a higher estimate is refused before its first sample. 0: no check [default: the free memory of the process, its control group and the machine].
+    scratch: Folder of these scratch files, which are removed at the end of the run [default: that of --cache].
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     frames: Frames whose poses are written, first to last (the last excluded). Default: 0..1.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
@@ -110,31 +110,31 @@ def tradeoff(
     mtf50: bool = False,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """Tell what each choice of rendering costs in time and error for a job, and recommend settings.
+    """Report time and error of each rendering choice for a job, and recommend settings.
 
     job: The job file (TOML).
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
-    spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
-    noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
-    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and the same mean level, with one pixel in the place of K × K; it sets sensor.scale of all cameras.
-    integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
-    quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
+    spp: Samples per pixel, over all replicates, of every camera [default: that of the job or of the quality].
+    noise: Sample each pixel until its standard error is F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp samples.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel in place of K × K; sets sensor.scale of all cameras.
+    integrator: Light paths that every camera simulates, as in render.integrator [default: the job's, or path]. One of flat, direct, path.
+    quality: Preset of samples and bounces, for keys that the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
-    seed: The seed of all random numbers [default: the job's, or 0].
-    sandboxed: Refuse every file outside the folder of the job, whoever names it and through whatever link: for the jobs of others (docs/limits.md).
-    allow_outside: With --sandboxed: files may lie in this folder, too. One, or a sequence of them.
-    texture_memory: Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result does not depend on it. Default: 512.
-    cache: The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
-    film_memory: Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it. Default: 2048.
-    memory: Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what the process, its control group and the machine have free].
-    scratch: The folder of these scratch files, which are gone when the run ends [default: that of --cache].
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
-    time: About how long the study may take, seconds (10 or more): the longer, the surer. Default: 120.
-    threads: Worker threads [default: one a processor]. Times are those of as many.
-    ablate: Leave out one effect of the plan after the other instead, and tell what that changes and saves.
-    vary: Compare the frame with this change of a key instead (as of --set; several keys with ';' between them), and tell what it changes and saves; give it once for each change: --vary render.wavelengths_per_path=1 --vary "a.b=1; a.c=2". One, or a sequence of them.
-    mtf50: With --ablate or --vary: photograph a chart of slanted edges with the camera as it is and with each change, too, and tell the spatial frequencies (cycles a pixel) at which its contrast is halved.
+    seed: Seed of all random numbers [default: the job's, or 0].
+    sandboxed: Refuse every file outside the folder of the job, whichever file names it and through any link: for untrusted jobs (docs/limits.md).
+    allow_outside: With --sandboxed: also allow files in this folder. One, or a sequence of them.
+    texture_memory: Memory of textures. If they need more, large ones are stored as tiles on disk and read on demand. The result does not depend on it. Default: 512.
+    cache: Folder of these tiles, reused by later runs [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
+    film_memory: Memory of the bands of one film: means and variances, 8 bytes per pixel and band. Larger films are stored in a scratch file on disk; files, effects and electrons are then computed from it some rows or one band at a time. The result does not depend on it. Default: 2048.
+    memory: Memory limit of the run, without the program itself; a run with a higher estimate is refused before its first sample. 0: no check [default: the free memory of the process, its control group and the machine].
+    scratch: Folder of these scratch files, which are removed at the end of the run [default: that of --cache].
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
+    time: Approximate duration of the study, seconds (10 or more); longer studies are more precise. Default: 120.
+    threads: Worker threads [default: one per processor]. Times refer to this number.
+    ablate: Instead omit the effects of the plan one by one, and report the change and the saving of each.
+    vary: Instead compare the frame with this change of a key (as for --set; several keys separated by ';'), and report the change and the saving; once for each change: --vary render.wavelengths_per_path=1 --vary "a.b=1; a.c=2". One, or a sequence of them.
+    mtf50: With --ablate or --vary: also capture a chart of slanted edges with the unchanged camera and with each change, and report the spatial frequencies (cycles per pixel) at half contrast.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.
@@ -168,32 +168,32 @@ def dataset(
     threads: int | None = None,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Make a data set of a job that is varied sample after sample: COCO, KITTI, Cityscapes and others.
+    """Make a data set from a job varied sample by sample: COCO, KITTI, Cityscapes and others.
 
     job: The job file (TOML).
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
-    spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
-    noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
-    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and the same mean level, with one pixel in the place of K × K; it sets sensor.scale of all cameras.
-    integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
-    quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
+    spp: Samples per pixel, over all replicates, of every camera [default: that of the job or of the quality].
+    noise: Sample each pixel until its standard error is F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp samples.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel in place of K × K; sets sensor.scale of all cameras.
+    integrator: Light paths that every camera simulates, as in render.integrator [default: the job's, or path]. One of flat, direct, path.
+    quality: Preset of samples and bounces, for keys that the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
-    seed: The seed of all random numbers [default: the job's, or 0].
-    sandboxed: Refuse every file outside the folder of the job, whoever names it and through whatever link: for the jobs of others (docs/limits.md).
-    allow_outside: With --sandboxed: files may lie in this folder, too. One, or a sequence of them.
-    texture_memory: Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result does not depend on it. Default: 512.
-    cache: The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
-    film_memory: Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it. Default: 2048.
-    memory: Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what the process, its control group and the machine have free].
-    scratch: The folder of these scratch files, which are gone when the run ends [default: that of --cache].
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    seed: Seed of all random numbers [default: the job's, or 0].
+    sandboxed: Refuse every file outside the folder of the job, whichever file names it and through any link: for untrusted jobs (docs/limits.md).
+    allow_outside: With --sandboxed: also allow files in this folder. One, or a sequence of them.
+    texture_memory: Memory of textures. If they need more, large ones are stored as tiles on disk and read on demand. The result does not depend on it. Default: 512.
+    cache: Folder of these tiles, reused by later runs [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
+    film_memory: Memory of the bands of one film: means and variances, 8 bytes per pixel and band. Larger films are stored in a scratch file on disk; files, effects and electrons are then computed from it some rows or one band at a time. The result does not depend on it. Default: 2048.
+    memory: Memory limit of the run, without the program itself; a run with a higher estimate is refused before its first sample. 0: no check [default: the free memory of the process, its control group and the machine].
+    scratch: Folder of these scratch files, which are removed at the end of the run [default: that of --cache].
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     variations: The variations file (TOML): keys of the job, its scene and its cameras with how their values are drawn [default: nothing varies but noise].
     samples: Samples to make, first to last (the last excluded); each is the same alone or among all. Default: 0..1.
     frames: Frames of each sample, first to last (the last excluded). Default: 0..1.
     format: Formats to write, with commas between them [default: those of the variations file, or coco]. One of coco, kitti, cityscapes, yolo, bop, webdataset, nuscenes, cryptomatte, mcap, openlabel, osi. One, or a sequence of them.
-    resume: Go on with the data set that is in the folder: samples that are whole are kept, and more may be added.
-    threads: Worker threads [default: one a processor]. The result does not depend on it.
+    resume: Resume the data set in the folder: complete samples are kept, and more may be added.
+    threads: Worker threads [default: one per processor]. The result does not depend on it.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -211,16 +211,16 @@ def expose(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor.
+    """Capture a stored radiance image (rendered with route = "pupil") with another lens and sensor.
 
     radiance: A spectral radiance image rendered with route = "pupil".
-    camera: The camera file (TOML) to photograph it with.
+    camera: The camera file (TOML).
     set: Change a key of the camera file, e.g. --set sensor.exposure_s=0.002. A dict of dotted keys to values, or texts key=value.
-    seed: The seed of the sensor's noise [default: that of the radiance image].
+    seed: Seed of the sensor's noise [default: that of the radiance image].
     frames: Frames to take, first to last (the last excluded); each has its own sensor noise. Default: 0..1.
-    depth_of_field: How things out of focus are blurred: physical, none, or a look, e.g. fast:blur_px=8,near_m=0.5..2,far_m=10..40 [default: physical].
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    depth_of_field: Blur of objects out of focus: physical, none, or an artistic setting, e.g. fast:blur_px=8,near_m=0.5..2,far_m=10..40 [default: physical].
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -234,12 +234,12 @@ def weather(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Lay fog, rain or snow over a stored radiance image (rendered with route = "pupil"), by its distances.
+    """Add fog, rain or snow to a stored radiance image (rendered with route = "pupil"), by its distances.
 
     radiance: A spectral radiance image rendered with route = "pupil".
     weather: The weather file (TOML): fog, rain or snow, and the radiance of the air.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -256,15 +256,15 @@ def develop(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Make pictures of raws that were taken before, by another processing.
+    """Make images from stored raws, with another processing.
 
-    raws: Raws (PNG, TIFF, DNG), each with its side-car camera.json beside it. One, or a sequence of them.
-    camera: The camera file (TOML) whose sensor took them and whose processing makes the pictures.
+    raws: Raws (PNG, TIFF, DNG), each with its side-car camera.json in the same folder. One, or a sequence of them.
+    camera: The camera file (TOML) with the sensor of the raws and the processing.
     set: Change a key of the camera file, e.g. --set isp.demosaic=malvar. A dict of dotted keys to values, or texts key=value.
-    levels: For raws without a side-car: digital numbers of no light and of a saturated pixel, e.g. 64..4095.
-    seed: The seed of the paper's noises [default: that of the side-car, or 0].
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    levels: For raws without a side-car: black level and saturation level, DN, e.g. 64..4095.
+    seed: Seed of the noise of the image filters [default: that of the side-car, or 0].
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -286,20 +286,20 @@ def flat(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Photograph even light by a camera's bare sensor, or take the series by which EMVA 1288 measures; nothing is traced.
+    """Capture uniform illumination with a camera's bare sensor, or the series of EMVA 1288 measurements; nothing is traced.
 
-    camera: The camera file (TOML); its lens is taken off.
+    camera: The camera file (TOML); its lens is ignored.
     wavelength_nm: Wavelength of the light, nm.
     irradiance_w_m2: Irradiance of the sensor, W/m²; 0 is dark.
-    photons: Photons of that wavelength on the whole square of a pixel over the exposure, in place of the irradiance; 0 is dark.
-    photon_transfer: The series of EMVA 1288 instead: so many exposures up to the camera's exposure_s, where the light just saturates, two bright and two dark frames each; then a stack at half of saturation and one in the dark.
+    photons: Photons of that wavelength on the full area of a pixel over the exposure, instead of the irradiance; 0 is dark.
+    photon_transfer: The series of EMVA 1288 instead: number of exposures up to the camera's exposure_s, at which the light just saturates, with two bright and two dark frames each; then a stack at half of saturation and one in the dark.
     stack: With --photon-transfer: frames of the stacks at half of saturation and in the dark. Default: 100.
     frames: Frames to take, first to last (the last excluded); each has its own sensor noise. Default: 0..1.
-    signal_breakdown: Write what each pixel's digital number is made of.
+    signal_breakdown: Write the components of each pixel's digital number.
     set: Change a key of the camera file, e.g. --set sensor.exposure_s=0.002. A dict of dotted keys to values, or texts key=value.
-    seed: The seed of the sensor's noise [default: 0].
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    seed: Seed of the sensor's noise [default: 0].
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -312,11 +312,11 @@ def datasheet(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Make a camera file of an EMVA 1288 data sheet; figures that contradict each other are refused.
+    """Make a camera file from an EMVA 1288 data sheet; contradictory values are refused.
 
-    sheet: The data sheet's figures (TOML; docs/format/datasheet.md has the keys).
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    sheet: Values of the data sheet (TOML; docs/format/datasheet.md has the keys).
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -330,12 +330,12 @@ def import_(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Write a scene of another program (glTF, pbrt, Mitsuba, USD) as a scene and a job of the format, and what became of what.
+    """Convert a scene of another program (glTF, pbrt, Mitsuba, USD) to a scene and a job of the format, with a conversion report.
 
     scene: The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml), USD (.usd, .usda, .usdc, .usdz) where it is built in.
     define: Give a value to a parameter of a Mitsuba scene ($name) in place of its default, e.g. -D radius=0.5. One, or a sequence of them.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -349,12 +349,12 @@ def inspect(
     boxes: _Path | None = None,
     progress: _Progress | None = None,
 ) -> str:
-    """Say what is in a file, with units; make a picture of it.
+    """Print the content of a file, with units; write it as an image.
 
     file: A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo), OBJ, tables (CSV), lamps (IES, EULUMDAT), JSON side-car.
-    png: Write a picture of it here.
-    layer: The layer of an EXR that the picture shows: a channel, or what channels have before their last dot (depth, instance, flow.forward, N).
-    boxes: Draw the boxes of a frame's objects over the picture.
+    png: Write its content as an image here.
+    layer: Layer of an EXR for the image: a channel, or the part of channel names before the last dot (depth, instance, flow.forward, N).
+    boxes: Draw the boxes of a frame's objects on the image.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a text.
@@ -371,15 +371,15 @@ def view(
     no_open: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Make a page of a result for a browser: every layer with its values, spectra, histograms, beside another result.
+    """Make a page for a browser from a result: every layer with its values, spectra, histograms, next to another result.
 
     folder: A folder of results: all cameras of a run, or one.
-    beside: Another result, shown side by side, by a wipe, and as the difference; of the same sizes.
+    beside: Second result, shown side by side, by a wipe, and as the difference; of the same sizes.
     frames: Frames to show, first to last (the last excluded) [default: all].
-    max_mb: What the numbers of one layer take at most, MB; larger layers have fewer pixels on the page, by a whole factor. Default: 32.
-    output: Folder for the page, or the name of one file that ends in .html and holds everything [default: the folder `view` in FOLDER, where an earlier page is replaced].
-    overwrite: Replace files that are already there.
-    no_open: Write the page and leave it closed; without a terminal that is so by itself.
+    max_mb: Maximum size of the numbers of one layer, MB; larger layers are downsampled by a whole factor. Default: 32.
+    output: Folder for the page, or the name of one file that ends in .html and holds everything [default: the folder `view` in FOLDER, where an existing page is replaced].
+    overwrite: Replace existing files.
+    no_open: Write the page without opening it; this is the default without a terminal.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -393,7 +393,7 @@ def compare(
     difference: _Path | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
-    """Compare two results: errors with their uncertainty; exit status 1 where they differ.
+    """Compare two results: errors with their uncertainty; exit status 1 if they differ.
 
     a: First result, an EXR or PNG file; errors are A − B.
     b: Reference of the same size and channels, which is subtracted from A.
@@ -432,32 +432,32 @@ def calibrate(
     html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
-    """Find a camera's intrinsics and distortion from several pictures of a chart, as a camera file.
+    """Compute a camera's intrinsics and distortion from several images of a chart, as a camera file.
 
-    files: Pictures of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together. One, or a sequence of them.
-    target: The chart [default: whichever shows more points]. One of checkerboard, dots.
+    files: Images of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together. One, or a sequence of them.
+    target: The chart [default: the one that shows more points]. One of checkerboard, dots.
     grid: Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found].
-    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance].
-    cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
-    encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
-    region: Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture.
-    size_px: Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen.
-    truth: The truth.json of `etendue chart`, which says what is in the picture and where.
-    camera: With --truth: the camera that took the picture [default: the first].
-    points: List every point of the chart in the text, too; JSON has them anyway.
-    pitch_mm: The distance of neighbouring points of the chart, mm [with --truth: as it says].
-    model: The camera model. One of pinhole, opencv, opencv5, opencv8, radial, radial-inverse, kannala-brandt, division, field-of-view, unified, extended-unified, double-sphere, equidistant, equisolid, stereographic, orthographic. Default: opencv.
-    square_pixels: Pixels are square: one focal length for columns and rows.
-    principal_px: The principal point is known, raster coordinates, px.
-    distance_mm: The distance from the entrance pupil to the chart's plane, mm, the same in every picture.
-    distance_uncertainty_mm: Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit].
-    pixel_pitch_um: The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well.
-    robust: Points far from the fit count less (Huber).
-    f_number: The lens's f-number, for the camera file [default: 4, which is marked as a stand-in].
+    channel: Channel: R, G, B or Y of an image, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with colours balanced to one grey [default: the luminance].
+    cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
+    encoding: Encoding of the numbers: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: by the side-car or the PNG, else by the bits].
+    region: Part of the image to search for the chart: left column, top row, width and height, pixels of the image.
+    size_px: For lists of points (CSV) in place of images: columns and rows of the images in which they were seen.
+    truth: The truth.json of `etendue chart`, which describes the content of the image and its position.
+    camera: With --truth: camera of the image [default: the first].
+    points: List every point of the chart in the text, too; JSON always has them.
+    pitch_mm: Distance of neighbouring points of the chart, mm [with --truth: as it states].
+    model: Camera model. One of pinhole, opencv, opencv5, opencv8, radial, radial-inverse, kannala-brandt, division, field-of-view, unified, extended-unified, double-sphere, equidistant, equisolid, stereographic, orthographic. Default: opencv.
+    square_pixels: Assume square pixels: one focal length for columns and rows.
+    principal_px: Known principal point, raster coordinates, px.
+    distance_mm: Distance from the entrance pupil to the chart's plane, mm, the same in every image.
+    distance_uncertainty_mm: Standard uncertainty of the distance, mm; 0 if exact [default: of rounding to its last digit].
+    pixel_pitch_um: Pixel pitch of the sensor, µm: adds focal lengths in mm.
+    robust: Reduce the weight of points far from the fit (Huber).
+    f_number: F-number of the lens, for the camera file [default: 4, marked as a stand-in].
     output: Write the camera file here; needs --pixel-pitch-um.
-    overwrite: Replace a camera file that is already there.
-    plot: Draw the curves here; an earlier drawing is replaced.
-    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
+    overwrite: Replace an existing camera file.
+    plot: Draw the curves here; an existing drawing is replaced.
+    html: Write results, tables, curves and notes as one page for a browser; an existing page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -471,12 +471,12 @@ def characterise(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Make a camera file of a laboratory folder (dark frames, flats, charts), with every uncertainty and a report as a page.
+    """Make a camera file from a laboratory folder (dark frames, flats, charts), with every uncertainty and a report as a page.
 
-    folder: The laboratory folder: folders dark, flat, field, chart, edges and checker with pictures in them, any of them missing, and laboratory.toml where pictures do not say enough.
-    base: Lay the camera file over this one: what is not measured is its.
-    output: Write the camera file here, and beside it the report under the same stem: .html, .json.
-    overwrite: Replace files that are already there.
+    folder: Laboratory folder: folders dark, flat, field, chart, edges and checker with images, each optional, and laboratory.toml for facts that the images do not state.
+    base: Camera file to extend: supplies what is not measured.
+    output: Write the camera file here, and next to it the report under the same stem: .html, .json.
+    overwrite: Replace existing files.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -495,17 +495,17 @@ def laboratory(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Photograph a laboratory folder by a camera file: what characterise reads.
+    """Capture a laboratory folder with a camera file: the input of characterise.
 
     camera: The camera file (TOML).
     set: Change a key of the camera file, e.g. --set sensor.width_px=320. A dict of dotted keys to values, or texts key=value.
-    seed: The seed of all noise. Default: 0.
-    levels: Levels of even light on the bare sensor, up to a little above saturation. Default: 15.
+    seed: Seed of all noise. Default: 0.
+    levels: Levels of uniform illumination on the bare sensor, up to slightly above saturation. Default: 15.
     stack: Frames of the stacks without light and at half of saturation. Default: 32.
     views: Views of the checkerboard. Default: 13.
-    spp: Samples a pixel of the pictures through the lens. Default: 64.
-    output: Folder for the results; made where missing.
-    overwrite: Replace results that are already there.
+    spp: Samples per pixel of the images through the lens. Default: 64.
+    output: Folder for the results; created if missing.
+    overwrite: Replace existing results.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with the paths of what was written.
@@ -529,9 +529,9 @@ def explain(
     *,
     progress: _Progress | None = None,
 ) -> str:
-    """Explain the code of an error: its cause, an example and what to do.
+    """Explain an error code: cause, example and remedy.
 
-    code: The code of an error, such as unknown-key, which stands in brackets before its message [default: a list of all codes].
+    code: The code of an error, such as unknown-key, shown in brackets before its message [default: a list of all codes].
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a text.
