@@ -16,7 +16,7 @@ pub(in crate::lights) struct LightBounds {
     /// Mean intensity along the axis, W·sr⁻¹·nm⁻¹.
     pub(in crate::lights) intensity: f64,
     /// Unit axis, and half angles (rad): the intensity is constant up to `theta_o` from the axis, and falls beyond it to zero at `theta_o` + `theta_e`.
-    /// 
+    ///
     pub(in crate::lights) axis: Vec3,
     pub(in crate::lights) theta_o: f32,
     pub(in crate::lights) theta_e: f32,
