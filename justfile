@@ -73,7 +73,7 @@ additions *arguments:
 usd:
     CARGO_TARGET_DIR=target/usd cargo test -p etendue-import -p etendue -p etendue-cli -p etendue-fuzz --features etendue-import/usd,etendue/usd,etendue-cli/usd,etendue-fuzz/usd -- usd what_was_found
 
-# Recover the declared parameters of reference cameras from renders of charts: writes docs/validation.md
+# Recover the declared parameters of reference cameras from renders of charts: writes docs/evidence/validation.md
 validate *cameras:
     cargo run --release -q -p etendue-validation --bin validate -- {{cameras}}
 
@@ -81,22 +81,24 @@ validate *cameras:
 laboratory *arguments:
     cargo run --release -q -p etendue-validation --bin laboratory -- {{arguments}}
 
-# Cameras with a fault beside their files without it: every fault must be flagged; writes docs/faults.md
+# Cameras with a fault beside their files without it: every fault must be flagged; writes docs/evidence/faults.md
 faults:
     ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary faults::
 
-# The ends of every range: writes docs/extremes.md
+# The ends of every range: writes docs/evidence/extremes.md
 extremes:
     ETENDUE_BLESS=1 ETENDUE_INSTANCES=1 cargo test -p etendue-tests --test physics ranges:: -- --test-threads=1
     ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary -- --test-threads=1 extremes:: pictures_that_are_mirrored killed:: concurrent::
 
-# Variance by the density of wavelengths, by sensor and light: writes docs/wavelengths.md
+# Variance by the density of wavelengths, by sensor and light: writes docs/evidence/wavelengths.md
 wavelengths:
     ETENDUE_BLESS=1 cargo test -p etendue-tests --test physics wavelength_density
 
 # The book of docs as HTML, in the folder book (needs mdBook: cargo install mdbook)
 book:
     mdbook build
+    # The pages of docs/evidence are outside the book: links lead to the files.
+    find book -name '*.html' -exec sed -i -E 's#href="((\.\./)*)evidence/([a-z-]+)\.html#href="\1../docs/evidence/\3.md#g' {} +
 
 # Render the pictures of docs/pictures.md anew (names: some of them)
 gallery *names:
@@ -106,7 +108,7 @@ gallery *names:
 effects *names:
     docs/pictures/effects {{names}}
 
-# Time against error of five scenes: writes docs/tradeoff-scenes.md (names: some of them)
+# Time against error of five scenes: writes docs/evidence/tradeoff-scenes.md (names: some of them)
 tradeoff *names:
     docs/pictures/tradeoff {{names}}
 

@@ -1,7 +1,7 @@
 //! Benchmarks of Étendue: what a machine does in a second, as tables in Markdown on the standard output.
 //!
 //! `just bench` runs all of them; `cargo run --release -p etendue-benches -- rays paths` runs those that are named.
-//! docs/performance.md keeps a set of results and says how to read them.
+//! docs/evidence/performance.md keeps a set of results and says how to read them.
 //!
 //! | name | what is measured |
 //! | --- | --- |

@@ -1,5 +1,5 @@
 //! The validation bench: renders charts with the reference cameras, measures the pictures and lays what was found beside what the camera
-//! files declare. Writes docs/validation.md with its plots; exit status 1 where a bound is broken, 2 where something fails.
+//! files declare. Writes docs/evidence/validation.md with its plots; exit status 1 where a bound is broken, 2 where something fails.
 //!
 //! `just validate` runs all; `just validate web ccd-mono` runs those that are named and leaves the page in the folder of renders.
 //! Everything is rendered again each time. Environment: BENCH names the folder of renders (default: target/validation).
@@ -56,7 +56,7 @@ fn validated(names: &[String]) -> Result<Vec<String>, String> {
     let cameras = chosen(names)?;
     let whole = cameras.len() == CAMERAS.len();
     let folder = PathBuf::from(std::env::var_os("BENCH").unwrap_or_else(|| "target/validation".into()));
-    let pictures = if whole { PathBuf::from("docs/pictures") } else { folder.join("pictures") };
+    let pictures = if whole { PathBuf::from("docs/evidence/pictures") } else { folder.join("pictures") };
     std::fs::create_dir_all(&pictures).map_err(|cause| format!("{}: {cause}", pictures.display()))?;
     let report = |camera: &ReferenceCamera| {
         let folder = emptied(&folder.join(camera.name))?;
@@ -64,7 +64,7 @@ fn validated(names: &[String]) -> Result<Vec<String>, String> {
         reported(&bench)
     };
     let reports = cameras.iter().map(report).collect::<Result<Vec<_>, String>>()?;
-    let page = if whole { PathBuf::from("docs/validation.md") } else { folder.join("validation.md") };
+    let page = if whole { PathBuf::from("docs/evidence/validation.md") } else { folder.join("validation.md") };
     std::fs::write(&page, page::page(&reports)).map_err(|cause| format!("{}: {cause}", page.display()))?;
     println!("{}", page.display());
     Ok(reports.iter().flat_map(broken).collect())

@@ -1,4 +1,4 @@
-//! docs/validation.md.
+//! docs/evidence/validation.md.
 
 use crate::bounds::unit;
 use crate::comparison::{Reached, rounded};

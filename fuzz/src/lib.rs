@@ -11,7 +11,7 @@
 //! - [`worker`]: inputs one after the other, findings made small;
 //! - [`watch`]: workers as child processes, and what they die of.
 //!
-//! What was found lies in `fuzz/found`, and a test reads all of it again. docs/fuzzing.md tells how long each target ran.
+//! What was found lies in `fuzz/found`, and a test reads all of it again. docs/evidence/fuzzing.md tells how long each target ran.
 
 pub mod attempt;
 pub mod found;

@@ -2,7 +2,7 @@
 //!
 //! A quantity is measured with 200 seeds. Its 95 % interval, value ± 1.96 standard uncertainties, must contain the true value in
 //! 90 to 99 % of them, 180 to 198: a correct 95 % interval leaves that range once in 600 tries (binomial; 1.2·10⁻³ below,
-//! 0.4·10⁻³ above). docs/coverage.md is the table.
+//! 0.4·10⁻³ above). docs/evidence/coverage.md is the table.
 //!
 //! `ETENDUE_BLESS=1` rewrites the table and `ETENDUE_WHOLE=1` compares it with 200 seeds; a count that differs by more than three
 //! is an error. Otherwise only the first 50 seeds are measured, and the root mean square of their errors in standard
@@ -52,7 +52,7 @@ pub(crate) fn covers(measurement: &str, measured: impl Fn(u64) -> Run + Send + S
         let unfair: Vec<_> = quantities.iter().filter(is_fair).map(|of| (of.quantity, of.covered, of.spread)).collect();
         assert!(unfair.is_empty(), "{measurement}: of {SEEDS} seeds are covered {unfair:?}");
     }
-    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/coverage.md");
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/evidence/coverage.md");
     let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let page = std::fs::read_to_string(&file).expect("the table");
     if is_set("ETENDUE_BLESS") {
@@ -88,13 +88,13 @@ fn compare(page: &str, measurement: &str, quantities: &[Coverage], is_whole: boo
         let numbers: Vec<f64> =
             row.into_iter().flat_map(|row| row.split('|')).flat_map(|cell| cell.trim().parse()).collect();
         let [stated_count, stated_spread] = numbers[..] else {
-            panic!("docs/coverage.md has no row for {measurement}, {quantity}; ETENDUE_BLESS=1 writes it")
+            panic!("docs/evidence/coverage.md has no row for {measurement}, {quantity}; ETENDUE_BLESS=1 writes it")
         };
         let is_near = (spread / stated_spread - 1.0).abs() <= SPREAD_TOLERANCE
             && (!is_whole || (*covered as f64 - stated_count).abs() <= MOVED as f64);
         assert!(
             is_near,
-            "docs/coverage.md states {stated_count} covered and {stated_spread} for {measurement}, {quantity}: {covered} of {} and {spread:.3} \
+            "docs/evidence/coverage.md states {stated_count} covered and {stated_spread} for {measurement}, {quantity}: {covered} of {} and {spread:.3} \
              now; ETENDUE_BLESS=1 writes it",
             if is_whole { SEEDS } else { FEW_SEEDS as u64 }
         );

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`judge`] | comparison of an estimated image with a closed form |
 //! | [`form_factor`] | irradiance from spheres and polygons, and behind a round, optionally clipped, pupil; integrals by direct sums |
-//! | [`page`] | docs/extremes.md: its content and checks |
+//! | [`page`] | docs/evidence/extremes.md: its content and checks |
 //! | [`skip`] | count of tests whose files are missing |
 //!
 //! Nothing here shares code with the tested crates, except the vocabulary and the elementary functions of `core`.

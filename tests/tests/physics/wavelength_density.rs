@@ -1,6 +1,6 @@
 //! The density of wavelengths: by no choice of it do electrons change, and the light's spectrum in it saves what the plan foretells.
 //!
-//! `ETENDUE_BLESS=1 cargo test -p etendue-tests --test physics wavelength_density` (`just wavelengths`) writes docs/wavelengths.md.
+//! `ETENDUE_BLESS=1 cargo test -p etendue-tests --test physics wavelength_density` (`just wavelengths`) writes docs/evidence/wavelengths.md.
 
 use etendue_pipeline::plan::{SpectralGain, WavelengthSampling};
 use etendue_stats::normal;
@@ -230,7 +230,7 @@ fn chosen(place: Place, light: &str, sensor: &SensorKind, render: &str) -> (Wave
 fn electrons_are_the_same_by_every_density_and_the_lights_spectrum_saves_variance() {
     let rows = rows();
     if std::env::var_os("ETENDUE_BLESS").is_some_and(|value| value == "1") {
-        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/wavelengths.md");
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/evidence/wavelengths.md");
         std::fs::write(page, self::page(&rows)).expect("written");
     }
     // Unbiased: sums of 96 pixels or more are apart by chance alone, all rows together (Bonferroni).
@@ -257,7 +257,7 @@ fn electrons_are_the_same_by_every_density_and_the_lights_spectrum_saves_varianc
 const HEAD: &str = "# Variance by the density of wavelengths
 
 Six patches (grey, white, four colours), 24 × 16 pixels, 64 samples of four wavelengths in 16 replicates, rendered by the program with `[render] wavelength_density` as the
-columns say ([why and how](decisions/wavelength-sampling.md)). Written by `just wavelengths`; the test that writes it holds that means agree (a Z test) and what is saved. Figures are the variance of a
+columns say ([why and how](../decisions/wavelength-sampling.md)). Written by `just wavelengths`; the test that writes it holds that means agree (a Z test) and what is saved. Figures are the variance of a
 pixel's mean electrons over its squared mean, × 1 000, mean over the pixels of a colour, with the standard error over eight parts of the picture. **Even**: light is the same from everywhere,
 so that only the wavelengths of a pixel's samples differ. **Room**: a lamp lights a room with walls of reflectance 0.6; most of the noise is that of the paths, which no density
 takes away. *Saved*: variance by response over that by response and source; samples for equal noise fall by as much. *Foretold*: what `plan` says of all pixels of a sensor for noisy pixels: that of the room is to lie between 1 and about it, that of

@@ -2,7 +2,7 @@
 //!
 //! `benches/peers/embree.sh` fetches Embree and runs this: `etendue-beside-embree LIBRARY STREET [rays] [agreement] [sizes]`.
 //! `--max-isa avx2` holds Embree to the instruction set that Étendue uses; `--largest 1000000` leaves out larger hills.
-//! docs/performance.md keeps a set of results.
+//! docs/evidence/performance.md keeps a set of results.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 

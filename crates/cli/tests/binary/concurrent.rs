@@ -1,4 +1,4 @@
-//! Several runs at one time: a folder accepts one, and states its owner. A section of docs/extremes.md.
+//! Several runs at one time: a folder accepts one, and states its owner. A section of docs/evidence/extremes.md.
 
 use crate::support::{assert_same, contents, etendue, rendered, root, small, tests, text};
 use etendue_testkit::page::{Row, check};

@@ -1,5 +1,5 @@
 //! Extremes of the program's input that only the binary shows: images without content, invalid files, runs that cannot continue. The rows of
-//! docs/extremes.md in addition to those of tests/tests/physics/ranges, each with the message for the user (`just extremes`); variants are in the
+//! docs/evidence/extremes.md in addition to those of tests/tests/physics/ranges, each with the message for the user (`just extremes`); variants are in the
 //! tests of each part.
 
 mod files;

@@ -1,5 +1,5 @@
 //! The bench detects seeded defects: a camera with a defect is compared with the file without it, and the defect is flagged by its quantity; the same
-//! camera without the defect, with the same seeds, is not flagged. docs/faults.md is the table, written by `just faults`.
+//! camera without the defect, with the same seeds, is not flagged. docs/evidence/faults.md is the table, written by `just faults`.
 
 mod geometry;
 mod light;
@@ -14,7 +14,7 @@ use std::sync::Mutex;
 const CAMERA: &str = "charts/faults/camera.toml";
 /// The same with colours.
 const COLOUR: &str = "charts/faults/colour.toml";
-const PAGE: &str = "docs/faults.md";
+const PAGE: &str = "docs/evidence/faults.md";
 /// Tests of one run write the page one after another.
 static WRITING: Mutex<()> = Mutex::new(());
 

@@ -2,7 +2,7 @@
 //! those of an undisturbed run, without further files.
 //!
 //! `ETENDUE_KILLS=1000` kills that often in all, instead of a few times, and writes the results to `target/kills.md` (`just kills`;
-//! docs/robustness.md has them); `ETENDUE_KILLS_SEED` gives other moments. The few kills are a section of docs/extremes.md.
+//! docs/robustness.md has them); `ETENDUE_KILLS_SEED` gives other moments. The few kills are a section of docs/evidence/extremes.md.
 
 use crate::support::{assert_same, contents, etendue, root, small, tests, text};
 use etendue_io::exr::read_exr;

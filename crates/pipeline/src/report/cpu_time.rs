@@ -1,6 +1,6 @@
 //! CPU time of a path, and of the work on a finished film: the effects of the lens, depth of field, ground truth, cubes of bands.
 //!
-//! Each part of the work is counted in its own unit from the plan's numbers, and each unit has one measured time (docs/performance.md, "What is done on the
+//! Each part of the work is counted in its own unit from the plan's numbers, and each unit has one measured time (docs/evidence/performance.md, "What is done on the
 //! film": AMD EPYC, AVX2, one thread, release build, 2026-11-22, `etendue render --threads 1` by `/usr/bin/time`, fractions of its parts by `perf record -e
 //! cpu-clock`; other programs were running, so the uncertainty is a tenth).
 
@@ -15,7 +15,7 @@ use etendue_optics::{DepthOfField, Lens};
 use etendue_tracer::lights::Sun;
 use glam::DVec2;
 
-/// A path of the street scene (docs/performance.md).
+/// A path of the street scene (docs/evidence/performance.md).
 pub(crate) const PATH_CPU_S: f64 = 2.2e-6;
 /// A path of at most two bounces, of direct light alone, and without shadows: as fractions of a whole path, from street.toml with max_bounces 6 and 2 and the
 /// integrators direct and flat (docs/plan.md).

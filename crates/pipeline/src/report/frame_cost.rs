@@ -1,6 +1,6 @@
 //! Estimated CPU time and memory of a frame of a camera.
 //!
-//! The time per path is that of the street scene (docs/performance.md): in other scenes it is from a tenth of that to three times as long.
+//! The time per path is that of the street scene (docs/evidence/performance.md): in other scenes it is from a tenth of that to three times as long.
 
 use super::cpu_time::{self, Share, branches_share, path_cpu_s};
 use crate::plan::{CameraPlan, Plan};

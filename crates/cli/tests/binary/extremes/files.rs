@@ -154,6 +154,6 @@ fn folders() -> Vec<Row> {
 #[test]
 fn files_that_are_none() {
     let parts = [empty_and_cut(), counts(), budgets(), numbers(), names_and_paths(), folders()];
-    let about = "Each refused with status 2, nothing written: what a user reads (of several faults the first). Every reader is fuzzed as well (docs/fuzzing.md); limits and how to raise them: docs/limits.md.";
+    let about = "Each refused with status 2, nothing written: what a user reads (of several faults the first). Every reader is fuzzed as well (docs/evidence/fuzzing.md); limits and how to raise them: docs/limits.md.";
     check("Files", about, &parts.concat());
 }
