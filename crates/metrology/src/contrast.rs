@@ -32,6 +32,32 @@ pub struct ContrastPair {
     pub contrast_snr: Estimate,
 }
 
+/// Readings of a patch of uniform luminance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// Readings as stored, proportional to light above black.
+    pub readings: Image,
+    /// Relative sensitivity of the same pixels, above 0, by which their light is divided; `None`: equal sensitivity.
+    pub flat: Option<Image>,
+}
+
+impl From<Image> for Patch {
+    /// A patch of pixels of equal sensitivity.
+    fn from(readings: Image) -> Self {
+        Self { readings, flat: None }
+    }
+}
+
+impl Patch {
+    /// Returns the readings of pixels of equal sensitivity.
+    fn corrected(&self, black: f64) -> Image {
+        let Some(flat) = &self.flat else { return self.readings.clone() };
+        let pairs = self.readings.samples().iter().zip(flat.samples());
+        let samples = pairs.map(|(reading, gain)| (black + (f64::from(*reading) - black) / f64::from(*gain)) as f32);
+        Image::from_samples(self.readings.width(), self.readings.height(), samples.collect()).expect("the patch's size")
+    }
+}
+
 /// Settings of a contrast measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContrastSettings {
@@ -78,12 +104,12 @@ pub enum ContrastError {
 /// # Errors
 /// If patches are too small or dark, or the scene's contrast or the tolerance is invalid.
 pub fn measure_contrast(
-    darker: &Image,
-    brighter: &Image,
+    darker: &Patch,
+    brighter: &Patch,
     scene_contrast: f64,
     settings: &ContrastSettings,
 ) -> Result<ContrastPair, ContrastError> {
-    if darker.samples().len() < 4 || brighter.samples().len() < 4 {
+    if [darker, brighter].iter().any(|patch| patch.readings.samples().len() < 4) {
         return Err(ContrastError::TooSmall);
     }
     if !(scene_contrast > 0.0 && scene_contrast.is_finite()) {
@@ -93,11 +119,11 @@ pub fn measure_contrast(
     if !(share > 0.0 && share <= 1.0) {
         return Err(ContrastError::Share(share));
     }
-    if let Some(percent) = saturated_percent([darker, brighter], full_scale) {
+    if let Some(percent) = saturated_percent([&darker.readings, &brighter.readings], full_scale) {
         return Err(ContrastError::Saturated { percent });
     }
-    let [x, xx] = moments(darker, black, shared_px);
-    let [y, yy] = moments(brighter, black, shared_px);
+    let [x, xx] = moments(&darker.corrected(black), black, shared_px);
+    let [y, yy] = moments(&brighter.corrected(black), black, shared_px);
     if x.value <= 0.0 {
         return Err(ContrastError::Dark);
     }
@@ -156,12 +182,13 @@ mod tests {
             let sample = |i: u32| {
                 normal.sample(&mut NoiseStream::new(2, 0, frame, 0, Pixel { x: i, y: 0 }, NoiseDraw::Read)) as f32
             };
-            Image::from_samples(20, 20, (0..400).map(sample).collect()).expect("a square")
+            Patch::from(Image::from_samples(20, 20, (0..400).map(sample).collect()).expect("a square"))
         };
         let (dark, light) = (patch(1000.0, 120.0, 0), patch(1500.0, 150.0, 1));
         let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
         let pair = measure_contrast(&dark, &light, 0.5, &settings).expect("patches");
-        let contrasts = dark.samples().iter().flat_map(|x| light.samples().iter().map(move |y| f64::from(y / x) - 1.0));
+        let [dark_readings, light_readings] = [&dark, &light].map(|patch| patch.readings.samples());
+        let contrasts = dark_readings.iter().flat_map(|x| light_readings.iter().map(move |y| f64::from(y / x) - 1.0));
         let counted = contrasts.filter(|k| (0.25..=0.75).contains(k)).count() as f64 / 160_000.0;
         // Some 400 independent pairs: 2 %.
         assert!((pair.detection.value - counted).abs() < 0.03, "{pair:?} {counted}");
@@ -173,5 +200,24 @@ mod tests {
         assert!(matches!(measure_contrast(&dark, &light, -0.5, &settings), Err(ContrastError::Contrast(_))));
         let clipped = ContrastSettings { full_scale: Some(1600.0), ..settings };
         assert!(matches!(measure_contrast(&dark, &light, 0.5, &clipped), Err(ContrastError::Saturated { .. })));
+    }
+
+    /// Light that falls off across both patches, above a black of 64: division by the flat field restores the contrast exactly.
+    #[test]
+    fn a_flat_field_removes_fall_off() {
+        let fall_off = |i: u32| 1.0 - 0.002 * i as f32;
+        let image = |f: &dyn Fn(u32) -> f32| Image::from_samples(10, 10, (0..100).map(f).collect()).expect("a square");
+        let patch = |light: f32, first: u32| Patch {
+            readings: image(&|i| 64.0 + light * fall_off(first + i)),
+            flat: Some(image(&|i| fall_off(first + i))),
+        };
+        let settings = ContrastSettings { black: 64.0, full_scale: Some(2000.0), share: 0.5, shared_px: 1 };
+        let (darker, brighter) = (patch(1000.0, 0), patch(1500.0, 200));
+        let corrected = measure_contrast(&darker, &brighter, 0.5, &settings).expect("patches");
+        assert!((corrected.measured.value - 0.5).abs() < 1e-6 && corrected.detection.value > 0.999, "{corrected:?}");
+        // Mean readings without the flat field: 64 + 1000 · 0.901 and 64 + 1500 · 0.501.
+        let uncorrected = [darker, brighter].map(|patch| Patch::from(patch.readings));
+        let uncorrected = measure_contrast(&uncorrected[0], &uncorrected[1], 0.5, &settings);
+        assert_eq!(uncorrected, Err(ContrastError::Order));
     }
 }

@@ -189,10 +189,8 @@ pub(crate) fn saturated_fraction(samples: &[f32], full_scale: Option<f64>) -> f6
 
 /// Percentage of the pixels at or above a known full scale, for the worst part of an image, if that is more than a measurement
 /// accepts.
-pub(crate) fn saturated_percent<'a>(
-    parts: impl IntoIterator<Item = &'a Image>,
-    full_scale: Option<f64>,
-) -> Option<f64> {
+#[must_use]
+pub fn saturated_percent<'a>(parts: impl IntoIterator<Item = &'a Image>, full_scale: Option<f64>) -> Option<f64> {
     let full = full_scale?;
     let share = parts.into_iter().map(|part| saturated_fraction(part.samples(), Some(full))).fold(0.0, f64::max);
     (share > SATURATED_SHARE).then_some(100.0 * share)

@@ -98,7 +98,8 @@ fn the_book_lists_every_page() {
     let summary = std::fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the book's summary");
     let mut listed: Vec<String> = links(&summary).iter().map(|link| format!("docs/{link}")).collect();
     let mut pages = files(&[".md"]);
-    let is_of_book = |page: &String| page.starts_with("docs/") && !page.starts_with("docs/evidence/") && page != "docs/SUMMARY.md";
+    let is_of_book =
+        |page: &String| page.starts_with("docs/") && !page.starts_with("docs/evidence/") && page != "docs/SUMMARY.md";
     pages.retain(|page| is_of_book(page) && root().join(page).exists());
     listed.sort();
     pages.sort();

@@ -1,12 +1,14 @@
 //! `measure cdp`: contrast detection probability of pairs of patches.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use etendue_arguments::region;
 use etendue_charts::design::{ContrastPatches, OecfSteps};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_metrology::contrast::{ContrastPair, ContrastSettings, measure_contrast};
+use etendue_metrology::Image;
+use etendue_metrology::contrast::{ContrastPair, ContrastSettings, Patch, measure_contrast};
+use etendue_metrology::patch_statistics::saturated_percent;
 
 use super::pictures::{PictureInput, refused, region_label};
 use super::readings::Readings;
@@ -37,6 +39,9 @@ pub struct CdpRequest {
     /// Maximum relative deviation of a measured contrast from the scene's
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
     pub tolerance: f64,
+    /// Image of uniform illumination by the same camera: readings are divided by it, which removes the lens's fall-off
+    #[arg(long, value_name = "FLAT")]
+    pub flat: Option<PathBuf>,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
     pub input: PictureInput,
@@ -51,6 +56,7 @@ impl CdpRequest {
             brighter: Vec::new(),
             contrast: Vec::new(),
             tolerance: 0.5,
+            flat: None,
             input: PictureInput::default(),
         }
     }
@@ -81,10 +87,15 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
         share: request.tolerance,
         shared_px: readings.shared_px,
     };
+    let flat = request.flat.as_deref().map(|file| FlatField::read(file, request, &readings)).transpose()?;
+    let patch = |name: &str, at: [usize; 4]| -> Result<Patch, Error> {
+        let readings = readings.part_of(name, at)?;
+        Ok(Patch { flat: flat.as_ref().map(|flat| flat.part(name, at)).transpose()?, readings })
+    };
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
     for pair in pairs {
-        let (low, high) = (readings.part_of("darker", pair.darker)?, readings.part_of("brighter", pair.brighter)?);
-        match measure_contrast(&low, &high, pair.contrast, &settings) {
+        let (darker, brighter) = (patch("darker", pair.darker)?, patch("brighter", pair.brighter)?);
+        match measure_contrast(&darker, &brighter, pair.contrast, &settings) {
             Ok(measured) => found.push((pair, measured)),
             Err(error) if pair.luminance_cd_m2.is_some() => left_out.push(format!("{}: {error}", places(&pair))),
             Err(error) => return Err(refused(&request.picture, error)),
@@ -94,6 +105,9 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
         return Err(refused(&request.picture, &left_out[0]));
     }
     let mut report = report(&found);
+    if let Some(file) = &request.flat {
+        report.note(format!("readings are divided by those of {}", file.display()));
+    }
     report.encoding(&readings.stated);
     for (pair, _) in &found {
         for at in [pair.darker, pair.brighter] {
@@ -102,6 +116,43 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     }
     left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
     Ok(report)
+}
+
+/// Relative sensitivity of the pixels, from an image of uniform illumination.
+struct FlatField(Readings);
+
+impl FlatField {
+    /// Reads the image with the channel and the levels of the request, and divides the light by its mean.
+    fn read(file: &Path, request: &CdpRequest, readings: &Readings) -> Result<Self, Error> {
+        let mut flat = request.input.linear(file)?;
+        let is_alike =
+            (flat.picture_px, flat.first, flat.period) == (readings.picture_px, readings.first, readings.period);
+        if !is_alike {
+            let reason = format!(
+                "{}: a flat field of another size or mosaic than {}",
+                file.display(),
+                request.picture.display()
+            );
+            return Err(Error::argument("flat", &reason).with_code(ErrorCode::UnsuitableFile));
+        }
+        if let Some(percent) = saturated_percent([&flat.image], request.input.levels.full_scale(&flat)) {
+            return Err(refused(file, format!("{percent:.1} % of the flat field is saturated: expose less")));
+        }
+        let black = request.input.levels.black(&flat);
+        let light: Vec<f64> = flat.image.samples().iter().map(|reading| f64::from(*reading) - black).collect();
+        let mean = light.iter().sum::<f64>() / light.len() as f64;
+        if light.iter().any(|value| *value <= 0.0) {
+            return Err(refused(file, "a pixel of the flat field reads no more than black: expose longer"));
+        }
+        let relative = light.iter().map(|value| (value / mean) as f32).collect();
+        flat.image =
+            Image::from_samples(flat.image.width(), flat.image.height(), relative).expect("the size of the readings");
+        Ok(Self(flat))
+    }
+
+    fn part(&self, name: &str, at: [usize; 4]) -> Result<Image, Error> {
+        self.0.part_of(name, at)
+    }
 }
 
 fn places(pair: &Pair) -> String {

@@ -71,7 +71,7 @@ fn patches_of_developed_pictures() {
         let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
         let [dark, bright] = [(1000.0, 100.0), (1500.0, 120.0)].map(|(m, s)| developed(m, s, &mut normal));
         let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
-        let contrast = measure_contrast(&dark, &bright, 0.5, &settings).expect("patches");
+        let contrast = measure_contrast(&dark.clone().into(), &bright.into(), 0.5, &settings).expect("patches");
         let point = ExposurePoint::of(1.0, &dark, None, 1);
         vec![
             ("flare of a trap", flare, 5.0 / 880.0),
@@ -96,7 +96,7 @@ fn patches_whose_rows_share_noise() {
         let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
         let [dark, bright] = [(1000.0, 100.0), (1500.0, 120.0)].map(|(m, s)| with_rows(m, s, &mut normal));
         let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
-        let contrast = measure_contrast(&dark, &bright, 0.5, &settings).expect("patches");
+        let contrast = measure_contrast(&dark.clone().into(), &bright.into(), 0.5, &settings).expect("patches");
         vec![
             ("flare of a trap", flare, 5.0 / 880.0),
             ("contrast", contrast.measured, 0.5),
@@ -113,7 +113,7 @@ fn contrast() {
         let mut normal = normals(seed, 0);
         let mut patch = |[mean, sigma]: [f64; 2]| picture(20, 20, |_| mean + sigma * normal());
         let (a, b) = (patch(dark), patch(bright));
-        let found = measure_contrast(&a, &b, 0.5, &settings).expect("patches");
+        let found = measure_contrast(&a.into(), &b.into(), 0.5, &settings).expect("patches");
         let square = |[mean, sigma]: [f64; 2]| [mean, sigma * sigma];
         let probability = detection_probability(square(dark), square(bright), 0.5, 0.5);
         vec![
