@@ -110,7 +110,8 @@ fn curve(bench: &Bench, of: &str, channel: Option<String>, request: OecfRequest)
         .value("full_scale")
         .ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "the full scale is not told"))?
         .value;
-    let of = format!("tone curve, {of}");
+    let output = if of == "picture" { "developed image" } else { of };
+    let of = format!("tone curve, {output}");
     let reached = found.curve(&of, bounds::TONE, "largest_difference", 100.0 / full_scale)?;
     Ok((reached, found.told(&format!("Value over exposure ({of})")) + &shown))
 }
