@@ -41,15 +41,15 @@ record! {
         optional saturation_capacity_p: Placed<f64> = number("photons").above(0.0);
         /// Maximum signal-to-noise ratio.
         optional snr_max: Placed<f64> = number("").above(0.0);
-        /// The same ratio.
+        /// The same ratio in bits.
         optional snr_max_db: Placed<f64> = number("dB").above(0.0);
-        /// The same ratio.
+        /// The same ratio in bits.
         optional snr_max_bit: Placed<f64> = number("bit").above(0.0);
         /// Dynamic range.
         optional dynamic_range: Placed<f64> = number("").above(0.0);
-        /// The same ratio.
+        /// The same ratio in bits.
         optional dynamic_range_db: Placed<f64> = number("dB").above(0.0);
-        /// The same ratio.
+        /// The same ratio in bits.
         optional dynamic_range_bit: Placed<f64> = number("bit").above(0.0);
         /// Absolute sensitivity threshold.
         optional sensitivity_threshold_e: Placed<f64> = number("e⁻").above(0.0);

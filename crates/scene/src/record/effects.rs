@@ -20,7 +20,7 @@ record! {
         optional ghosts: Placed<bool> = flag();
         /// With "ghosts": reflectance of the sensor. Default: 0.
         optional sensor_reflectance: Placed<f64> = number("").at_least(0.0).at_most(0.5);
-        /// Rendered margin on every side, over the image's size. Default: the reach of the effects, at most 0.25.
+        /// Rendered margin on every side, as a fraction of the image's size. Default: the reach of the effects, at most 0.25.
         optional margin: Placed<f64> = number("").at_least(0.0).at_most(1.0);
     }
 }
@@ -41,7 +41,7 @@ record! {
         many wavefront: ZernikeTerm = list(record::<ZernikeTerm>(), 1);
         /// Radius at which the function ends. Default: about 256 px, or 256 λN where λN is below a pixel.
         optional reach_mm: Placed<f64> = number("mm").above(0.0);
-        /// Patches across and down with one function each. Default: one where it is nearly constant, otherwise five and three.
+        /// Patches across and down with one function each. Default: one where it is nearly constant, otherwise five across and three down.
         optional patches: Placed<[Placed<u64>; 2]> = exactly(whole(1, 32));
         /// Image of a point, instead of the aperture: linear, normalised, oriented as captured, the point in the middle.
         optional image: Placed<PathBuf> = path(&["png", "exr"]);
@@ -53,7 +53,8 @@ record! {
         optional mtf: ModulationTable = record();
         /// Zemax "Huygens PSF" or "FFT PSF" texts, one per field point and wavelength, instead of the aperture.
         many files: Placed<PathBuf> = list(path(&["txt", "dat"]), 1);
-        /// "film" convolves pixels without noise; "samples" displaces samples, exact at any width. Default: "samples" where "film" would lose contrast.
+        /// "film" convolves pixels without noise; "samples" displaces samples, exact at any width. Default: "samples" where samples pass through the lens,
+        /// four fifths of the light fall near, and "film" would change contrast by more than 0.01 ("image" of one width) or 0.065; otherwise "film".
         optional spread_by: Placed<SpreadBy> = choice();
     }
 }
@@ -130,7 +131,7 @@ record! {
         inside size: TermSize;
         /// Wavelength of "rms_waves".
         optional wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
-        /// Rising distances from the axis, one for each root mean square; the term turns with the point. Default: equal everywhere.
+        /// Rising distances from the axis, one for each root mean square of a point to the right; the term turns with the point. Default: equal everywhere.
         many field_radius_mm: Placed<f64> = list(number("mm").at_least(0.0), 2);
     }
 }

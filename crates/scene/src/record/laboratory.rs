@@ -15,7 +15,7 @@ record! {
         optional f_number: Placed<f64> = number("").at_least(0.5);
         /// Colour filters of a two-by-two tile, row by row: "RGGB". Default: from side-cars or EXIF data.
         optional cfa: Placed<String> = text("four of the letters R, G and B");
-        /// Exposure times by folder path, for images that do not state theirs: `{ "dark/long" = 4.0 }`.
+        /// Exposure times by folder path, for images that do not state theirs: `{ "dark/long" = 4.0 }`. The longest matching path counts.
         many exposures_s: (Placed<String>, Placed<f64>) = keyed_by_name(number("s").at_least(0.0));
         /// Light in `flat/`. Default: uniform, steady, of unknown strength.
         optional flat: FlatLight = record();

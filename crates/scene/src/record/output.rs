@@ -43,9 +43,10 @@ record! {
         optional undistorted: Placed<bool> = flag();
         /// With "undistorted": focal length of the twin over the camera's. Default: 1.
         optional undistorted_scale: Placed<f64> = number("").above(0.0);
-        /// Optical flow (px), visibility and image velocity (px/s), "motion.exr"; "middlebury" and "kitti" add .flo or PNG. Needs `[sequence]`.
+        /// Optical flow to the next and previous frame (px), visibility and image velocity (px/s), "motion.exr"; "middlebury" and "kitti" add .flo or PNG.
+        /// Needs `[sequence]`.
         optional optical_flow: Placed<CorrespondenceFormat> = choice();
-        /// Scene flow (m) and world velocity (m/s), "motion.exr". Needs `[sequence]`. Default: false.
+        /// Scene flow to the next and previous frame (m) and world velocity (m/s), "motion.exr". Needs `[sequence]`. Default: false.
         optional scene_flow: Placed<bool> = flag();
         /// Right camera of a rectified pair: writes disparity (px) and visibility, "disparity.exr".
         optional disparity_to: Placed<String> = text("the name of the right camera");

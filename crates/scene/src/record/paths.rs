@@ -7,9 +7,9 @@ use crate::reader::{among, flag, record, whole};
 record! {
     /// Settings of the path integrator.
     pub struct PathKeys {
-        /// Maximum number of surfaces along a path. Default: 16, or the preset's.
+        /// Maximum number of surfaces along a path. Default: 16, or the quality preset's.
         optional max_bounces: Placed<u64> = whole(1, 1024);
-        /// Includes caustics of suns and glowing surfaces. Default: true.
+        /// Includes caustics of suns and glowing surfaces; without them that light is missing. Default: true.
         optional caustics: Placed<bool> = flag();
         /// Path-space regularisation: fewer fireflies, but indirect reflections and caustics are blurred. Default: false.
         optional regularize: Placed<bool> = flag();

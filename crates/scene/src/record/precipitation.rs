@@ -28,7 +28,7 @@ impl Precipitation {
 record! {
     /// Rain.
     pub struct Rain {
-        /// Rain rate, 0.1 … 150: 1 light, 10 heavy, 50 a cloudburst.
+        /// Rain rate, 0.1 … 150: 1 light, 10 heavy, 50 a cloudburst. Sizes were measured up to about 25.
         required rate_mm_h: Placed<f64> = number("mm/h").above(0.0);
         /// Scales the number of drops to give `rate_mm_h`; otherwise 5 to 18 % more. Default: false.
         optional rescaled: Placed<bool> = flag();
@@ -78,7 +78,7 @@ record! {
         optional seed: Placed<u64> = whole(0, 4_294_967_295);
         /// Width on the image, px, from which drops are modelled individually. Default: 0.25.
         optional smallest_px: Placed<f64> = number("").above(0.0).at_most(10.0);
-        /// Maximum number modelled individually per camera and exposure. Default: 200 000.
+        /// Maximum number modelled individually per camera and exposure; more shorten their range. Default: 200 000.
         optional most: Placed<u64> = whole(0, 5_000_000);
     }
 }

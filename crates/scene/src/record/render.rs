@@ -27,19 +27,19 @@ record! {
         optional wavelength_density: Placed<WavelengthDensity> = choice();
         /// Through the lens (exact), or from the pupil's centre (fast, reusable). Default: "lens".
         optional route: Placed<Route> = choice();
-        /// Width of the spectral bands. Default: 5.
+        /// Width of the spectral bands; the range is a whole number of them. Default: 5.
         optional band_width_nm: Placed<f64> = number("nm").at_least(1.0).at_most(100.0);
         /// First and last wavelength. Default: as the cameras need.
         optional wavelength_range_nm: Placed<[f64; 2]> = vector::<2>(number("nm").at_least(300.0).at_most(1100.0));
         /// Pixels sum a spectral cube, or electrons. Default: "auto", as the outputs need.
         optional accumulate: Placed<Accumulate> = choice();
-        /// Build effort of ray-tracing structures, without effect on pixels. Default: "default".
+        /// Build effort of ray-tracing structures, without effect on pixels; the best of several cameras counts. Default: "default".
         optional accelerator: Placed<Accelerator> = choice();
         /// Side of a tile. Default: 32.
         optional tile_px: Placed<u64> = whole(4, 1024);
         /// Seed of all random numbers. Default: 0.
         optional seed: Placed<u64> = whole(0, MAX_SEED);
-        /// With route "pupil": margin on every side over the image's size. Default: 0.
+        /// With route "pupil": margin on every side, as a fraction of the image's size. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// With route "pupil": defocus blur. Default: "physical".
         optional depth_of_field: DepthOfField = depth_of_field();

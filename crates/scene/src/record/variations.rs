@@ -152,7 +152,7 @@ record! {
     pub struct Preset check(check_preset) {
         /// Name in the record of draws.
         required name: Placed<String> = text("the name of the preset");
-        /// Choices, each a list of changes as for `--set`.
+        /// Choices, each a list of changes as for `--set`; an empty list changes nothing, "key=null" removes a key.
         required choices: Vec<Vec<Placed<String>>> = list(list(text("a change KEY=VALUE"), 0), 1);
         /// Relative frequencies. Default: equal.
         many weights: Placed<f64> = list(number("").at_least(0.0), 1);

@@ -30,9 +30,9 @@ record! {
 keyed! {
     /// Times of the files.
     pub enum FrameTimes {
-        /// Files per second, the first at 0 s.
+        /// Files per second, the first at 0 s; in a loop it recurs one step after the last.
         rate_hz => Rate(Placed<f64>) = number("Hz").above(0.0).at_most(1e6);
-        /// Rising times, one per file; a loop has one more.
+        /// Rising times, one per file; a loop has one more, at which the first recurs.
         times_s => Times(Vec<Placed<ExactTime>>) = list(time(), 2);
     }
 }

@@ -29,7 +29,7 @@ record! {
         optional dispersion: Placed<bool> = flag();
         /// Seed of positions and sizes. Default: 0.
         optional seed: Placed<u64> = whole(0, MAX_SEED);
-        /// Simulated time at which the drops lie as they fell. Default: 0.
+        /// Simulated time at which the drops lie as they fell; later states are simulated from it. Default: 0.
         optional start_s: Placed<ExactTime> = time();
         /// Drying time of a drop of "max_radius_mm"; r² falls linearly. Default: no drying.
         optional drying_s: Placed<f64> = number("s").above(0.0);

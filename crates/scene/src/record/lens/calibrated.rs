@@ -82,7 +82,7 @@ record! {
 keyed! {
     /// Source of a relative illumination.
     pub enum IlluminationSource {
-        /// Zemax "Relative Illumination" text, fields in degrees or mm.
+        /// Zemax "Relative Illumination" text, fields in degrees or mm, at least to the farthest corner.
         file => File(Placed<PathBuf>) = path(&["txt"]);
         /// Distances from the principal point, rising from 0 to at least the farthest corner.
         radius_mm => Radii(Vec<Placed<f64>>) = list(number("mm").at_least(0.0), 1);

@@ -9,7 +9,7 @@ record! {
     pub struct LateralColour check(check_colour) {
         /// Two or more rising wavelengths.
         required wavelength_nm: Vec<Placed<f64>> = list(number("nm").above(0.0), 1);
-        /// Image size over that at 587.56 nm; only ratios count.
+        /// Image size over that at 587.56 nm; only ratios count. A good lens has 0.999 to 1.001.
         required magnification: Vec<Placed<f64>> = list(number("").above(0.0), 1);
     }
 }

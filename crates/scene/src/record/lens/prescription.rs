@@ -21,9 +21,10 @@ record! {
         optional f_number: Placed<f64> = f_number();
         /// Distance from the entrance pupil to the plane in focus. Default, with "file" only: its object.
         optional focus_distance_m: FocusDistance = focus_distance();
-        /// Part that moves to focus: the sensor, or a group by its first and last surface, counted from the scene. Default: "sensor".
+        /// Part that moves to focus: the sensor, or a group by its first and last surface, counted from 1 at the scene; the sensor then stays at infinity
+        /// focus. Default: "sensor".
         optional focus_by: FocusBy = focus_by();
-        /// Distance of the sensor behind the paraxial image. Default: the file's, otherwise 0.
+        /// Distance of the sensor behind the paraxial image at 587.56 nm, or the file's primary wavelength. Default: the file's, otherwise 0.
         optional defocus_mm: Placed<f64> = number("mm");
         /// Coating of surfaces in air without their own. Default: "uncoated".
         optional coating: Coating = coating();

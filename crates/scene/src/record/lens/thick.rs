@@ -24,7 +24,8 @@ record! {
         optional lateral_colour: LateralColour = record();
         /// Position of the rear principal plane from the front one. Default: 0.
         optional principal_separation_mm: Placed<f64> = number("mm");
-        /// Position of the entrance pupil from the front principal plane. The pupil keys must agree. Default: pupils in the principal planes.
+        /// Position of the entrance pupil from the front principal plane, negative towards the scene. The pupil keys must agree. Default: pupils in the
+        /// principal planes.
         optional entrance_pupil_mm: Placed<f64> = number("mm");
         /// Position of the exit pupil from the front principal plane; see "entrance_pupil_mm".
         optional exit_pupil_mm: Placed<f64> = number("mm");

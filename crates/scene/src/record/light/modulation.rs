@@ -52,7 +52,7 @@ record! {
     pub struct MainsModulation {
         /// Mains frequency; the light has twice that.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e6);
-        /// Modulation depth m, (max − min)/(max + min): about 0.1 for filament lamps, 0.3 to 1 for discharge lamps.
+        /// Modulation depth m, (max − min)/(max + min): about 0.1 for filament lamps, 0.3 to 1 for discharge and simple LED lamps.
         required modulation_depth: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Delay and phases.
         inside timing: Recurring;
@@ -82,7 +82,7 @@ record! {
         inside rows: TableRows;
         /// Interpolation between rows. Default: "linear".
         optional interpolation: Placed<Interpolation> = choice();
-        /// Period, at least the table's duration. Default: no repetition, the end levels hold.
+        /// Period, at least the table's duration, more with steps. Default: no repetition, the end levels hold.
         optional period_s: Placed<f64> = number("s").above(0.0);
         /// Delay and phases.
         inside timing: Recurring;

@@ -26,7 +26,7 @@ record! {
         optional black_level: BlackLevel = correction::black_level();
         /// Two columns: column and row of defective pixels, from 0.
         optional defect_map: Placed<PathBuf> = path(&["csv"]);
-        /// Difference from the same-colour median above which a pixel is corrected, over white minus black. Default: no search.
+        /// Difference from the same-colour median above which a pixel outside its neighbours' range is corrected, over white minus black. Default: no search.
         optional defect_outlier_threshold: Placed<f64> = number("").above(0.0);
         /// Shading correction.
         optional shading: Shading = record();

@@ -39,7 +39,7 @@ record! {
         optional reference_c: Placed<f64> = number("°C").above(-273.15);
         /// With "temperature_c": difference that doubles the current. Default: from silicon's band gap.
         optional doubling_k: Placed<f64> = number("K").above(0.0);
-        /// With "temperature_c", without "doubling_k": fraction of diffusion current. Default: 0.
+        /// With "temperature_c", without "doubling_k": fraction of diffusion current; the rest is generation current. Default: 0.
         optional diffusion_fraction: Placed<f64> = spread();
         /// Spread between pixels over the mean. Default: 0.
         optional spread: Placed<f64> = number("").at_least(0.0).at_most(10.0);

@@ -20,7 +20,7 @@ record! {
     pub struct Capture {
         /// Exposure over that of the first. Default: 1.
         optional exposure_ratio: Placed<f64> = share();
-        /// Start after that of the first. Default: the end of the photodiode's previous exposure.
+        /// Start after that of the first. Default: the end of the photodiode's previous exposure, or the first's start.
         optional start_s: Placed<f64> = number("s").at_least(0.0);
         /// Photodiode sensitivity over that of the first (split pixel). Default: 1.
         optional sensitivity_ratio: Placed<f64> = share();
