@@ -94,7 +94,8 @@ fn cut<'a>(text: &'a str, from: &str, to: &str) -> (Vec<&'a str>, String) {
 
 /// Evaluates a check of a page, `VALUE = EXPRESSION`, with awk, and compares it at the value's digits.
 fn check(text: &str) -> Result<&str, String> {
-    let (value, expression) = text.trim().split_once(" = ").ok_or_else(|| format!("{text}: expected VALUE = EXPRESSION"))?;
+    let (value, expression) =
+        text.trim().split_once(" = ").ok_or_else(|| format!("{text}: expected VALUE = EXPRESSION"))?;
     let digits = value.split_once('.').map_or(0, |(_, fraction)| fraction.len());
     let program = format!("BEGIN {{ printf \"%.{digits}f\", {expression} }}");
     let awk = Command::new("awk").arg(program).output().map_err(|cause| format!("awk: {cause}"))?;
@@ -121,9 +122,11 @@ fn unsupported_numbers(page: &str) -> Result<Vec<String>, String> {
 
 #[test]
 fn numbers_of_the_prose_are_printed_or_checked() {
-    let pages = PAGES.iter().map(|(name, _)| ("cookbook", *name)).chain(TUTORIALS.iter().map(|name| ("tutorials", *name)));
+    let pages =
+        PAGES.iter().map(|(name, _)| ("cookbook", *name)).chain(TUTORIALS.iter().map(|name| ("tutorials", *name)));
     for (folder, name) in pages {
-        let unsupported = unsupported_numbers(&page(folder, name)).unwrap_or_else(|error| panic!("{folder}/{name}: {error}"));
+        let unsupported =
+            unsupported_numbers(&page(folder, name)).unwrap_or_else(|error| panic!("{folder}/{name}: {error}"));
         assert!(unsupported.is_empty(), "docs/{folder}/{name}.md states {unsupported:?}, which no command prints");
     }
     let sample = "It is 12.5 lx by CIE 1931 at 0.35.\n```sh\nrun --level=12.5\n```\n";

@@ -70,7 +70,7 @@ record! {
     /// Hot pixels.
     pub struct Hot {
         /// Fraction of pixels.
-        required share: Placed<f64> = number("").above(0.0).at_most(1.0);
+        required fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Mean additional current (exponential).
         required mean_e_s: Placed<f64> = number("e⁻/s").above(0.0);
     }
@@ -80,7 +80,7 @@ record! {
     /// Blinking pixels.
     pub struct DarkCurrentRts {
         /// Fraction of pixels.
-        required share: Placed<f64> = number("").above(0.0).at_most(1.0);
+        required fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Mean additional current at the upper level (exponential).
         required mean_e_s: Placed<f64> = number("e⁻/s").above(0.0);
         /// Mean number of frames at a level.
@@ -161,7 +161,7 @@ record! {
     /// A kind of charge trap.
     pub struct Trap {
         /// Fraction of a frame's charge that is trapped.
-        required share: Placed<f64> = number("").above(0.0).at_most(0.5);
+        required fraction: Placed<f64> = number("").above(0.0).at_most(0.5);
         /// Time after which 1/e of the trapped charge is left.
         required time_constant_s: Placed<f64> = number("s").above(0.0);
     }

@@ -33,7 +33,7 @@ record! {
     /// Random telegraph signal (RTS) noise.
     pub struct RtsNoise {
         /// Fraction of pixels.
-        required share: Placed<f64> = number("").above(0.0).at_most(1.0);
+        required fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Mean size of the jumps (exponential).
         required mean_e: Placed<f64> = number("e⁻").above(0.0);
         /// Mean number of frames at a level.
