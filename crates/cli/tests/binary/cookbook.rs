@@ -75,21 +75,20 @@ fn run_page(folder: &str, name: &str) {
 fn numbers(text: &str) -> HashSet<&str> {
     let words = text.split(|c: char| !(c.is_alphanumeric() || "._-".contains(c)));
     let numbers = words.flat_map(|word| word.split("..")).map(|word| word.trim_matches(|c| ".-_".contains(c)));
-    numbers.filter(|word| word.parse::<f64>().is_ok()).collect()
+    numbers.filter(|word| word.starts_with(|c: char| c.is_ascii_digit()) && word.parse::<f64>().is_ok()).collect()
 }
 
 /// Text between two marks, wherever they occur, and the rest of the text.
 fn cut<'a>(text: &'a str, from: &str, to: &str) -> (Vec<&'a str>, String) {
-    let mut parts = text.split(from);
-    let mut rest = parts.next().unwrap_or_default().to_owned();
-    let mut inside = Vec::new();
-    for part in parts {
-        let (within, after) = part.split_once(to).expect("the mark ends");
+    let (mut inside, mut outside) = (Vec::new(), String::new());
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(from) {
+        let (within, after) = after.split_once(to).expect("the mark ends");
         inside.push(within);
-        rest.push(' ');
-        rest.push_str(after);
+        outside.extend([before, " "]);
+        rest = after;
     }
-    (inside, rest)
+    (inside, outside + rest)
 }
 
 /// Evaluates a check of a page, `VALUE = EXPRESSION`, with awk, and compares it at the value's digits.
