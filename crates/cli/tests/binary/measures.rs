@@ -377,3 +377,16 @@ fn flicker_names_frames_that_are_black_or_cut() {
         |name: &str| told.lines().any(|line| line.contains(name) && line.contains("entirely black or saturated"));
     assert!(named("b.png") && !named("a.png"), "{told}");
 }
+
+#[test]
+fn a_flat_field_of_another_camera_or_without_light_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let image = |name: &str, size, level: f64| raw(folder.path(), name, size, |x, _| level * (1.0 + 0.01 * x as f64));
+    let patches = image("patches.png", (60, 20), 10_000.0);
+    let pair = ["--darker", "0,0,20,20", "--brighter", "40,0,20,20", "--contrast", "0.35"];
+    let cdp = |flat: &str| etendue([&["measure", "cdp", &patches], &pair[..], &["--flat", flat]].concat());
+    cdp(&image("small.png", (8, 8), 9_000.0)).refused(&["--flat: ", "small.png has another size", "same camera"]);
+    cdp(&image("dark.png", (60, 20), 0.0)).refused(&["dark.png", "no light above black; increase its exposure"]);
+    cdp(&image("full.png", (60, 20), 70_000.0)).refused(&["full.png", "saturated; reduce its exposure"]);
+    cdp("nowhere.png").refused(&["nowhere.png"]);
+}

@@ -92,29 +92,29 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
         let readings = readings.part_of(name, at)?;
         Ok(Patch { flat: flat.as_ref().map(|flat| flat.part(name, at)).transpose()?, readings })
     };
-    let (mut found, mut left_out) = (Vec::new(), Vec::new());
+    let (mut measured_pairs, mut refusals) = (Vec::new(), Vec::new());
     for pair in pairs {
         let (darker, brighter) = (patch("darker", pair.darker)?, patch("brighter", pair.brighter)?);
         match measure_contrast(&darker, &brighter, pair.contrast, &settings) {
-            Ok(measured) => found.push((pair, measured)),
-            Err(error) if pair.luminance_cd_m2.is_some() => left_out.push(format!("{}: {error}", places(&pair))),
+            Ok(contrast) => measured_pairs.push((pair, contrast)),
+            Err(error) if pair.luminance_cd_m2.is_some() => refusals.push(format!("{}: {error}", places(&pair))),
             Err(error) => return Err(refused(&request.picture, error)),
         }
     }
-    if found.is_empty() {
-        return Err(refused(&request.picture, &left_out[0]));
+    if measured_pairs.is_empty() {
+        return Err(refused(&request.picture, &refusals[0]));
     }
-    let mut report = report(&found);
+    let mut report = report(&measured_pairs);
     if let Some(file) = &request.flat {
         report.note(format!("readings are divided by those of {}", file.display()));
     }
     report.encoding(&readings.stated);
-    for (pair, _) in &found {
+    for (pair, _) in &measured_pairs {
         for at in [pair.darker, pair.brighter] {
             report.note_cut(&region_label("patch", at), &readings.part_of("darker", at)?, settings.full_scale);
         }
     }
-    left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
+    refusals.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
     Ok(report)
 }
 
@@ -125,25 +125,24 @@ impl FlatField {
     /// Reads the image with the channel and the levels of the request, and divides the light by its mean.
     fn read(file: &Path, request: &CdpRequest, readings: &Readings) -> Result<Self, Error> {
         let mut flat = request.input.linear(file)?;
-        let is_alike =
-            (flat.picture_px, flat.first, flat.period) == (readings.picture_px, readings.first, readings.period);
-        if !is_alike {
-            let reason = format!(
-                "{}: a flat field of another size or mosaic than {}",
-                file.display(),
-                request.picture.display()
+        let layout = |readings: &Readings| (readings.picture_px, readings.first, readings.period);
+        if layout(&flat) != layout(readings) {
+            let message = format!(
+                "`flat`: {} has another size or mosaic than the image; give an image of the same camera",
+                file.display()
             );
-            return Err(Error::argument("flat", &reason).with_code(ErrorCode::UnsuitableFile));
+            return Err(Error::argument("flat", &message).with_code(ErrorCode::NotComparable));
         }
         if let Some(percent) = saturated_percent([&flat.image], request.input.levels.full_scale(&flat)) {
-            return Err(refused(file, format!("{percent:.1} % of the flat field is saturated: expose less")));
+            return Err(refused(file, format!("{percent:.1} % of the flat field is saturated; reduce its exposure")));
         }
         let black = request.input.levels.black(&flat);
         let light: Vec<f64> = flat.image.samples().iter().map(|reading| f64::from(*reading) - black).collect();
-        let mean = light.iter().sum::<f64>() / light.len() as f64;
-        if light.iter().any(|value| *value <= 0.0) {
-            return Err(refused(file, "a pixel of the flat field reads no more than black: expose longer"));
+        let is_lit = |value: &f64| *value > 0.0 && value.is_finite();
+        if !light.iter().all(is_lit) {
+            return Err(refused(file, "a pixel of the flat field has no light above black; increase its exposure"));
         }
+        let mean = light.iter().sum::<f64>() / light.len() as f64;
         let relative = light.iter().map(|value| (value / mean) as f32).collect();
         flat.image =
             Image::from_samples(flat.image.width(), flat.image.height(), relative).expect("the size of the readings");

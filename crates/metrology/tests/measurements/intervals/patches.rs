@@ -113,14 +113,14 @@ fn contrast() {
         let mut normal = normals(seed, 0);
         let mut patch = |[mean, sigma]: [f64; 2]| picture(20, 20, |_| mean + sigma * normal());
         let (a, b) = (patch(dark), patch(bright));
-        let found = measure_contrast(&a.into(), &b.into(), 0.5, &settings).expect("patches");
+        let contrast = measure_contrast(&a.into(), &b.into(), 0.5, &settings).expect("patches");
         let square = |[mean, sigma]: [f64; 2]| [mean, sigma * sigma];
         let probability = detection_probability(square(dark), square(bright), 0.5, 0.5);
         vec![
-            ("contrast", found.measured, 0.5),
-            ("detection probability", found.detection, probability),
-            ("transfer", found.transfer, 1.0),
-            ("contrast to noise", found.contrast_snr, 500.0 / (300.0_f64 * 300.0 + 360.0 * 360.0).sqrt()),
+            ("contrast", contrast.measured, 0.5),
+            ("detection probability", contrast.detection, probability),
+            ("transfer", contrast.transfer, 1.0),
+            ("contrast to noise", contrast.contrast_snr, 500.0 / (300.0_f64 * 300.0 + 360.0 * 360.0).sqrt()),
         ]
     });
 }
