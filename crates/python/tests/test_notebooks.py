@@ -18,7 +18,7 @@ FILES = sorted((ROOT / "docs/notebooks").glob("*.ipynb"))
 # Largest notebook with its images, bytes.
 MAX_SIZE = 150_000
 # Stored images: largest width, px, and number of colours.
-IMAGE_WIDTH, IMAGE_COLOURS = 640, 32
+IMAGE_WIDTH, IMAGE_COLOURS = 640, 64
 
 
 def cells(file, kind):
