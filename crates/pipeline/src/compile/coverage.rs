@@ -44,7 +44,7 @@ impl Coverage {
         };
         let WavelengthRange { low_nm, high_nm } = rendered;
         (!told.is_empty())
-            .then(|| format!("{low_nm} to {high_nm} nm are rendered, and tables end before: {}{more}", told.join("; ")))
+            .then(|| format!("{low_nm} to {high_nm} nm are rendered, but tables cover less: {}{more}", told.join("; ")))
     }
 }
 
@@ -52,9 +52,9 @@ fn words(file: &Path, table: &CoveredRange) -> String {
     let WavelengthRange { low_nm, high_nm } = table.range;
     let beyond = match table.outside {
         Outside::Zero => "zero",
-        Outside::Hold => "its end values",
+        Outside::Hold => "end values",
     };
-    format!("{} ({low_nm} to {high_nm} nm, beyond that {beyond})", file.display())
+    format!("{} ({low_nm} to {high_nm} nm, outside: {beyond})", file.display())
 }
 
 #[cfg(test)]
