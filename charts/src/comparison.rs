@@ -91,7 +91,7 @@ impl Comparison {
     pub(crate) fn told(&self, words: &str) -> String {
         let line = |row: &Value| {
             format!(
-                "\n{words}, {} points: largest difference {} ({} %), |E_n| up to {} where {} is the limit of so many points.\n",
+                "\n{words}, {} points: largest difference {} ({} %), |E_n| up to {} (limit {}).\n",
                 row["points"].as_f64().unwrap_or_default(),
                 number(row["largest_difference"].as_f64()),
                 rounded(row["largest_relative_error_percent"].as_f64(), 4),

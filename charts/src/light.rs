@@ -38,7 +38,7 @@ fn vignetting(bench: &Bench) -> Result<Section, Error> {
     let found = compared(&CompareRequest::new(report, bench.file("camera")), Some(&plot))?;
     Ok(Section {
         title: "Vignetting",
-        body: found.quantities(|_| true) + &found.told("Light over that of the centre") + &shown,
+        body: found.quantities(|_| true) + &found.told("Illumination relative to the centre") + &shown,
         reached: vec![found.curve("vignetting", bounds::VIGNETTING, "largest_relative_error_percent", 1.0)?],
     })
 }
@@ -110,7 +110,8 @@ fn curve(bench: &Bench, of: &str, channel: Option<String>, request: OecfRequest)
         .value("full_scale")
         .ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "the full scale is not told"))?
         .value;
-    let of = format!("tone curve, {of}");
+    let output = if of == "picture" { "developed image" } else { of };
+    let of = format!("tone curve, {output}");
     let reached = found.curve(&of, bounds::TONE, "largest_difference", 100.0 / full_scale)?;
-    Ok((reached, found.told(&format!("Reading over exposure ({of})")) + &shown))
+    Ok((reached, found.told(&format!("Value over exposure ({of})")) + &shown))
 }

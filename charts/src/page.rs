@@ -24,21 +24,18 @@ impl Report {
 
 const INTRODUCTION: &str = "# Recovery of declared parameters
 
-Written by `just validate`: charts are rendered with reference cameras (`charts/*/camera.toml`), the pictures are measured, and what is found is
-laid beside what the camera file declares. Errors are measured less declared; E_n after ISO 13528, |E_n| > 1 is a difference. Of about
-twenty quantities that agree one is expected to differ by chance.
+This page compares parameters measured in renders of charts with the declarations of the rendered cameras (`charts/*/camera.toml`), for users who rely on the camera model and on `measure`.
 
-The bounds are kept where the error is within them; where they say \"or 3 u\", within three standard uncertainties is enough (|E_n| ≤ 1.5).
-`just validate` fails where one is broken (**bold** here).
+```sh
+just validate     # writes this page; fails where a bound is broken
+```
 
-What a laboratory sees to, the bench does: the distance of the dots is no near multiple of a pixel or of the mosaic's tile (else errors of neighbours are
-alike, drift slowly over the field and pass for a shifted centre of distortion); pixels at the border, which have fewer neighbours to exchange light with, are no part of photon
-transfer; its exposures are too short for dark current to add to the offsets' pattern; flat fields are measured above the reading that the dark
-current leaves; edges are those of a mean of many frames over a flat field (no noise, no PRNU, no DSNU), and their sides' fall-off is taken off. Responses are means of all
-edges over the field; of mosaics those of the green raw readings.
-
-Diffraction is described in a file of its own beside each camera, for the second of the two responses; edges lie 5° from rows and columns, and along the diagonals the film of whole
-pixels loses up to 0.06 of a spread about as wide as a pixel (crates/optics/src/effects/band.rs).
+- Errors are measured minus declared. E_n follows ISO 13528; |E_n| > 1 is a difference. Of about twenty quantities that agree, one is expected to differ by chance.
+- A bound holds where the error is within it, or, with \"or 3 u\", within three standard uncertainties (|E_n| ≤ 1.5). Broken bounds are **bold**.
+- The distance of the dots is not near a multiple of a pixel or of the mosaic's tile: otherwise errors of neighbours are correlated and shift the centre of distortion.
+- Photon transfer excludes border pixels, which have fewer neighbours for crosstalk, and uses exposures too short for dark current to add to the offset pattern. Flat fields are measured above the dark-current reading.
+- Responses are means of all edges over the field, from means of many frames over a flat field (no noise, PRNU or DSNU), corrected for shading; mosaics use green raw values.
+- Diffraction is declared in a separate file for the last response. Edges lie 5° from rows and columns; along diagonals the film loses up to 0.06 of a point spread about as wide as a pixel (crates/optics/src/effects/band.rs).
 ";
 
 /// The whole page.

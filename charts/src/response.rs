@@ -13,7 +13,7 @@ use serde_json::Value;
 
 pub(crate) fn sections(bench: &Bench) -> Result<Vec<Section>, Error> {
     Ok(vec![
-        section(bench, "quiet", "Response of slanted edges", "response up to 0.5 cycles a pixel")?,
+        section(bench, "quiet", "Response of slanted edges", "response up to 0.5 cycles/px")?,
         section(bench, "diffraction", "Response with diffraction", "response with diffraction")?,
     ])
 }

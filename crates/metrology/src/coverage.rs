@@ -2,7 +2,7 @@
 //!
 //! A quantity is measured with 200 seeds. Its 95 % interval, value ± 1.96 standard uncertainties, must contain the true value in
 //! 90 to 99 % of them, 180 to 198: a correct 95 % interval leaves that range once in 600 tries (binomial; 1.2·10⁻³ below,
-//! 0.4·10⁻³ above). docs/evidence/coverage.md is the table.
+//! 0.4·10⁻³ above). docs/evidence/data/coverage.csv is the table.
 //!
 //! `ETENDUE_BLESS=1` rewrites the table and `ETENDUE_WHOLE=1` compares it with 200 seeds; a count that differs by more than three
 //! is an error. Otherwise only the first 50 seeds are measured, and the root mean square of their errors in standard
@@ -52,13 +52,13 @@ pub(crate) fn covers(measurement: &str, measured: impl Fn(u64) -> Run + Send + S
         let unfair: Vec<_> = quantities.iter().filter(is_fair).map(|of| (of.quantity, of.covered, of.spread)).collect();
         assert!(unfair.is_empty(), "{measurement}: of {SEEDS} seeds are covered {unfair:?}");
     }
-    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/evidence/coverage.md");
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/evidence/data/coverage.csv");
     let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let page = std::fs::read_to_string(&file).expect("the table");
+    let table = std::fs::read_to_string(&file).expect("the table");
     if is_set("ETENDUE_BLESS") {
-        std::fs::write(&file, with_rows(&page, measurement, &quantities)).expect("the table is written");
+        std::fs::write(&file, with_rows(&table, measurement, &quantities)).expect("the table is written");
     } else {
-        compare(&page, measurement, &quantities, is_whole);
+        compare(&table, measurement, &quantities, is_whole);
     }
 }
 
@@ -78,39 +78,39 @@ fn coverage(runs: &[Run], k: usize) -> Coverage {
 
 /// The beginning of a quantity's row.
 fn head(measurement: &str, quantity: &str) -> String {
-    format!("| {measurement} | {quantity} | ")
+    format!("\"{measurement}\",\"{quantity}\",")
 }
 
 #[track_caller]
-fn compare(page: &str, measurement: &str, quantities: &[Coverage], is_whole: bool) {
+fn compare(table: &str, measurement: &str, quantities: &[Coverage], is_whole: bool) {
     for Coverage { quantity, covered, spread } in quantities {
-        let row = page.lines().find_map(|line| line.strip_prefix(&head(measurement, quantity)));
-        let numbers: Vec<f64> =
-            row.into_iter().flat_map(|row| row.split('|')).flat_map(|cell| cell.trim().parse()).collect();
+        let row = table.lines().find_map(|line| line.strip_prefix(&head(measurement, quantity)));
+        let numbers: Vec<f64> = row.into_iter().flat_map(|row| row.split(',')).flat_map(str::parse::<f64>).collect();
         let [stated_count, stated_spread] = numbers[..] else {
-            panic!("docs/evidence/coverage.md has no row for {measurement}, {quantity}; ETENDUE_BLESS=1 writes it")
+            panic!(
+                "docs/evidence/data/coverage.csv has no row for {measurement}, {quantity}; ETENDUE_BLESS=1 writes it"
+            )
         };
         let is_near = (spread / stated_spread - 1.0).abs() <= SPREAD_TOLERANCE
             && (!is_whole || (*covered as f64 - stated_count).abs() <= MOVED as f64);
         assert!(
             is_near,
-            "docs/evidence/coverage.md states {stated_count} covered and {stated_spread} for {measurement}, {quantity}: {covered} of {} and {spread:.3} \
-             now; ETENDUE_BLESS=1 writes it",
+            "docs/evidence/data/coverage.csv states {stated_count} covered and {stated_spread} for {measurement}, {quantity}: {covered} of {} and \
+             {spread:.3} now; ETENDUE_BLESS=1 writes it",
             if is_whole { SEEDS } else { FEW_SEEDS as u64 }
         );
     }
 }
 
-/// The page with regenerated rows of a measurement.
-fn with_rows(page: &str, measurement: &str, quantities: &[Coverage]) -> String {
-    let own = format!("| {measurement} | ");
-    let mut rows: Vec<String> =
-        page.lines().filter(|line| line.starts_with("| ") && !line.starts_with(&own)).map(str::to_owned).collect();
-    let heading: Vec<String> = rows.drain(..2).collect();
+/// The table with regenerated rows of a measurement.
+fn with_rows(table: &str, measurement: &str, quantities: &[Coverage]) -> String {
+    let own = format!("\"{measurement}\",");
+    let mut lines = table.lines();
+    let heading = lines.next().unwrap_or_default().to_owned();
+    let mut rows: Vec<String> = lines.filter(|line| !line.starts_with(&own)).map(str::to_owned).collect();
     rows.extend(
-        quantities.iter().map(|of| format!("{}{} | {:.3} |", head(measurement, of.quantity), of.covered, of.spread)),
+        quantities.iter().map(|of| format!("{}{},{:.3}", head(measurement, of.quantity), of.covered, of.spread)),
     );
     rows.sort();
-    let text = page.lines().take_while(|line| !line.starts_with("| ")).map(str::to_owned);
-    text.chain(heading).chain(rows).map(|line| line + "\n").collect()
+    core::iter::once(heading).chain(rows).map(|line| line + "\n").collect()
 }

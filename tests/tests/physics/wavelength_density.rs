@@ -1,6 +1,7 @@
 //! The density of wavelengths: by no choice of it do electrons change, and the light's spectrum in it saves what the plan foretells.
 //!
-//! `ETENDUE_BLESS=1 cargo test -p etendue-tests --test physics wavelength_density` (`just wavelengths`) writes docs/evidence/wavelengths.md.
+//! `ETENDUE_BLESS=1 cargo test -p etendue-tests --test physics wavelength_density` (`just wavelengths`) writes docs/evidence/wavelengths.md and its
+//! table, docs/evidence/data/wavelengths.csv.
 
 use etendue_pipeline::plan::{SpectralGain, WavelengthSampling};
 use etendue_stats::normal;
@@ -230,8 +231,9 @@ fn chosen(place: Place, light: &str, sensor: &SensorKind, render: &str) -> (Wave
 fn electrons_are_the_same_by_every_density_and_the_lights_spectrum_saves_variance() {
     let rows = rows();
     if std::env::var_os("ETENDUE_BLESS").is_some_and(|value| value == "1") {
-        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/evidence/wavelengths.md");
-        std::fs::write(page, self::page(&rows)).expect("written");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/evidence");
+        std::fs::write(folder.join("wavelengths.md"), page(&rows)).expect("written");
+        std::fs::write(folder.join("data/wavelengths.csv"), table(&rows)).expect("written");
     }
     // Unbiased: sums of 96 pixels or more are apart by chance alone, all rows together (Bonferroni).
     let pairs = rows.iter().flat_map(|row| [(0, 1), (1, 2), (0, 2)].map(|(a, b)| (row.by[a], row.by[b])));
@@ -256,44 +258,63 @@ fn electrons_are_the_same_by_every_density_and_the_lights_spectrum_saves_varianc
 
 const HEAD: &str = "# Variance by the density of wavelengths
 
-Six patches (grey, white, four colours), 24 × 16 pixels, 64 samples of four wavelengths in 16 replicates, rendered by the program with `[render] wavelength_density` as the
-columns say ([why and how](../decisions/wavelength-sampling.md)). Written by `just wavelengths`; the test that writes it holds that means agree (a Z test) and what is saved. Figures are the variance of a
-pixel's mean electrons over its squared mean, × 1 000, mean over the pixels of a colour, with the standard error over eight parts of the picture. **Even**: light is the same from everywhere,
-so that only the wavelengths of a pixel's samples differ. **Room**: a lamp lights a room with walls of reflectance 0.6; most of the noise is that of the paths, which no density
-takes away. *Saved*: variance by response over that by response and source; samples for equal noise fall by as much. *Foretold*: what `plan` says of all pixels of a sensor for noisy pixels: that of the room is to lie between 1 and about it, that of
-even light above it; in bold where the default follows the light.
+This page states how much variance of a pixel's electrons each `wavelength_density` of `[render]` leaves, by sensor and light, for users who choose it ([model](../decisions/wavelength-sampling.md)). `just wavelengths` writes it; its test compares the means of the three densities (Z test).
 
-Bayer: Nikon D5100. RCCB: a made-up clear pixel and its red and blue. The narrow band is a triangle of 10 nm at half its height, as for sodium; in the near infra-red the table of
-D65 and the white LED end. The low-pressure lamp's table has one value, at 590 nm: a triangle of 10 nm, ten times as wide as the line itself, so that \"by response\" is better here than before a lamp
-whose table is finer.
+- Six patches (grey, white, four colours) are rendered with 24 × 16 pixels, 64 samples of four wavelengths and 16 replicates.
+- **Uniform illumination**: light is equal from all directions, so that only the wavelengths of samples differ. **Room**: a light in a room with walls of reflectance 0.6; most of the noise is that of the paths.
+- *Saved* is the variance by response over the variance by response and source, over the colours of the sensor. Samples for equal noise fall by this factor.
+- *Estimated* is the factor that `plan` states for noisy pixels, over all pixels of the sensor. Under sodium lamps most measured factors are larger. Bold: the default density follows the light.
+- Bayer is the Nikon D5100; RCCB is an invented clear pixel with its red and blue; 589 nm is a triangle of 10 nm.
+- The table of the low-pressure sodium lamp has one value, at 590 nm: a triangle of 10 nm, ten times as wide as the line.
+
+| sensor | light | uniform illumination, saved | room, saved | estimated |
+| --- | --- | ---: | ---: | ---: |
 ";
 
+const TAIL: &str = "
+[Variances of each colour](data/wavelengths.csv), × 1 000 of the squared mean, mean over the pixels of a colour with the standard error over eight parts of the image.
+";
+
+/// The page: a row for each sensor and light.
 fn page(rows: &[Row]) -> String {
     let mut page = HEAD.to_owned();
-    for (place, name) in [(Place::Even, "Even light"), (Place::Room, "A room with a lamp")] {
-        write!(
-            page,
-            "\n## {name}\n\n| sensor | light | uniform | by response | by response and source | saved | foretold |\n"
-        )
-        .expect("text");
-        page += "| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
-        for row in rows.iter().filter(|row| row.place == place) {
-            let cells = row.by.map(|c| with_error(1e3 * c.relative, 1e3 * c.error));
-            let saved = with_error(row.saved(), row.saved_error());
-            let bold = if row.is_default { "**" } else { "" };
-            writeln!(
-                page,
-                "| {} {} | {} | {} | {saved} | {bold}{:.2}{bold} |",
-                row.sensor,
-                row.colour,
-                row.light,
-                cells.join(" | "),
-                row.gain.mean
-            )
-            .expect("text");
-        }
+    for (sensor, light) in SENSORS.iter().flat_map(|sensor| LIGHTS.iter().map(move |light| (sensor.name, *light))) {
+        let [even, room] = [Place::Even, Place::Room].map(|place| saved_range(rows, place, sensor, light));
+        let row = rows.iter().find(|row| row.sensor == sensor && row.light == light).expect("a row");
+        let bold = if row.is_default { "**" } else { "" };
+        writeln!(page, "| {sensor} | {light} | {even} | {room} | {bold}{:.2}{bold} |", row.gain.mean).expect("text");
     }
-    page
+    page + TAIL
+}
+
+/// The saved factors over the colours of a sensor.
+fn saved_range(rows: &[Row], place: Place, sensor: &str, light: &str) -> String {
+    let is_own = |row: &&Row| row.place == place && row.sensor == sensor && row.light == light;
+    let mut own: Vec<&Row> = rows.iter().filter(is_own).collect();
+    own.sort_by(|a, b| a.saved().total_cmp(&b.saved()));
+    let figure =
+        |row: &Row| with_error(row.saved(), row.saved_error()).split(' ').next().unwrap_or_default().to_owned();
+    match own[..] {
+        [] => String::new(),
+        [only] => figure(only),
+        [least, .., most] => format!("{} to {}", figure(least), figure(most)),
+    }
+}
+
+/// The table with all figures, as CSV.
+fn table(rows: &[Row]) -> String {
+    let mut table = "place,sensor,colour,light,uniform,by response,by response and source,saved,estimated,\
+                     default follows the light\n"
+        .to_owned();
+    for row in rows {
+        let place = if row.place == Place::Even { "uniform illumination" } else { "room" };
+        let cells = row.by.map(|c| with_error(1e3 * c.relative, 1e3 * c.error)).join(",");
+        let saved = with_error(row.saved(), row.saved_error());
+        let follows = if row.is_default { "yes" } else { "no" };
+        let Row { sensor, colour, light, gain, .. } = row;
+        writeln!(table, "{place},{sensor},{colour},{light},{cells},{saved},{:.2},{follows}", gain.mean).expect("text");
+    }
+    table
 }
 
 /// A figure with the digits that its error leaves.

@@ -56,13 +56,13 @@ pub(crate) fn introduction(seeds: u64) -> String {
     INTRODUCTION.replace("SEEDS", &seeds.to_string())
 }
 
-const INTRODUCTION: &str = "# How often the intervals of characterise hold the truth
+const INTRODUCTION: &str = "# Coverage of the intervals of characterise
 
-Written by `just laboratory`: laboratory folders of the three reference cameras (`charts/*/camera.toml`, made small: the same field in fewer, larger pixels) are
-photographed with SEEDS seeds, each with noise, a specimen and views of the chart of its own, and characterised. Held: in how many the stated 95 % interval (value ± 2 standard
-uncertainties) holds what the camera file declares; where it declares no number of this kind, the mean over the seeds (\"mean\"), which tells the
-scatter and no bias. Numbers that cannot be below 0 and whose truth is 0 are held more often than 95 %, as their intervals are one-sided there.
-What few seeds tell (\"of\") is told where by chance enough hot pixels lie in the picture, and then its share is not the mean one.
+Written by `just laboratory`. The three reference cameras (`charts/*/camera.toml`, with the same field in fewer, larger pixels) are rendered as laboratory folders with
+SEEDS seeds and characterised. Each seed has its own noise, unit and views of the chart. Held: the fraction of seeds whose 95 % interval, value ± 2 standard uncertainties,
+contains the declared value. Where the camera file declares no such number, the mean over the seeds replaces it (\"mean\"), which shows scatter and no bias.
+Intervals of quantities that cannot be negative and whose true value is 0 are one-sided and hold more often than 95 %.
+Of: the seeds that report the parameter. A hot-pixel fraction is reported only where chance puts enough hot pixels into the image, and is then too high.
 ";
 
 pub(crate) fn table(name: &str, rows: &Rows) -> String {

@@ -56,7 +56,7 @@ fn written(file: &Path) -> Result<BTreeMap<String, f64>, Error> {
         ("sensor.black_level_dn", p.read_out.black_level_dn),
     ];
     if let Some(hot) = p.charge.dark.hot {
-        found.extend([("sensor.dark.hot.share", hot.fraction), ("sensor.dark.hot.mean_e_s", hot.mean_e_s)]);
+        found.extend([("sensor.dark.hot.fraction", hot.fraction), ("sensor.dark.hot.mean_e_s", hot.mean_e_s)]);
     }
     // Pixels that exchange nothing; else, in green, what is seen depends on the light of the neighbours' colours.
     if p.light.crosstalk.is_none() {

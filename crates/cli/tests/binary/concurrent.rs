@@ -65,8 +65,8 @@ fn a_second_run_is_refused_until_the_first_has_ended_however_it_does() -> Row {
     etendue(["render", &job, "-o", &folder, "--spp", "2"]).ok();
     assert_same(&rendered(&job, &["--spp", "2"]), &contents(&out), "after a kill");
     row(
-        "ten kinds of runs into a folder in which a run is at work",
-        "status 2, whose process it is, nothing written; free as soon as that run is killed",
+        "ten kinds of runs into a folder that another run uses",
+        "status 2 with the process of that run, nothing written; free once that run is killed",
         &format!("{} refused", seconds.len()),
     )
 }
@@ -89,8 +89,8 @@ fn runs_that_write_into_folders_of_cameras_go_side_by_side() -> Row {
         assert!(Path::new(&out).join(name).join("camera.json").exists(), "{name}");
     }
     row(
-        "three runs that make one folder together, each for another camera",
-        "each leaves all its files in the folder of its camera",
+        "three runs that create one folder, each for another camera",
+        "each writes all its files into the folder of its camera",
         &format!("{} did", names.len()),
     )
 }
@@ -108,8 +108,8 @@ fn of_runs_that_begin_together_each_leaves_all_files_or_none() -> Row {
     assert_eq!((ended(0), ended(2)), (1, 5), "{ends:?}");
     assert_same(&expected, &contents(&out), "of one run");
     row(
-        "six runs that begin together into one new folder",
-        "one leaves the bytes of a run alone, the others are refused",
+        "six runs that start together into one new folder",
+        "one writes the bytes of a single run, the others are refused",
         &format!("{} and {}", ended(0), ended(2)),
     )
 }
@@ -128,7 +128,7 @@ fn several_runs_into_one_folder() {
     ];
     check(
         "Several runs into one folder",
-        "Real processes that begin at one moment, or while another works (docs/robustness.md).",
+        "Processes that start together, or while another works (docs/robustness.md).",
         &rows,
     );
 }

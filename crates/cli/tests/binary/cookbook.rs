@@ -2,6 +2,7 @@
 //! the output stated on the page.
 
 use crate::support::root;
+use std::collections::HashSet;
 use std::path::Path;
 use std::process::Command;
 
@@ -68,6 +69,69 @@ fn run_page(folder: &str, name: &str) {
     for task in tasks(&page(folder, name)) {
         run(&task, place.path());
     }
+}
+
+/// Numbers of a text: digits with an optional fraction, without those that belong to a word.
+fn numbers(text: &str) -> HashSet<&str> {
+    let words = text.split(|c: char| !(c.is_alphanumeric() || "._-".contains(c)));
+    let numbers = words.flat_map(|word| word.split("..")).map(|word| word.trim_matches(|c| ".-_".contains(c)));
+    numbers.filter(|word| word.starts_with(|c: char| c.is_ascii_digit()) && word.parse::<f64>().is_ok()).collect()
+}
+
+/// Text between two marks, wherever they occur, and the rest of the text.
+fn cut<'a>(text: &'a str, from: &str, to: &str) -> (Vec<&'a str>, String) {
+    let (mut inside, mut outside) = (Vec::new(), String::new());
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(from) {
+        let (within, after) = after.split_once(to).expect("the mark ends");
+        inside.push(within);
+        outside.extend([before, " "]);
+        rest = after;
+    }
+    (inside, outside + rest)
+}
+
+/// Evaluates a check of a page, `VALUE = EXPRESSION`, with awk, and compares it at the value's digits.
+fn check(text: &str) -> Result<&str, String> {
+    let (value, expression) =
+        text.trim().split_once(" = ").ok_or_else(|| format!("{text}: expected VALUE = EXPRESSION"))?;
+    let digits = value.split_once('.').map_or(0, |(_, fraction)| fraction.len());
+    let program = format!("BEGIN {{ printf \"%.{digits}f\", {expression} }}");
+    let awk = Command::new("awk").arg(program).output().map_err(|cause| format!("awk: {cause}"))?;
+    let actual = String::from_utf8_lossy(&awk.stdout).into_owned();
+    if actual == value { Ok(value) } else { Err(format!("{text}: the expression is {actual}")) }
+}
+
+/// Numbers of a page's prose that neither its commands, nor the output stated on it, nor a check (`<!-- check: VALUE = EXPRESSION -->`) contain.
+fn unsupported_numbers(page: &str) -> Result<Vec<String>, String> {
+    let (blocks, prose) = cut(page, "```", "```");
+    let (checks, prose) = cut(&prose, "<!-- check:", "-->");
+    let (_, prose) = cut(&prose, "`", "`");
+    let (_, prose) = cut(&prose, "](", ")");
+    // The number of a standard follows its publisher's name.
+    let standards = ["ISO ", "IEEE ", "EMVA ", "CIE "];
+    let prose = standards.iter().fold(prose, |prose, name| prose.replace(name, "standard-"));
+    let blocks = blocks.join("\n").replace(['x', '×'], " ");
+    let mut supported = numbers(&blocks);
+    for text in &checks {
+        supported.insert(check(text)?);
+    }
+    Ok(numbers(&prose).into_iter().filter(|number| !supported.contains(number)).map(str::to_owned).collect())
+}
+
+#[test]
+fn numbers_of_the_prose_are_printed_or_checked() {
+    let pages =
+        PAGES.iter().map(|(name, _)| ("cookbook", *name)).chain(TUTORIALS.iter().map(|name| ("tutorials", *name)));
+    for (folder, name) in pages {
+        let unsupported =
+            unsupported_numbers(&page(folder, name)).unwrap_or_else(|error| panic!("{folder}/{name}: {error}"));
+        assert!(unsupported.is_empty(), "docs/{folder}/{name}.md states {unsupported:?}, which no command prints");
+    }
+    let sample = "It is 12.5 lx by CIE 1931 at 0.35.\n```sh\nrun --level=12.5\n```\n";
+    assert_eq!(unsupported_numbers(sample), Ok(vec!["0.35".to_owned()]));
+    assert_eq!(unsupported_numbers(&format!("{sample}<!-- check: 0.35 = 0.7 / 2 -->")), Ok(vec![]));
+    assert!(unsupported_numbers(&format!("{sample}<!-- check: 0.35 = 0.8 / 2 -->")).is_err());
 }
 
 #[test]

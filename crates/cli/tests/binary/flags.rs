@@ -170,8 +170,14 @@ fn of_measurements_of_patches() {
         ],
     );
     let cdp = ["cdp", &first, "--darker", "110,0,90,200", "--brighter", "220,0,90,200", "--contrast", "0.5"];
-    let own: &[(&str, &str)] =
-        &[("--darker", "0,0,90,200"), ("--brighter", "0,0,90,200"), ("--contrast", "0.6"), ("--tolerance", "0.02")];
+    let flat = picture(folder.path(), "flat.png", SIZE, |x, _| 10_000.0 - 10.0 * x);
+    let own: &[(&str, &str)] = &[
+        ("--darker", "0,0,90,200"),
+        ("--brighter", "0,0,90,200"),
+        ("--contrast", "0.6"),
+        ("--tolerance", "0.02"),
+        ("--flat", &flat),
+    ];
     each_changes_something(&cdp, &[own, PICTURE]);
     let frames: Vec<String> = (0..8)
         .map(|i| picture(folder.path(), &format!("even{i}.png"), SIZE, |x, y| 10_000.0 + 300.0 * scatter(x, y, i)))

@@ -54,10 +54,8 @@ impl Kind {
     fn row(&self, count: &Count, kills: usize) -> Row {
         Row {
             extreme: format!("{}, killed, then begun again with `{}`", self.name, self.again),
-            expected:
-                "every file under a final name is whole; in the end the bytes of an undisturbed run, nothing else"
-                    .to_owned(),
-            found: format!("so after each of {} kills", count.killed),
+            expected: "complete files, final bytes equal".to_owned(),
+            found: format!("after each of {} kills", count.killed),
             holds: count.killed == kills && count.completed > 0,
         }
     }
@@ -199,7 +197,7 @@ fn runs_that_are_killed_at_random_moments_end_in_the_bytes_of_undisturbed_ones()
     if many.is_some() {
         std::fs::write(root().join("target/kills.md"), table).expect("written");
     } else {
-        let about = "Small runs that end in the bytes of undisturbed ones, however often they are killed; 996 kills are in docs/robustness.md (`just kills 1000`).";
+        let about = "Small runs are killed and repeated until they end. Every file under a final name is complete, and the final bytes are those of an uninterrupted run. 996 kills are in docs/robustness.md (`just kills 1000`).";
         page::check("Kills at random moments", about, &rows);
     }
 }

@@ -30,6 +30,7 @@ mod dropped;
 mod drops;
 mod effect_pages;
 mod encodings;
+mod error_texts;
 mod explain;
 mod extremes;
 mod faults;

@@ -301,8 +301,8 @@ fn pictures_that_are_mirrored_turned_or_of_another_chart_are_named_as_such() {
     let noise = ["measure", "noise"].into_iter().chain(frames).chain(["--truth"]);
     let noise = etendue(noise.map(str::to_owned).chain([shot.truth()]));
     refused("eight mirrored frames, noise", noise, &["mirrored left to right"]);
-    let about = "A rendered chart of contrast patches, measured by `cdp` against its truth after its picture was rearranged. Dots and mirrored axes are in docs/evidence/faults.md.";
-    check("Pictures of charts", about, &rows);
+    let about = "A rendered chart of contrast patches with rearranged pixels, measured by `cdp`. Dots and mirrored axes are in docs/evidence/faults.md.";
+    check("Images of charts", about, &rows);
 }
 
 #[test]

@@ -110,7 +110,7 @@ fn dark_current_keeps_its_mean_level() {
 /// Each key follows the rule that docs/sensor.md states.
 #[test]
 fn keys_scale_by_their_rules() {
-    let sensor = ", frame_period_s = 0.04, shutter = { type = \"rolling\", row_time_us = 20 }, dark = { hot = { share = 0.01, mean_e_s = 300 } }, \
+    let sensor = ", frame_period_s = 0.04, shutter = { type = \"rolling\", row_time_us = 20 }, dark = { hot = { fraction = 0.01, mean_e_s = 300 } }, \
                   brighter_fatter_per_e = 1e-7, inter_pixel_capacitance = { horizontal = 0.02, vertical = 0.01, corner = 0.001 }, \
                   blooming = { direction = \"column\", overflow_fraction = 0.8 }, \
                   roi_px = [8, 16, 32, 24], principal_point_px = [30.5, 23], non_uniformity = { prnu = 0.01, dsnu_e = 2, seed = 1 }, \

@@ -251,7 +251,7 @@ impl Draft<'_> {
         }
         if let Some((share, mean)) = electronics.hot.as_ref().and_then(|hot| hot.share.zip(hot.mean_e_s)) {
             let mut hot = Table::new();
-            self.measured(&mut hot, "sensor.dark.hot", "share", share);
+            self.measured(&mut hot, "sensor.dark.hot", "fraction", share);
             self.measured(&mut hot, "sensor.dark.hot", "mean_e_s", mean);
             sensor.put("dark", Table::new().with("hot", hot));
         }

@@ -266,7 +266,7 @@ impl Electronics {
             None => findings.unknown("hot pixels", "frames in dark/ have one exposure time only"),
             Some(hot) => match hot.share.zip(hot.mean_e_s) {
                 Some((share, mean)) => {
-                    findings.found(Kind::Dark, "sensor.dark.hot.share", "hot pixels, part of all", "", share);
+                    findings.found(Kind::Dark, "sensor.dark.hot.fraction", "hot pixels, part of all", "", share);
                     findings.found(
                         Kind::Dark,
                         "sensor.dark.hot.mean_e_s",

@@ -527,6 +527,7 @@ def cdp(
     brighter: Sequence[float] | Sequence[Sequence[float]] | None = None,
     contrast: float | Sequence[float] | None = None,
     tolerance: float | None = None,
+    flat: _Path | None = None,
     channel: str | None = None,
     cfa: str | None = None,
     region: Sequence[float] | None = None,
@@ -546,6 +547,7 @@ def cdp(
     brighter: Brighter patch of a pair, in the same order. One, or a sequence of them.
     contrast: Weber contrast of a pair in the scene: brighter over darker luminance, less 1; in the same order. One, or a sequence of them.
     tolerance: Maximum relative deviation of a measured contrast from the scene's. Default: 0.5.
+    flat: Image of uniform illumination by the same camera: readings are divided by it, which removes the lens's fall-off.
     channel: Channel to measure: R, G, B or Y of an image (an EXR channel by its full name), a colour of a raw mosaic [default: the only one, or the luminance].
     cfa: Colour filters of a raw image without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
     region: Part to measure: left column, top row, width and height, pixels of the file.

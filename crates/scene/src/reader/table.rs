@@ -312,9 +312,16 @@ impl<'t> Reader<'t> {
     }
 }
 
+/// Former names of keys, and their names today.
+const RENAMED: [(&str, &str); 1] = [("share", "fraction")];
+
 /// Returns problem and remedy of a key that belongs to no form, and the key that was probably meant.
 fn stray(key: &str, forms: &[Form], table: &Table) -> (String, String, Option<String>) {
     let keys = keys_of(forms.iter().filter(|f| f.fits(table)));
+    let renamed = RENAMED.into_iter().find(|(former, name)| *former == key && keys.contains(name));
+    if let Some((_, name)) = renamed {
+        return (format!("\"{key}\" is now \"{name}\""), format!("write \"{name}\""), Some(name.to_owned()));
+    }
     let meant = nearest(key, &keys);
     let remedy = match meant {
         Some(word) => format!("did you mean \"{word}\"?"),

@@ -13,13 +13,13 @@ record! {
     pub struct Camera check(check) {
         /// The lens.
         required lens: Lens = record();
-        /// Elements in front of the lens, attached to the camera. Default: none.
+        /// Elements in front of the lens.
         optional external_optics: Front = record();
-        /// Effects on the irradiance behind the lens. Default: none.
+        /// Effects on the irradiance.
         optional effects: Effects = record();
         /// The sensor.
         required sensor: Sensor = record();
-        /// Processing from raw to image. Default: none, no image is made.
+        /// Processing from raw to image. Default: none, no image.
         optional isp: Processing = record();
     }
 }

@@ -28,7 +28,7 @@ impl Curve {
 keyed! {
     /// File of a tabulated curve.
     pub enum CurveFile {
-        /// A table of two columns, wavelength in nm and value, linear between the points.
+        /// Two columns: wavelength in nm, value.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
     }
 }

@@ -13,63 +13,61 @@ record! {
     pub struct DataSheet check(check) {
         /// Name of the camera.
         required camera: Placed<String> = text("the camera's name");
-        /// Width of the image, px.
+        /// Image width.
         required width_px: Placed<u64> = whole(1, 65_536);
-        /// Height of the image, px.
+        /// Image height.
         required height_px: Placed<u64> = whole(1, 65_536);
-        /// Distance between pixel centres, µm.
+        /// Pixel pitch.
         required pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
-        /// Colour filter array, by name. Default: "mono".
+        /// Colour filter array. Default: "mono".
         optional cfa: Placed<Cfa> = choice();
-        /// Total quantum efficiency (fill factor included), %: pairs of wavelength, nm, and efficiency; for a colour camera a table of such lists by
-        /// channel.
+        /// Total quantum efficiency, fill factor included: pairs of wavelength (nm) and efficiency (%), by channel for colour.
         required quantum_efficiency_percent: SheetEfficiency = efficiency();
-        /// Wavelength of the photons of "saturation_capacity_p" and "sensitivity_threshold_p", nm. Default: the only one of
-        /// "quantum_efficiency_percent".
+        /// Wavelength to which the keys in photons refer. Default: the only one of "quantum_efficiency_percent".
         optional measured_at_nm: Placed<f64> = number("nm").above(0.0);
         /// Bits of the ADC.
         required bits: Placed<u64> = whole(1, 24);
-        /// System gain K, DN/e⁻.
+        /// System gain K.
         optional gain_dn_per_e: Placed<f64> = number("DN/e⁻").above(0.0);
-        /// Inverse system gain 1/K, e⁻/DN.
+        /// Inverse system gain 1/K.
         optional inverse_gain_e_per_dn: Placed<f64> = number("e⁻/DN").above(0.0);
-        /// Temporal dark noise σ_d, e⁻, without quantisation.
+        /// Temporal dark noise σ_d, without quantisation.
         optional temporal_dark_noise_e: Placed<f64> = number("e⁻").at_least(0.0);
-        /// Temporal dark noise σ_y.dark, DN, with quantisation.
+        /// Temporal dark noise σ_y.dark, with quantisation.
         optional temporal_dark_noise_dn: Placed<f64> = number("DN").above(0.0);
-        /// Saturation capacity, e⁻.
+        /// Saturation capacity.
         required saturation_capacity_e: Placed<f64> = number("e⁻").above(0.0);
-        /// Saturation capacity, photons.
+        /// Saturation capacity.
         optional saturation_capacity_p: Placed<f64> = number("photons").above(0.0);
-        /// Greatest signal-to-noise ratio.
+        /// Maximum signal-to-noise ratio.
         optional snr_max: Placed<f64> = number("").above(0.0);
-        /// The same, dB.
+        /// The same ratio in bits.
         optional snr_max_db: Placed<f64> = number("dB").above(0.0);
-        /// The same, bit.
+        /// The same ratio in bits.
         optional snr_max_bit: Placed<f64> = number("bit").above(0.0);
         /// Dynamic range.
         optional dynamic_range: Placed<f64> = number("").above(0.0);
-        /// The same, dB.
+        /// The same ratio in bits.
         optional dynamic_range_db: Placed<f64> = number("dB").above(0.0);
-        /// The same, bit.
+        /// The same ratio in bits.
         optional dynamic_range_bit: Placed<f64> = number("bit").above(0.0);
-        /// Absolute sensitivity threshold, e⁻.
+        /// Absolute sensitivity threshold.
         optional sensitivity_threshold_e: Placed<f64> = number("e⁻").above(0.0);
-        /// Absolute sensitivity threshold, photons.
+        /// Absolute sensitivity threshold.
         optional sensitivity_threshold_p: Placed<f64> = number("photons").above(0.0);
-        /// Dark-signal non-uniformity, e⁻. Default: 0, with a warning.
+        /// DSNU. Default: 0, with a warning.
         optional dsnu_e: Placed<f64> = number("e⁻").at_least(0.0);
-        /// Photo-response non-uniformity, %. Default: 0, with a warning.
+        /// PRNU. Default: 0, with a warning.
         optional prnu_percent: Placed<f64> = number("%").at_least(0.0).at_most(100.0);
-        /// Dark current, e⁻/s. Default: 0, with a warning.
+        /// Dark current. Default: 0, with a warning.
         optional dark_current_e_s: Placed<f64> = number("e⁻/s").at_least(0.0);
-        /// Temperature of the dark-current measurement, °C.
+        /// Temperature of the dark-current measurement.
         optional dark_current_at_c: Placed<f64> = number("°C").above(-273.15);
-        /// Temperature difference that doubles the dark current, K.
+        /// Temperature difference that doubles the dark current.
         optional doubling_k: Placed<f64> = number("K").above(0.0);
-        /// Linearity error, %. It is recorded and not modelled.
+        /// Linearity error; recorded, not modelled.
         optional linearity_error_percent: Placed<f64> = number("%").at_least(0.0);
-        /// Digital number without signal, DN. Default: one that keeps dark noise off zero.
+        /// Digital number without signal. Default: keeps dark noise above zero.
         optional black_level_dn: Placed<f64> = number("DN").at_least(0.0);
     }
 }

@@ -12,16 +12,15 @@ record! {
     /// Effects on the irradiance behind the lens, on either route. The film is rendered wider than the image, for light from beyond its edge, and
     /// spectral bands are stored.
     pub struct Effects check(check) {
-        /// Point-spread function: diffraction and wavefront error of the aperture, or an image of a point. Default: none.
+        /// Point-spread function.
         optional psf: Psf = record();
-        /// Light scattered in the lens. Default: none.
+        /// Light scattered in the lens.
         optional glare: Glare = record();
-        /// Adds ghosts, traced from light reflected by two surfaces of the lens; only with a lens whose "type" is "prescription". Default: false.
+        /// Adds ghosts; needs a prescription lens. Default: false.
         optional ghosts: Placed<bool> = flag();
-        /// With "ghosts": reflectance of the sensor, 0 … 0.5. Default: 0.
+        /// With "ghosts": reflectance of the sensor. Default: 0.
         optional sensor_reflectance: Placed<f64> = number("").at_least(0.0).at_most(0.5);
-        /// Rendered margin beyond the image on every side, as a fraction of its width and height, 0 … 1. Default: the reach of the effects, at most
-        /// 0.25.
+        /// Rendered margin on every side, as a fraction of the image's size. Default: the reach of the effects, at most 0.25.
         optional margin: Placed<f64> = number("").at_least(0.0).at_most(1.0);
     }
 }
@@ -30,44 +29,32 @@ record! {
     /// Point-spread function of the aperture: diffraction at the working f-number of the lens, with wavefront error. "image" (an image of a point) or
     /// "files" (tables over the field) replace both.
     pub struct Psf check(check_psf) {
-        /// Blades of the diaphragm, 3 … 32. Default: a circle. The area is always that of the circle of the f-number.
+        /// Blades of the diaphragm, at constant aperture area. Default: a circle.
         optional blades: Placed<u64> = whole(3, 32);
-        /// With "blades": their curvature, 0 … 1, from straight edges to a circle. Default: 0.
+        /// With "blades": curvature, from straight edges to a circle. Default: 0.
         optional blade_curvature: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// With "blades": direction of a corner, degrees from the image's right towards its bottom. Default: 0.
+        /// With "blades": direction of a corner, from right towards bottom. Default: 0.
         optional rotation_deg: Placed<f64> = number("deg");
-        /// Radius of a central obstruction as a fraction of the pupil's, 0 … 0.9. Default: 0.
+        /// Radius of a central obstruction over the pupil's. Default: 0.
         optional obstruction: Placed<f64> = number("").at_least(0.0).at_most(0.9);
-        /// Zernike terms of the wavefront error. A ray through the point u of the pupil (of radius one) is displaced by 2N ∂W/∂u. Default: none.
+        /// Zernike terms of the wavefront error.
         many wavefront: ZernikeTerm = list(record::<ZernikeTerm>(), 1);
-        /// Radius at which the function ends, mm, above 0. Default: about 256 px, or 256 λN where λN is less than a pixel.
+        /// Radius at which the function ends. Default: about 256 px, or 256 λN where λN is below a pixel.
         optional reach_mm: Placed<f64> = number("mm").above(0.0);
-        /// Patches across and down the image with one function each, 1 … 32. Default: one where the function is nearly the same everywhere, else five
-        /// and three.
+        /// Patches across and down with one function each. Default: one where it is nearly constant, otherwise five across and three down.
         optional patches: Placed<[Placed<u64>; 2]> = exactly(whole(1, 32));
-        /// An image of a point on the sensor, instead of the aperture's function and all its keys; with "image_pitch_um". Values are linear, also
-        /// those of 8 and 16 bits, and are divided by their sum; of a coloured image the mean of its channels. The point is in the middle, the first
-        /// row above it and the first column to its left, as in the captured image. Default: the aperture.
+        /// Image of a point, instead of the aperture: linear, normalised, oriented as captured, the point in the middle.
         optional image: Placed<PathBuf> = path(&["png", "exr"]);
-        /// With "image": pixel pitch on the sensor, µm, above 0, at most that of the sensor's pixels.
+        /// With "image": its pixel pitch on the sensor, at most the sensor's.
         optional image_pitch_um: Placed<f64> = number("µm").above(0.0);
-        /// With "image": wavelength of "image_pitch_um", nm, 300 … 1 100. The image scales in proportion to the wavelength, as diffraction does.
-        /// Default: equal at all wavelengths.
+        /// With "image": wavelength of the pitch, to which the size is proportional. Default: equal at all wavelengths.
         optional image_wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
-        /// A table of the lens's MTF, instead of the aperture's function and all its keys: a round function, equal at all wavelengths and over the
-        /// image, as a sum of Gaussians. Default: the aperture.
+        /// MTF of the lens, instead of the aperture: a round function, equal over wavelengths and image.
         optional mtf: ModulationTable = record();
-        /// Point-spread functions over the field, instead of the aperture's function and all its keys except "patches": Zemax's "Huygens PSF" or "FFT
-        /// PSF" saved as text, one file per field point (and wavelength, or all polychromatic). The distance from the axis is that of the file's
-        /// centre (or reference) coordinates, else of its field, by the lens's projection or in mm; the function turns with the direction from the
-        /// axis. Linear between distances and between wavelengths, constant beyond; values are divided by their sum. Without "patches" the number
-        /// follows from the files, 11 across at most; functions are placed on the image's edges and evenly between. Default: the aperture.
+        /// Zemax "Huygens PSF" or "FFT PSF" texts, one per field point and wavelength, instead of the aperture.
         many files: Placed<PathBuf> = list(path(&["txt", "dat"]), 1);
-        /// Method of spreading light. "film" convolves the film's pixels: no noise, but contrast is lost where the function is about as narrow as a
-        /// pixel. "samples" displaces each sample on the sensor: exact at any width, with slightly more noise (light beyond 2.5 px is spread by the
-        /// film). Default: "samples" where samples pass through the lens, four fifths of the light fall near, and the film's contrast would be wrong
-        /// by more than 0.01 ("image" of one width at all wavelengths, where samples add no noise) or 0.065 (else); the plan states the error.
-        /// Otherwise "film".
+        /// "film" convolves pixels without noise; "samples" displaces samples, exact at any width. Default: "samples" where samples pass through the lens,
+        /// four fifths of the light fall near, and "film" would change contrast by more than 0.01 ("image" of one width) or 0.065; otherwise "film".
         optional spread_by: Placed<SpreadBy> = choice();
     }
 }
@@ -77,7 +64,7 @@ record! {
     pub struct ModulationTable check(check_modulation) {
         /// Source of the points.
         inside source: ModulationSource;
-        /// With "cycles_per_mm": modulation at each frequency, 0 … 1; at 0 it is 1 and need not be given.
+        /// With "cycles_per_mm": modulation at each frequency.
         optional modulation: Vec<Placed<f64>> = list(number("").at_least(0.0).at_most(1.0), 2);
     }
 }
@@ -85,9 +72,9 @@ record! {
 keyed! {
     /// Source of a table of modulation.
     pub enum ModulationSource {
-        /// Zemax's "FFT MTF" exported as text, or any table of frequency and modulation whose head contains "MTF" and "cycles per mm".
+        /// Zemax "FFT MTF" text, or a table of frequency and modulation headed "MTF" and "cycles per mm".
         file => File(Placed<PathBuf>) = path(&["txt"]);
-        /// Spatial frequencies, cycles/mm, rising from above 0.
+        /// Spatial frequencies, rising.
         cycles_per_mm => Frequencies(Vec<Placed<f64>>) = list(number("cycles/mm").above(0.0), 2);
     }
 }
@@ -142,10 +129,9 @@ record! {
         inside index: ZernikeIndex;
         /// Size of the term.
         inside size: TermSize;
-        /// With "rms_waves": its wavelength, nm, 300 … 1 100.
+        /// Wavelength of "rms_waves".
         optional wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
-        /// Distances from the axis on the sensor, mm, rising, one for each root mean square; linear between them. The term is stated for a point to
-        /// the right of the axis and turns with the point. Default: equal everywhere, not turned.
+        /// Rising distances from the axis, one for each root mean square of a point to the right; the term turns with the point. Default: equal everywhere.
         many field_radius_mm: Placed<f64> = list(number("mm").at_least(0.0), 2);
     }
 }
@@ -153,9 +139,9 @@ record! {
 keyed! {
     /// The index of a Zernike term.
     pub enum ZernikeIndex {
-        /// Noll's index (1976), from 1 (piston) to 91: 4 defocus, 7 and 8 coma, 11 spherical aberration.
+        /// Noll's index (1976): 1 piston, 4 defocus, 7 and 8 coma, 11 spherical aberration.
         noll => Noll(Placed<u64>) = whole(1, 91);
-        /// Index of OSA and ANSI Z80.28, from 0 (piston) to 90: 4 defocus, 7 and 8 coma, 12 spherical aberration.
+        /// Index of OSA and ANSI Z80.28: 0 piston, 4 defocus, 7 and 8 coma, 12 spherical aberration.
         osa => Osa(Placed<u64>) = whole(0, 90);
     }
 }
@@ -163,9 +149,9 @@ keyed! {
 keyed! {
     /// Root mean square of a term: one number, or one for each field radius.
     pub enum TermSize {
-        /// In µm.
+        /// Root mean square in µm.
         rms_um => Micrometres(Vec<Placed<f64>>) = sizes("µm");
-        /// In waves of "wavelength_nm".
+        /// Root mean square in waves of "wavelength_nm".
         rms_waves => Waves(Vec<Placed<f64>>) = sizes("");
     }
 }
@@ -284,13 +270,13 @@ record! {
     /// Light scattered over the sensor: of a point's light the fraction 1 − s is unscattered, and s is spread with a density proportional to (r₀² +
     /// r²)^(−p/2), where r is the distance on the sensor.
     pub struct Glare {
-        /// Scattered fraction s, 0 … 0.5: 0.005 to 0.03 for clean lenses, more with dirt.
+        /// Scattered fraction s; 0.005 to 0.03 for clean lenses.
         required scatter: Placed<f64> = number("").at_least(0.0).at_most(0.5);
-        /// Radius r₀ within which scattered light is nearly uniform, µm, above 0.
+        /// Radius r₀ within which scattered light is nearly uniform.
         required core_um: Placed<f64> = number("µm").above(0.0);
-        /// Exponent p, above 0; above 2 unless "reach_mm" is given.
+        /// Exponent p; above 2 unless "reach_mm" is given.
         required exponent: Placed<f64> = number("").above(0.0);
-        /// Radius at which scattered light ends, mm, above 0. Default: unlimited.
+        /// Radius at which scattered light ends. Default: unlimited.
         optional reach_mm: Placed<f64> = number("mm").above(0.0);
     }
 }

@@ -15,7 +15,7 @@ variants! {
         "uniform" => Uniform(Emission),
         /// An image of the whole sphere.
         "image" => Image(EnvironmentImage),
-        /// The clear sky of Hosek and Wilkie (2012), by default with their sun (2013); the world's z axis points to the zenith.
+        /// The clear sky of Hosek and Wilkie (2012), by default with their sun (2013).
         "sky" => Sky(Box<Sky>),
     }
 }
@@ -26,11 +26,11 @@ record! {
     pub struct EnvironmentImage {
         /// The image, in linear sRGB.
         required file: Placed<PathBuf> = path(&["hdr", "exr"]);
-        /// Luminance of a pixel (1, 1, 1), cd/m², above 0.
+        /// Luminance of a pixel (1, 1, 1).
         required luminance_cd_m2_per_unit: Placed<f64> = number("cd/m²").above(0.0);
-        /// Rotation of the image about the vertical, degrees, positive to the left. Default: 0.
+        /// Rotation about the vertical, positive to the left. Default: 0.
         optional rotation_deg: Placed<f64> = number("°").at_least(-360.0).at_most(360.0);
-        /// Treatment of texels below 0, an artefact of lossy compression. Default: they are refused.
+        /// Treatment of negative texels. Default: an error.
         optional negative_texels: Placed<NegativeTexels> = choice();
     }
 }
@@ -46,9 +46,9 @@ words! {
 record! {
     /// A clear sky.
     pub struct Sky check(check_sky) {
-        /// Turbidity of the air, 1 … 10: 1 is pure air, 2 to 3 a clear day, 6 and more haze.
+        /// Turbidity: 1 pure air, 2 to 3 clear, 6 and more haze.
         required turbidity: Placed<f64> = number("").at_least(1.0).at_most(10.0);
-        /// Albedo of the distant ground, 0 … 1. Default: 0.2.
+        /// Albedo of the distant ground. Default: 0.2.
         optional ground_albedo: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// Includes the sun's disc, with limb darkening. Default: true.
         optional sun: Placed<bool> = flag();
@@ -62,10 +62,9 @@ record! {
 record! {
     /// Sun's position by angles.
     pub struct SunAngles {
-        /// Elevation of the sun's centre above the horizon, degrees, −90 … 90. The sun's position is given by either the angles, or "date",
-        /// "time_utc", "latitude_deg" and "longitude_deg".
+        /// Elevation of the sun's centre; angles, or date, time and place.
         required sun_elevation_deg: Placed<f64> = number("°").at_least(-90.0).at_most(90.0);
-        /// Azimuth of the sun's centre, degrees from +x (forward) towards +y (left), −360 … 360.
+        /// Azimuth of the sun's centre, from +x towards +y.
         required sun_azimuth_deg: Placed<f64> = number("°").at_least(-360.0).at_most(360.0);
     }
 }
@@ -73,15 +72,15 @@ record! {
 record! {
     /// Date, time and place on the Earth.
     pub struct SunMoment {
-        /// Date, UTC: `2026-06-21`, 1950 … 2099.
+        /// Date, UTC, 1950 … 2099.
         required date: Placed<Date> = date();
-        /// Time, UTC: `09:30:00`.
+        /// Time, UTC.
         required time_utc: Placed<TimeOfDay> = time_of_day();
-        /// Latitude, degrees, positive to the north.
+        /// Latitude, positive to the north.
         required latitude_deg: Placed<f64> = number("°").at_least(-90.0).at_most(90.0);
-        /// Longitude, degrees, positive to the east.
+        /// Longitude, positive to the east.
         required longitude_deg: Placed<f64> = number("°").at_least(-180.0).at_most(180.0);
-        /// Azimuth of true north in the world, degrees from +x (forward) towards +y (left), −360 … 360. Default: 0, north is forward.
+        /// Azimuth of true north, from +x towards +y. Default: 0.
         optional north_azimuth_deg: Placed<f64> = number("°").at_least(-360.0).at_most(360.0);
     }
 }

@@ -17,15 +17,15 @@ record! {
     pub struct Frame check(check) {
         /// Name of the frame.
         required name: Placed<String> = text("the name of the frame");
-        /// Frame in which it is placed, and with which it moves. Default: the world.
+        /// Parent frame. Default: the world.
         optional parent: Placed<String> = name_of(Named::Frame);
         /// Placement of a frame that is fixed in its parent.
         inside placement: FramePlacement;
-        /// Placement over time; one key is stationary.
+        /// Placement over time.
         many keys: FrameKey = list(record(), 1);
         /// Motion.
         group course: Course;
-        /// A wheel, which turns as it rolls along its path. Default: none.
+        /// Wheel that rolls along its path.
         optional rolls: Rolls = record();
     }
 }
@@ -33,7 +33,7 @@ record! {
 record! {
     /// Placement of a frame at a time.
     pub struct FrameKey {
-        /// Simulated time, s.
+        /// Simulated time.
         required time_s: Placed<ExactTime> = time();
         /// Placement.
         inside placement: FramePlacement;
@@ -43,9 +43,9 @@ record! {
 record! {
     /// Placement of a frame in its parent: rotation, then translation, without scale.
     pub struct FramePlacement {
-        /// Position of its origin in its parent, m. Default: the parent's origin.
+        /// Origin in its parent. Default: the parent's origin.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Yaw, pitch and roll, degrees, as for objects. Default: no rotation.
+        /// Yaw, pitch and roll. Default: 0.
         optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
     }
 }

@@ -17,15 +17,15 @@ use crate::written::{Item, Table};
 record! {
     /// A job: scene, cameras, render settings and outputs.
     pub struct Job {
-        /// Scene: path of a scene file, or the scene itself as a table.
+        /// Scene: a file, or the scene itself.
         required scene: Scene = file_or_table::<Scene>();
         /// The cameras, one or more.
         required cameras: Vec<CameraEntry> = list(record(), 1);
         /// Times of the frames. Default: frame 0 at 0 s.
         optional sequence: Sequence = record();
-        /// Light transport and sampling. Default: that of each key.
+        /// Light transport and sampling.
         optional render: Render = record();
-        /// Files that are written. Default: that of each key.
+        /// Files that are written.
         optional output: Output = record();
     }
 }
@@ -33,20 +33,19 @@ record! {
 record! {
     /// A camera of a job.
     pub struct CameraEntry {
-        /// Name, which becomes part of file names: at most 100 characters, and no device name of any system, such as CON.
+        /// Name, part of file names: at most 100 characters, no device name such as CON.
         required name: Placed<String> = file_name("the name of the camera");
         /// The camera.
         inside camera: CameraSource;
         /// Pose.
         inside pose: Pose;
-        /// Delay of its frames relative to the sequence, s; negative is earlier. Default: 0.
+        /// Delay of its frames relative to the sequence. Default: 0.
         optional trigger_offset_s: Placed<f64> = number("s");
-        /// Trigger jitter: greatest deviation of a frame's start, s, 0 or more. Each start is shifted by a random time, uniform over ± this. Default:
-        /// 0.
+        /// Trigger jitter: each start is shifted uniformly within ± this. Default: 0.
         optional trigger_jitter_s: Placed<f64> = number("s").at_least(0.0);
-        /// Render settings of this camera that differ from the job's.
+        /// Render settings that differ from the job's.
         optional render: Render = record();
-        /// Outputs of this camera that differ from the job's.
+        /// Outputs that differ from the job's.
         optional output: Output = record();
     }
 }

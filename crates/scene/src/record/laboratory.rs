@@ -7,24 +7,23 @@ use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, 
 record! {
     /// Facts that `etendue characterise` cannot read from images, their EXIF data or side-cars.
     pub struct Laboratory check(check) {
-        /// Distance between pixel centres, µm, above 0. Default: from side-cars.
+        /// Pixel pitch. Default: from side-cars.
         optional pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
-        /// Bits of the ADC, 1 … 24. Default: from side-cars.
+        /// Bits of the ADC. Default: from side-cars.
         optional bits: Placed<u64> = whole(1, 24);
-        /// f-number of the lens, 0.5 or more. Default: from side-cars or EXIF data.
+        /// f-number. Default: from side-cars or EXIF data.
         optional f_number: Placed<f64> = number("").at_least(0.5);
-        /// Colour filters of raw images, a tile of two by two from the top left, row by row: "RGGB". Default: from side-cars or EXIF data.
+        /// Colour filters of a two-by-two tile, row by row: "RGGB". Default: from side-cars or EXIF data.
         optional cfa: Placed<String> = text("four of the letters R, G and B");
-        /// Exposure times of folders whose images do not state their own, s, by the folder's path from the laboratory folder: `{ "dark/long" = 4.0
-        /// }`. The longest matching path counts.
+        /// Exposure times by folder path, for images that do not state theirs: `{ "dark/long" = 4.0 }`. The longest matching path counts.
         many exposures_s: (Placed<String>, Placed<f64>) = keyed_by_name(number("s").at_least(0.0));
-        /// Light of the images in `flat/`. Default: uniform and steady, of unknown strength.
+        /// Light in `flat/`. Default: uniform, steady, of unknown strength.
         optional flat: FlatLight = record();
-        /// Chart in `chart/`. Default: from the truth.json next to the images.
+        /// Chart in `chart/`. Default: from its truth.json.
         optional chart: LaboratoryChart = record();
-        /// Slanted edges in `edges/`. Default: from the truth.json next to the images.
+        /// Slanted edges in `edges/`. Default: from its truth.json.
         optional edges: LaboratoryEdges = record();
-        /// ColorChecker in `checker/`. Default: from the truth.json next to the images.
+        /// ColorChecker in `checker/`. Default: from its truth.json.
         optional checker: LaboratoryChecker = record();
     }
 }
@@ -32,9 +31,9 @@ record! {
 record! {
     /// Light on the bare sensor, of one wavelength.
     pub struct FlatLight {
-        /// Photons per second on the whole square of a pixel, above 0.
+        /// Photons per second on a whole pixel.
         required photons_per_s: Placed<f64> = number("1/s").above(0.0);
-        /// Wavelength of the light, nm, 300 … 1 100.
+        /// Wavelength of the light.
         required wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
     }
 }
@@ -52,11 +51,11 @@ words! {
 record! {
     /// A plane chart of points.
     pub struct LaboratoryChart {
-        /// Type of the chart. Default: the type with more detected points.
+        /// Chart type. Default: the type with more detected points.
         optional target: Placed<ChartOfPoints> = choice();
-        /// Distance between neighbouring points, mm, above 0.
+        /// Distance between neighbouring points.
         required pitch_mm: Placed<f64> = number("mm").above(0.0);
-        /// Columns and rows of its points; of a checkerboard the inner corners. Default: as detected.
+        /// Columns and rows of points (checkerboard: inner corners). Default: as detected.
         optional grid: Placed<[f64; 2]> = vector::<2>(number("").at_least(2.0));
     }
 }
@@ -64,7 +63,7 @@ record! {
 record! {
     /// Positions of slanted edges.
     pub struct LaboratoryEdges {
-        /// Regions of the images with one edge each: left column, top row, columns, rows.
+        /// Regions with one edge each: left column, top row, columns, rows.
         many regions_px: Placed<[f64; 4]> = list(vector::<4>(number("px").at_least(0.0)), 1);
     }
 }
@@ -72,7 +71,7 @@ record! {
 record! {
     /// Position of a ColorChecker, lit by daylight D65.
     pub struct LaboratoryChecker {
-        /// Centres of the four corner patches, raster coordinates, px: dark skin, bluish green, black, white.
+        /// Centres of the corner patches dark skin, bluish green, black and white, raster coordinates.
         required corners_px: Placed<[Placed<[f64; 2]>; 4]> = exactly(vector::<2>(number("px").at_least(0.0)));
     }
 }

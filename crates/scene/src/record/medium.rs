@@ -16,18 +16,17 @@ record! {
         required name: Placed<String> = text("the name of the medium");
         /// Density.
         inside extinction: Extinction;
-        /// Single-scattering albedo: fraction of the extinction that is scattered, 0 … 1; the rest is absorbed. A number or `{ spectrum = file }`.
-        /// Water droplets absorb nothing. Default: 1.
+        /// Single-scattering albedo. Default: 1, as of water droplets.
         optional albedo: Curve = curve(number("").at_least(0.0).at_most(1.0));
-        /// Phase function. Default: water droplets of 12 µm, by Mie's series.
+        /// Phase function. Default: water droplets of 12 µm.
         optional phase: Phase = record();
         /// Part of the world that it fills. Default: everywhere.
         optional shape: MediumShape = record();
         /// Placement of the shape; only of shapes with bounds.
         inside transform: Transform;
-        /// Frame in which the shape is placed, and with which it moves. Default: the world.
+        /// Frame of the shape. Default: the world.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// Spatial variation of the density. Default: homogeneous.
+        /// Variation of the density. Default: homogeneous.
         optional unevenness: Unevenness = record();
     }
 }
@@ -35,9 +34,9 @@ record! {
 keyed! {
     /// Extinction of a medium.
     pub enum Extinction {
-        /// Visibility in the medium: `{ distance_m, contrast }`.
+        /// Visibility in the medium.
         visibility => Visibility(Visibility) = record();
-        /// Extinction coefficient, 1/m, 0 or more: a number (constant over wavelength) or `{ spectrum = file }`.
+        /// Extinction coefficient.
         extinction_per_m => PerMetre(Curve) = curve(number("1/m").at_least(0.0).at_most(1e6));
     }
 }
@@ -46,9 +45,9 @@ record! {
     /// The distance at which the contrast of a black object against the horizon falls to a threshold. The extinction coefficient is
     /// −ln(contrast)/distance (Koschmieder 1924), equal at all wavelengths.
     pub struct Visibility {
-        /// The distance, m, above 0.
+        /// Distance.
         required distance_m: Placed<f64> = number("m").above(0.0);
-        /// The threshold, above 0 and below 1: 0.02 is Koschmieder's, 0.05 that of the meteorological optical range (WMO).
+        /// Contrast threshold: 0.02 (Koschmieder), 0.05 (meteorological optical range, WMO).
         required contrast: Placed<f64> = number("").above(0.0).at_most(0.999);
     }
 }
@@ -58,8 +57,7 @@ variants! {
     pub enum Phase by "type" {
         /// Water droplets, by Mie's series.
         "water_droplets" => WaterDroplets(WaterDroplets),
-        /// The fit of Jendersie and d'Eon (2023) to Mie's series: quicker to prepare, but four to five times too dark for backscatter, as of
-        /// headlamps in fog.
+        /// Fit of Jendersie and d'Eon (2023): quicker to prepare, backscatter four to five times too dark.
         "water_droplets_fit" => WaterDropletsFit(WaterDropletsFit),
         /// Henyey and Greenstein's function.
         "henyey_greenstein" => HenyeyGreenstein(HenyeyGreenstein),
@@ -73,7 +71,7 @@ variants! {
 record! {
     /// Droplets of log-normal sizes (a factor of 1.35 is one standard deviation).
     pub struct WaterDroplets {
-        /// Median diameter by number, µm, 0.1 … 60: about 5 to 20 in fog.
+        /// Median diameter by number; about 5 to 20 in fog.
         required diameter_um: Placed<f64> = number("µm").at_least(0.1).at_most(60.0);
     }
 }
@@ -81,7 +79,7 @@ record! {
 record! {
     /// Droplets of a mean diameter.
     pub struct WaterDropletsFit {
-        /// Diameter, µm, 5 … 50.
+        /// Diameter.
         required diameter_um: Placed<f64> = number("µm").at_least(5.0).at_most(50.0);
     }
 }
@@ -89,7 +87,7 @@ record! {
 record! {
     /// Henyey and Greenstein's function (1941).
     pub struct HenyeyGreenstein {
-        /// Mean cosine, −0.99 … 0.99: positive forward.
+        /// Mean cosine, positive forward.
         required g: Placed<f64> = number("").at_least(-0.99).at_most(0.99);
     }
 }
@@ -109,7 +107,7 @@ variants! {
     pub enum MediumShape by "type" {
         /// The whole world, unlimited: no light from infinity is transmitted.
         "everywhere" => Everywhere(Everywhere),
-        /// Below a height, such as a layer of fog under a clear sky.
+        /// Everything below a height.
         "layer" => Layer(Layer),
         /// A box about its origin.
         "box" => Box(MediumBox),
@@ -128,7 +126,7 @@ record! {
 record! {
     /// Below a height.
     pub struct Layer {
-        /// Height of its top above its origin, m.
+        /// Height of its top above its origin.
         required top_m: Placed<f64> = number("m");
     }
 }
@@ -136,7 +134,7 @@ record! {
 record! {
     /// A box about its origin.
     pub struct MediumBox {
-        /// Size along x, y and z, m, above 0.
+        /// Size along x, y and z.
         required size_m: Placed<[f64; 3]> = vector::<3>(number("m").above(0.0));
     }
 }
@@ -144,7 +142,7 @@ record! {
 record! {
     /// A sphere about its origin.
     pub struct MediumSphere {
-        /// Radius, m, above 0.
+        /// Radius.
         required radius_m: Placed<f64> = number("m").above(0.0);
     }
 }
@@ -153,7 +151,7 @@ record! {
     /// The inside of a mesh without open edges, in the axes of its file: points from which a ray crosses the surface an odd number of times. Where
     /// parts overlap is outside, as a part within another is a hollow.
     pub struct MediumMesh {
-        /// The file (Wavefront OBJ).
+        /// Wavefront OBJ file.
         required file: Placed<PathBuf> = path(&["obj"]);
         /// Metres per unit of the file. Default: 1.
         optional unit_m: Placed<f64> = number("m").above(0.0);
@@ -163,15 +161,15 @@ record! {
 record! {
     /// Gradient noise (Perlin 2002) of mean 0, in the world's frame, about the mean density.
     pub struct Unevenness {
-        /// Greatest relative deviation of the density from its mean, 0 … 1.
+        /// Maximum relative deviation of the density from its mean.
         required amplitude: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// Size of the largest clouds, m, above 0.
+        /// Size of the largest clouds.
         required scale_m: Placed<f64> = number("m").above(0.0);
-        /// Octaves, each of half the size of the preceding one, 1 … 12. Default: 4.
+        /// Octaves, each of half the size. Default: 4.
         optional octaves: Placed<u64> = whole(1, 12);
-        /// Amplitude of an octave over that of the preceding one, 0 … 1. Default: 0.5.
+        /// Amplitude ratio of successive octaves. Default: 0.5.
         optional gain: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// Drift velocity of the noise through the medium, m/s. Default: none.
+        /// Drift velocity of the noise. Default: 0.
         optional wind_m_s: Placed<[f64; 3]> = vector::<3>(number("m/s"));
         /// Seed of the noise. Default: 0.
         optional seed: Placed<u64> = whole(0, u64::from(u32::MAX));

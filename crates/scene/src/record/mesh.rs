@@ -13,14 +13,13 @@ use crate::reader::{choice, keyed, number, path, record, text, words};
 record! {
     /// A triangle mesh. Objects place it in the world, any number of times.
     pub struct Mesh check(check) {
-        /// Name by which objects refer to it.
+        /// Name.
         required name: Placed<String> = text("the name of the mesh");
         /// Source of its vertices and faces.
         inside source: MeshSource;
-        /// Axis of the file that points up. Required, except for glTF files, which state it (+y up, +z forward): there it is omitted.
+        /// Axis of the file that points up. Required except for glTF, which states it.
         optional up_axis: Placed<Axis> = choice();
-        /// Axis of the file that points forward (the world's +x). Default: the axis that follows the up axis in the cycle x, y, z (up z: forward x;
-        /// up y: forward z; up x: forward y), with a plus.
+        /// Axis of the file that points forward. Default: the next in the cycle x, y, z.
         optional forward_axis: Placed<Axis> = choice();
         /// Metres per unit of the file. Default: 1.
         optional scale: Placed<f64> = number("m").above(0.0);
@@ -30,8 +29,7 @@ record! {
 keyed! {
     /// Source of the vertices and faces of a mesh.
     pub enum MeshSource {
-        /// The file: Wavefront OBJ, glTF 2.0, or PLY. Its coordinates may be those of a survey or a map: they are kept to 3e-8 of the mesh's own
-        /// extent at any distance from the file's origin.
+        /// Wavefront OBJ, glTF 2.0 or PLY; precision 3e-8 of the mesh's extent at any distance.
         file => File(Placed<PathBuf>) = path(&["obj", "glb", "gltf", "ply"]);
         /// Moving vertices, from several files.
         vertex_animation => VertexAnimation(Box<VertexAnimation>) = record();

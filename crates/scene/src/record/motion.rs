@@ -49,12 +49,12 @@ impl TrajectoryAxes {
 record! {
     /// Keys from a file, as written by loggers.
     pub struct Trajectory {
-        /// The file: CSV with a line of column names, or a JSON list of objects. `time_s`, `x_m`, `y_m`, `z_m`, and either `qw`, `qx`, `qy`, `qz` or
-        /// `yaw_deg`, `pitch_deg`, `roll_deg`; without them there is no rotation. In any order; other columns are not read.
+        /// CSV with column names, or a JSON list: `time_s`, `x_m`, `y_m`, `z_m`, optionally `qw`, `qx`, `qy`, `qz` or `yaw_deg`, `pitch_deg`, `roll_deg`;
+        /// others are ignored.
         required file: Placed<PathBuf> = path(&["csv", "json"]);
-        /// Offset added to the file's times, s. Default: 0.
+        /// Offset added to the times. Default: 0.
         optional time_offset_s: Placed<ExactTime> = time();
-        /// Directions of the file's axes. Default: "flu", those of the world.
+        /// Axes of the file. Default: "flu", the world's.
         optional axes: Placed<TrajectoryAxes> = choice();
     }
 }
@@ -62,9 +62,9 @@ record! {
 record! {
     /// Motion between keys.
     pub struct Course {
-        /// Interpolation between keys, or between rows of the trajectory. Default: "linear".
+        /// Interpolation between keys or rows. Default: "linear".
         optional interpolation: Placed<Interpolation> = choice();
-        /// Positions over time, from a file.
+        /// Positions over time.
         optional trajectory: Trajectory = record();
     }
 }
@@ -72,7 +72,7 @@ record! {
 record! {
     /// A wheel: it turns about its y axis as its origin moves in the world along its x axis, without slipping.
     pub struct Rolls {
-        /// Rolling radius, m, above 0.
+        /// Rolling radius.
         required radius_m: Placed<f64> = number("m").above(0.0);
     }
 }

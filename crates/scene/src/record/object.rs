@@ -12,27 +12,27 @@ use crate::reader::{keyed, keyed_by_name, list, name_of, number, record, text, t
 record! {
     /// A mesh or a shape in the world, with one or more instances.
     pub struct Object check(check) {
-        /// Name of the object.
+        /// Name.
         required name: Placed<String> = text("the name of the object");
         /// Mesh or shape.
         inside body: Body;
-        /// Material of the whole object. Optional for a mesh: the default is the materials of its file.
+        /// Material of the whole object. Default, for a mesh: its file's.
         optional material: Placed<String> = name_of(Named::Material);
-        /// Materials by their names in the mesh's file: `{ "car_paint" = "red" }`. Names that are not listed keep the materials of the file.
+        /// Materials by their names in the mesh's file: `{ "car_paint" = "red" }`.
         many materials: (Placed<String>, Placed<String>) = keyed_by_name(name_of(Named::Material));
-        /// The semantic class, a name in `[classes]`. Default: class 0.
+        /// Semantic class, a name in `[classes]`. Default: class 0.
         optional class: Placed<String> = name_of(Named::Class);
         /// Placement of an object with one instance.
         inside transform: Transform;
-        /// Placement over time; one key is stationary.
+        /// Placement over time.
         many keys: Keyframe = list(record(), 1);
         /// Motion.
         group course: Course;
-        /// Frame in which it is placed, and with which it moves. Default: the world.
+        /// Parent frame. Default: the world.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// A wheel, which turns as it rolls along its path. Default: none.
+        /// Wheel that rolls along its path.
         optional rolls: Rolls = record();
-        /// Instances; each has an identity of its own in the ground truth.
+        /// Instances; each has an identity in the ground truth.
         many instances: Instance = list(record(), 1);
     }
 }
@@ -42,7 +42,7 @@ keyed! {
     pub enum Body {
         /// Name of a mesh.
         mesh => Mesh(Placed<String>) = name_of(Named::Mesh);
-        /// A shape: a table with "type" and the keys of that type.
+        /// A shape.
         shape => Shape(Shape) = record();
     }
 }
@@ -50,7 +50,7 @@ keyed! {
 record! {
     /// Placement of an object at a time.
     pub struct Keyframe {
-        /// Simulated time, s.
+        /// Simulated time.
         required time_s: Placed<ExactTime> = time();
         /// Placement.
         inside transform: Transform;
@@ -62,9 +62,9 @@ record! {
     pub struct Instance {
         /// Name of the instance. Default: the object's name and a number.
         optional name: Placed<String> = text("the name of the instance");
-        /// Frame in which it is placed, and with which it moves. Default: the object's.
+        /// Frame. Default: the object's.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// Delay of the "modulation" of all its emission at this instance, s, added to its own delay. Default: 0.
+        /// Delay added to its emission's "modulation". Default: 0.
         optional modulation_delay_s: Placed<f64> = number("s");
         /// Placement.
         inside transform: Transform;

@@ -7,78 +7,60 @@ use etendue_core::RawFormat;
 record! {
     /// Files that are written.
     pub struct Output {
-        /// Spectral radiance at the entrance pupil, spectral EXR, rendered with route "pupil": the input of `etendue expose`. Default: true for a
-        /// sensor without electronics, else false.
+        /// Spectral radiance at the entrance pupil (route "pupil"), EXR, for `etendue expose`. Default: true without electronics.
         optional radiance: Placed<bool> = flag();
-        /// Spectral irradiance on the sensor plane, spectral EXR. Default: false.
+        /// Spectral irradiance on the sensor plane, EXR. Default: false.
         optional irradiance: Placed<bool> = flag();
-        /// The ghosts' part of the irradiance, spectral EXR; needs ghosts = true in `[effects]`. Default: false.
+        /// Irradiance of the ghosts, EXR; needs ghosts = true in `[effects]`. Default: false.
         optional ghosts: Placed<bool> = flag();
-        /// Variance of the mean of the estimated quantities, EXR; needs two replicates or more. Default: false.
+        /// Variance of the means, EXR; needs two replicates or more. Default: false.
         optional variance: Placed<bool> = flag();
-        /// Number of samples per pixel (layer "samples"), variance of the pixel's mean from them ("monte_carlo_variance") and, where pixels sum
-        /// electrons, variance of the sensor's noise in one frame ("sensor_variance"), EXR; of the first capture. Variances are in e⁻² of the
-        /// described exposure, or (W/m²)² of irradiance without electrons. They need pixels that sum electrons, or "noise_threshold". Default: false.
+        /// Samples per pixel, Monte Carlo and sensor-noise variance, EXR; needs electrons or "noise_threshold". Default: false.
         optional sampling: Placed<bool> = flag();
-        /// Expected electrons of each pixel, EXR. Default: false.
+        /// Expected electrons, EXR. Default: false.
         optional electrons: Placed<bool> = flag();
-        /// Digital numbers, in the format of "raw_format". Default: true for a sensor with electronics.
+        /// Digital numbers. Default: true with electronics.
         optional raw: Placed<bool> = flag();
-        /// File format of the digital numbers. Default: "png", or "tiff" where they have more than 16 bits.
+        /// Format of the digital numbers. Default: "png", or "tiff" above 16 bits.
         optional raw_format: Placed<RawFormat> = choice();
-        /// Components of each pixel's digital number, one layer each, in electrons, EXR. Default: false.
+        /// Components of each digital number in electrons, EXR. Default: false.
         optional signal_breakdown: Placed<bool> = flag();
-        /// The processed image, 8-bit PNG. Default: true for a camera with `[isp]`.
+        /// The processed image. Default: true with `[isp]`.
         optional picture: Placed<bool> = flag();
-        /// Depth, distance, normals, positions and identities of the ground truth, EXR. Depth along the camera's axis is NaN where a pixel looks
-        /// sideways, back or at a mirror; "camera_space_position" has a signed z there. Default: true.
+        /// Depth, distance, normals, positions and identities, EXR. Default: true.
         optional ground_truth: Placed<bool> = flag();
-        /// With "ground_truth": adds the position in the camera's frame (m; x right, y down, z forward, negative behind the camera; from the centre
-        /// of the entrance pupil), layers "P_camera.X", ".Y" and ".Z". Default: false.
+        /// With "ground_truth": position in the camera's frame (m; x right, y down, z forward). Default: false.
         optional camera_space_position: Placed<bool> = flag();
-        /// Effect of weather on each pixel, in a scene with `[[media]]` or `[precipitation]`. "transmittance.exr": fraction of light at 587.56 nm
-        /// that comes unscattered from the first surface; "airlight.exr": spectral radiance scattered in before that surface; with precipitation
-        /// "cover.exr": fraction of pixel and exposure that near drops or flakes cover. In the raster of "radiance". Takes the time of the light once
-        /// more. Default: false.
+        /// Transmittance, airlight and cover by weather, EXR; renders the light once more. Default: false.
         optional weather: Placed<bool> = flag();
         /// Depth as 16-bit PNG. Default: false.
         optional depth_png: Placed<bool> = flag();
-        /// With "depth_png": digital numbers per metre, above 0, or the convention of a data set: "kitti" (256 per m), "ros" (1 000 per m), "tum" (5
-        /// 000 per m). Default: "kitti".
+        /// With "depth_png": digital numbers per metre; "kitti" 256, "ros" 1 000, "tum" 5 000. Default: "kitti".
         optional depth_png_scale: DepthScale = depth_scale();
-        /// Origin (m) and unit direction of each pixel's principal ray in the camera's frame, EXR. With the distance of the ground truth they give
-        /// the position of any pixel in space. Default: false.
+        /// Origin (m) and direction of each pixel's principal ray in the camera's frame, EXR. Default: false.
         optional rays: Placed<bool> = flag();
-        /// Ground truth, rays and image of the rectilinear twin with the same pose and pupil, in a folder "undistorted". The side-car states its
-        /// camera matrix. Not available for cameras that see 85° from the axis or more. Default: false.
+        /// Ground truth, rays and image of the rectilinear twin, for cameras below 85° from the axis. Default: false.
         optional undistorted: Placed<bool> = flag();
-        /// With "undistorted": focal length of the twin over the camera's own, above 0; below 1 it shows more of an image with barrel distortion.
-        /// Default: 1.
+        /// With "undistorted": focal length of the twin over the camera's. Default: 1.
         optional undistorted_scale: Placed<f64> = number("").above(0.0);
-        /// Optical flow of each pixel to the next and to the previous frame (px), its visibility there, and the velocity of its image (px/s): layers
-        /// "flow", "visibility" and "motion_vector" of "motion.exr". Needs `[sequence]`. "exr": these alone; "middlebury", "kitti": also the flow to
-        /// the next frame as .flo or 16-bit PNG. Default: none.
+        /// Optical flow to the next and previous frame (px), visibility and image velocity (px/s), "motion.exr"; "middlebury" and "kitti" add .flo or PNG.
+        /// Needs `[sequence]`.
         optional optical_flow: Placed<CorrespondenceFormat> = choice();
-        /// Scene flow of each pixel to the next and to the previous frame (m, cameras' frames) and velocity in the world (m/s): layers "scene_flow"
-        /// and "velocity" of "motion.exr". Needs `[sequence]`. Default: false.
+        /// Scene flow to the next and previous frame (m) and world velocity (m/s), "motion.exr". Needs `[sequence]`. Default: false.
         optional scene_flow: Placed<bool> = flag();
-        /// Name of the right camera of a pair rectified with this one. Writes the disparity of each pixel (px; how much farther left the right camera
-        /// sees its point) and its visibility there, "disparity.exr". Default: none.
+        /// Right camera of a rectified pair: writes disparity (px) and visibility, "disparity.exr".
         optional disparity_to: Placed<String> = text("the name of the right camera");
-        /// With "disparity_to": "exr", that file alone; "middlebury", "kitti": also .pfm or 16-bit PNG. Default: "exr".
+        /// With "disparity_to": "middlebury" and "kitti" add .pfm or PNG. Default: "exr".
         optional disparity_format: Placed<CorrespondenceFormat> = choice();
-        /// Boxes of the objects, in the image (visible part, and whole object) and in space, with the visible fraction and the fraction within the
-        /// image, JSON. Default: false.
+        /// Boxes of objects in image and space, with visible fractions, JSON. Default: false.
         optional boxes: Placed<bool> = flag();
-        /// With "boxes": also the boxes of all frames of the run in one file, by object, "tracks.json". Default: false.
+        /// With "boxes": boxes of all frames by object, "tracks.json". Default: false.
         optional tracks: Placed<bool> = flag();
-        /// Coverage of each pixel by objects and materials, through the lens and over the exposure, by as many samples as the light has (64 at most):
-        /// "cryptomatte.exr", Psyop's specification 1.2. Default: false.
+        /// Coverage by objects and materials, at most 64 samples, "cryptomatte.exr" (Psyop 1.2). Default: false.
         optional cryptomatte: Placed<bool> = flag();
-        /// Images of all frames of the run as one video, "picture.y4m"; needs `[isp]` with 8-bit PNG images, and `[sequence]`. Default: none.
+        /// All images as "picture.y4m"; needs `[sequence]` and 8-bit PNG images.
         optional video: Placed<VideoFormat> = choice();
-        /// Pose and projection of this camera for other programs: files for ROS, Kalibr and COLMAP, of all cameras with this key, in the folder
-        /// "calibration" next to the cameras' own. Default: false.
+        /// Files for ROS, Kalibr and COLMAP in the folder "calibration". Default: false.
         optional calibration_files: Placed<bool> = flag();
     }
 }

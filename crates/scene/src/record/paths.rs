@@ -7,28 +7,17 @@ use crate::reader::{among, flag, record, whole};
 record! {
     /// Settings of the path integrator.
     pub struct PathKeys {
-        /// Maximum number of surfaces along a path, 1 … 1 024. Belongs to integrator = "path". Default: 16, or that of the quality preset.
+        /// Maximum number of surfaces along a path. Default: 16, or the quality preset's.
         optional max_bounces: Placed<u64> = whole(1, 1024);
-        /// Includes caustics: light of suns and glowing surfaces that smooth surfaces focus onto diffuse ones, and mirrors onto much less glossy
-        /// ones. Without them the image lacks that light and the rare bright samples (fireflies) that find it, and rain or snow deflects only light
-        /// on its way to the camera, not between diffuse surfaces. Belongs to integrator = "path". Default: true.
+        /// Includes caustics of suns and glowing surfaces; without them that light is missing. Default: true.
         optional caustics: Placed<bool> = flag();
-        /// Path-space regularisation: metals, coats, glass and paint that a path meets after a glossy surface (and after a diffuse one where caustics
-        /// are included) are treated as rougher, so that lights in them are found without fireflies. The image is biased: reflections within
-        /// reflections and caustics are blurred. Surfaces seen directly or in mirrors do not change. Belongs to integrator = "path". Default: false.
+        /// Path-space regularisation: fewer fireflies, but indirect reflections and caustics are blurred. Default: false.
         optional regularize: Placed<bool> = flag();
-        /// Path guiding: diffuse surfaces scatter paths towards directions in which light was found. Before each pass one sixteenth of its number of
-        /// paths (with "noise_threshold": of those of "min_spp"), at most 524 288, is traced to learn them. It affects the noise of indirect light,
-        /// never a mean. Belongs to integrator = "path". Default: false.
+        /// Path guiding at diffuse surfaces; affects noise only. Default: false.
         optional guiding: Placed<bool> = flag();
-        /// Branched path tracing: number of paths that continue and of lights that are sampled at the first surface that is no mirror, per sample, 1
-        /// … 64. The path to that surface is traced once, so light has the noise of that many more samples in less time where that path is long.
-        /// Edges, depth of field and motion keep the noise of "spp". No mean changes. Excludes "path_reuse_px" above 1. Belongs to integrator =
-        /// "path". Default: 1.
+        /// Paths and sampled lights at the first surface that is no mirror; affects noise only. Excludes "path_reuse_px" above 1. Default: 1.
         optional branches: Placed<u64> = whole(1, 64);
-        /// Path reuse: side of the blocks of pixels of one colour whose paths share their tails, px: 1 (no reuse), 2, 4 or 8. The same error takes
-        /// much less time where light is scattered between surfaces, but errors within a block are correlated. Belongs to integrator = "path".
-        /// Default: 1.
+        /// Side of pixel blocks whose paths share tails; their errors are correlated. Default: 1.
         optional path_reuse_px: Placed<u64> = among(&[1, 2, 4, 8]);
     }
 }

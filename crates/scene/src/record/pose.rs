@@ -12,18 +12,17 @@ use crate::reader::{keyed, list, name_of, number, record, time, vector};
 record! {
     /// Pose and motion of a camera.
     pub struct Pose check(check) {
-        /// Position of the centre of the entrance pupil in the world, m.
+        /// Position of the entrance pupil in the world.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Viewing direction.
         group aim: Aim;
-        /// With "look_at_m": direction that appears upwards in the image. Default: +z.
+        /// With "look_at_m": direction that is up in the image. Default: +z.
         optional up: Placed<[f64; 3]> = vector::<3>(number(""));
-        /// Poses over time, instead of one position; one key is stationary.
+        /// Poses over time.
         many keys: PoseKey = list(record(), 1);
         /// Motion.
         group course: Course;
-        /// Frame of the scene in which the camera is placed, and with which it moves; positions, points and directions are relative to it. Default:
-        /// the world.
+        /// Frame of its positions, points and directions. Default: the world.
         optional frame: Placed<String> = name_of(Named::Frame);
     }
 }
@@ -31,13 +30,13 @@ record! {
 record! {
     /// Pose of a camera at a time.
     pub struct PoseKey check(check_key) {
-        /// Simulated time, s.
+        /// Simulated time.
         required time_s: Placed<ExactTime> = time();
-        /// Position of the centre of the entrance pupil in the world, m.
+        /// Position of the entrance pupil in the world.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Viewing direction.
         inside aim: Aim;
-        /// With "look_at_m": direction that appears upwards in the image. Default: +z.
+        /// With "look_at_m": direction that is up in the image. Default: +z.
         optional up: Placed<[f64; 3]> = vector::<3>(number(""));
     }
 }
@@ -45,10 +44,9 @@ record! {
 keyed! {
     /// Viewing direction of a camera.
     pub enum Aim {
-        /// Point in the middle of the view, in the world, m.
+        /// World point in the middle of the view.
         look_at_m => LookAt(Placed<[f64; 3]>) = vector::<3>(number("m"));
-        /// Yaw, pitch and roll, degrees, as for objects. At 0, 0, 0 the camera looks along +x with +z upwards. Positive yaw turns to the left,
-        /// positive pitch lowers the view, positive roll lowers the right side of the camera.
+        /// Yaw, pitch and roll; at 0 the camera looks along +x with +z up. Positive: left, view down, right side down.
         rotation_deg => Rotation(Placed<[f64; 3]>) = vector::<3>(number("°"));
     }
 }

@@ -7,9 +7,9 @@ variants! {
     /// Precipitation over the whole scene below a height. Near a camera drops and flakes are modelled individually, farther away as a medium of the
     /// same extinction. Their positions depend only on seed and time. Ground truth ignores them.
     pub enum Precipitation by "type" {
-        /// Rain, with the size distribution of Marshall and Palmer (1948) and the terminal speeds of Atlas (1973).
+        /// Rain: sizes of Marshall and Palmer (1948), terminal speeds of Atlas (1973).
         "rain" => Rain(Rain),
-        /// Snow, with the size distribution of Sekhon and Srivastava (1970).
+        /// Snow: sizes of Sekhon and Srivastava (1970).
         "snow" => Snow(Snow),
     }
 }
@@ -28,10 +28,9 @@ impl Precipitation {
 record! {
     /// Rain.
     pub struct Rain {
-        /// Rain rate, mm/h, 0.1 … 150: 1 is light, 10 heavy, 50 a cloudburst. The distribution was measured up to about 25.
+        /// Rain rate, 0.1 … 150: 1 light, 10 heavy, 50 a cloudburst. Sizes were measured up to about 25.
         required rate_mm_h: Placed<f64> = number("mm/h").above(0.0);
-        /// Rescales the number of drops so that with their speeds they give `rate_mm_h`. The distribution itself gives 5 to 18 % more. Default:
-        /// false.
+        /// Scales the number of drops to give `rate_mm_h`; otherwise 5 to 18 % more. Default: false.
         optional rescaled: Placed<bool> = flag();
         /// Extent, and modelling.
         inside fall: Fall;
@@ -41,11 +40,11 @@ record! {
 record! {
     /// Snow.
     pub struct Snow {
-        /// Snow rate, mm/h of melted water, 0.1 … 3: 0.5 is light, 2.5 heavy.
+        /// Snow rate, melted, 0.1 … 3: 0.5 light, 2.5 heavy.
         required rate_mm_h: Placed<f64> = number("mm/h").above(0.0);
         /// Type of the flakes. Default: "aggregates".
         optional crystals: Placed<Crystals> = choice();
-        /// Rescales the number of flakes so that with their speeds they give `rate_mm_h`. Default: false.
+        /// Scales the number of flakes to give `rate_mm_h`. Default: false.
         optional rescaled: Placed<bool> = flag();
         /// Extent, and modelling.
         inside fall: Fall;
@@ -69,18 +68,17 @@ words! {
 record! {
     /// Extent and modelling of precipitation.
     pub struct Fall {
-        /// Velocity of the air, m/s; all drops or flakes drift with it. Default: none.
+        /// Air velocity. Default: 0.
         optional wind_m_s: Placed<[f64; 3]> = vector::<3>(number("m/s").at_least(-100.0).at_most(100.0));
-        /// Height in the world from which precipitation falls, m. Default: 500.
+        /// Height from which precipitation falls. Default: 500.
         optional top_m: Placed<f64> = number("m");
-        /// Distance from the camera within which nothing falls, m, 0 … 100: under a roof, or behind a windscreen. Default: 0.
+        /// Distance from the camera within which nothing falls. Default: 0.
         optional clear_m: Placed<f64> = number("m").at_least(0.0).at_most(100.0);
-        /// Seed of the drops and flakes. Default: 0.
+        /// Seed. Default: 0.
         optional seed: Placed<u64> = whole(0, 4_294_967_295);
-        /// Width on the image, px, from which a drop or flake is modelled individually, above 0 … 10. Default: 0.25.
+        /// Width on the image, px, from which drops are modelled individually. Default: 0.25.
         optional smallest_px: Placed<f64> = number("").above(0.0).at_most(10.0);
-        /// Maximum number modelled individually in a camera's view during an exposure, 0 … 5 000 000; beyond it the modelled range is shortened.
-        /// Default: 200 000.
+        /// Maximum number modelled individually per camera and exposure; more shorten their range. Default: 200 000.
         optional most: Placed<u64> = whole(0, 5_000_000);
     }
 }

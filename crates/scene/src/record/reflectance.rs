@@ -73,7 +73,7 @@ record! {
     pub struct ReflectanceTable check(check) {
         /// Source.
         inside source: ReflectanceSource;
-        /// Factor on a texture, above 0 and at most 1. Default: 1.
+        /// Factor on the texture. Default: 1.
         optional scale: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
@@ -83,11 +83,11 @@ keyed! {
     pub enum ReflectanceSource {
         /// Name of a texture.
         texture => Texture(Placed<String>) = name_of(Named::Texture);
-        /// A colour as encoded in images (sRGB, 0 … 1), converted to a smooth spectrum.
+        /// Encoded sRGB colour, converted to a smooth spectrum.
         srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
-        /// A table of two columns, wavelength in nm and reflectance 0 … 1.
+        /// Two columns: wavelength in nm, reflectance 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
-        /// A spectrum of the library, typical of a material.
+        /// A spectrum of the library.
         named => Named(Placed<String>) = known("a material of the library", reflectance::names());
     }
 }
@@ -95,11 +95,11 @@ keyed! {
 keyed! {
     /// Source of a colour.
     pub enum ColourTable {
-        /// A colour as encoded in images (sRGB, 0 … 1), converted to a smooth spectrum.
+        /// Encoded sRGB colour, converted to a smooth spectrum.
         srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
-        /// A table of two columns, wavelength in nm and a fraction of light 0 … 1.
+        /// Two columns: wavelength in nm, fraction of light 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
-        /// A spectrum of the library, typical of a material.
+        /// A spectrum of the library.
         named => Named(Placed<String>) = known("a material of the library", reflectance::names());
     }
 }

@@ -19,30 +19,29 @@ record! {
         optional integrator: Placed<Integrator> = choice();
         /// Settings of the path integrator.
         inline paths: PathKeys;
-        /// Criterion by which lights are sampled at a surface. It affects the noise of surfaces that mirror lights, never a mean. Default: "gloss".
+        /// Criterion of light sampling; affects noise only. Default: "gloss".
         optional light_sampling: Placed<LightSampling> = choice();
-        /// Wavelengths that a path carries: 1, 4 or 8. Default: 4.
+        /// Wavelengths of a path. Default: 4.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
-        /// Density from which wavelengths are sampled for pixels that sum electrons. It affects their noise, not their mean. Default: "auto".
+        /// Density of sampled wavelengths; affects noise only. Default: "auto".
         optional wavelength_density: Placed<WavelengthDensity> = choice();
-        /// Optical path: through the lens (exact), or from the centre of the entrance pupil (fast, reusable). Default: "lens".
+        /// Through the lens (exact), or from the pupil's centre (fast, reusable). Default: "lens".
         optional route: Placed<Route> = choice();
-        /// Width of the spectral bands, nm, 1 … 100. The wavelength range is a whole number of bands. Default: 5.
+        /// Width of the spectral bands; the range is a whole number of them. Default: 5.
         optional band_width_nm: Placed<f64> = number("nm").at_least(1.0).at_most(100.0);
-        /// First and last wavelength, nm, within 300 … 1 100. Default: the range that the cameras need.
+        /// First and last wavelength. Default: as the cameras need.
         optional wavelength_range_nm: Placed<[f64; 2]> = vector::<2>(number("nm").at_least(300.0).at_most(1100.0));
-        /// Quantity that pixels sum: a spectral cube, or electrons directly. Default: "auto", as the outputs need.
+        /// Pixels sum a spectral cube, or electrons. Default: "auto", as the outputs need.
         optional accumulate: Placed<Accumulate> = choice();
-        /// Build effort for the acceleration structures of ray tracing. No pixel depends on it. With several cameras, the last of "fast", "default",
-        /// "best" among them counts. Default: "default".
+        /// Build effort of ray-tracing structures, without effect on pixels; the best of several cameras counts. Default: "default".
         optional accelerator: Placed<Accelerator> = choice();
-        /// Side of a tile, px, 4 … 1 024. Default: 32.
+        /// Side of a tile. Default: 32.
         optional tile_px: Placed<u64> = whole(4, 1024);
-        /// Seed of all random numbers, 0 … 2⁶³ − 1. Default: 0.
+        /// Seed of all random numbers. Default: 0.
         optional seed: Placed<u64> = whole(0, MAX_SEED);
-        /// With route "pupil": margin on every side, as a fraction of the image's width and height, 0 … 1. Default: 0.
+        /// With route "pupil": margin on every side, as a fraction of the image's size. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// With route "pupil": method of defocus blur. Default: "physical".
+        /// With route "pupil": defocus blur. Default: "physical".
         optional depth_of_field: DepthOfField = depth_of_field();
     }
 }
@@ -70,7 +69,7 @@ words! {
 keyed! {
     /// A method with parameters.
     pub enum DepthOfFieldTable {
-        /// An artistic approximation: a blend with one blurred copy of the image, by distance.
+        /// Artistic: a blend with one blurred copy, by distance.
         fast => Fast(FastBlend) = record::<FastBlend>();
     }
 }
@@ -79,13 +78,11 @@ record! {
     /// A blend with one blurred copy of the image. The weight of the copy is 0 in the sharp range, 1 in the blurred range, and linear in the distance
     /// (along the ray) between them.
     pub struct FastBlend check(check_blend) {
-        /// Two rising distances from the camera, m. Everything nearer than the first is blurred, everything beyond the second is sharp. Default:
-        /// nothing near is blurred.
+        /// Two rising distances: blurred before the first, sharp beyond the second. Default: nothing near is blurred.
         optional near_m: Placed<[f64; 2]> = vector::<2>(number("m").at_least(0.0));
-        /// Two rising distances from the camera, m. Everything nearer than the first is sharp, everything beyond the second is blurred. Default:
-        /// nothing far is blurred.
+        /// Two rising distances: sharp before the first, blurred beyond the second. Default: nothing far is blurred.
         optional far_m: Placed<[f64; 2]> = vector::<2>(number("m").at_least(0.0));
-        /// Diameter of the blur, px, above 0, at most 1 000. The kernel is a bell as wide as a disc of this diameter.
+        /// Diameter of the blur; the kernel is a bell of this width.
         required blur_px: Placed<f64> = number("px").above(0.0).at_most(1000.0);
     }
 }

@@ -12,25 +12,19 @@ pub const MAX_SPP: u64 = 1 << 20;
 record! {
     /// Number of samples.
     pub struct SampleKeys {
-        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or that of the quality preset.
+        /// Samples per pixel, a multiple of "replicates". Default: 64, or the quality preset's.
         optional spp: Placed<u64> = whole(1, MAX_SPP);
-        /// Samples per pixel of each pass; the image is the weighted mean of the passes. [8, 8, 16] gives 32 in three independent passes. Each is a
-        /// multiple of "replicates", or a smaller number: then that many on average, as an evenly spread part of the pixels receives one sample per
-        /// replicate. At least one pass is a multiple of "replicates"; 64 passes at most. Excludes "spp". Default: one pass of "spp" samples; a
-        /// progressive run has its own schedule.
+        /// Samples per pixel of at most 64 independent passes, averaged by weight: multiples of "replicates" (at least one), or fewer on part of the pixels.
+        /// Excludes "spp". Default: one pass.
         many passes: Placed<f64> = list(number("").above(0.0).at_most(MAX_SPP as f64), 1);
-        /// Independent replicates from which the variance is estimated, 1 … 1 024; one gives no variance. Samples are stratified within a replicate
-        /// only: where light is uniform, one replicate of few samples is less noisy than several. Wavelengths of bands are stratified over all
-        /// replicates, unless "variance" is requested. Default: 4, or 2 or 1 where "spp" is no multiple.
+        /// Independent replicates that estimate the variance. Default: 4, or 2 or 1 where "spp" is no multiple.
         optional replicates: Placed<u64> = whole(1, 1024);
-        /// Adaptive sampling: a pixel is sampled until its standard error is at most this fraction of the noise that the sensor adds there (shot,
-        /// dark, read, quantisation), above 0 … 100. Without electrons, or with route "pupil", it is the fraction of the pixel's own mean. The number
-        /// for each replicate is decided by what the other replicates show after "min_spp" samples, so that no mean is biased. There are 8 replicates
-        /// by default, at least 5. Excludes "spp". Default: every pixel receives "spp" samples.
+        /// Adaptive sampling: maximum standard error of a pixel over its sensor noise (without electrons, its mean). Needs 5 replicates, by default 8.
+        /// Excludes "spp". Default: off.
         optional noise_threshold: Placed<f64> = number("").above(0.0).at_most(100.0);
-        /// With "noise_threshold": samples that every pixel receives, 8 … 65 536, a multiple of "replicates". Default: 16.
+        /// With "noise_threshold": minimum samples, a multiple of "replicates". Default: 16.
         optional min_spp: Placed<u64> = whole(8, 65_536);
-        /// With "noise_threshold": maximum samples of a pixel, a multiple of "replicates", from "min_spp" to 1 048 576. Default: 4 096.
+        /// With "noise_threshold": maximum samples, a multiple of "replicates". Default: 4 096.
         optional max_spp: Placed<u64> = whole(8, 1 << 20);
     }
 }

@@ -22,17 +22,17 @@ record! {
         many textures: Texture = list(record(), 0);
         /// Optical properties of surfaces.
         many materials: Material = list(record(), 0);
-        /// Semantic classes: name and number, 1 … 65 535. Class 0 is the background and everything without a class.
+        /// Semantic classes: name and number. Class 0 is everything else.
         many classes: (Placed<String>, Placed<u64>) = keyed_by_name(whole(1, 65_535));
-        /// Coordinate frames that move and carry objects, lamps and cameras.
+        /// Moving frames that carry objects, lamps and cameras.
         many frames: Frame = list(record(), 0);
         /// Objects; their order numbers the instances.
         many objects: Object = list(record(), 0);
         /// Lights that are no surfaces.
         many lights: Light = list(record(), 0);
-        /// Participating media such as fog, between the surfaces.
+        /// Participating media such as fog.
         many media: Medium = list(record(), 0);
-        /// Rain or snow. Default: none.
+        /// Rain or snow.
         optional precipitation: Precipitation = record();
         /// Light from infinity. Default: none, black.
         optional environment: Environment = record();

@@ -6,14 +6,13 @@ use crate::reader::{number, record, variants, vector};
 variants! {
     /// A shape in the frame of its object.
     pub enum Shape by "type" {
-        /// A rectangle in the plane z = 0, centred, with its front towards +z; u runs along x and v along y, 0 … 1.
+        /// A centred rectangle in z = 0, front towards +z; u along x, v along y.
         "quad" => Quad(Quad),
-        /// A cuboid, centred, with its faces outward; every face has u, v = 0 … 1.
+        /// A centred cuboid, faces outward; u, v = 0 … 1 on every face.
         "box" => Box(Cuboid),
         /// A sphere about the origin.
         "sphere" => Sphere(Sphere),
-        /// A disc in the plane z = 0, centred, with its front towards +z: a regular polygon of 256 sides and equal area; u runs along x and v along
-        /// y, 0 … 1 over its diameter.
+        /// A centred disc in z = 0, front towards +z: 256 sides, equal area; u, v over its diameter.
         "disc" => Disc(Disc),
     }
 }
@@ -21,7 +20,7 @@ variants! {
 record! {
     /// A rectangle.
     pub struct Quad {
-        /// Extents along x and y, m, above 0.
+        /// Extents along x and y.
         required size_m: Placed<[f64; 2]> = vector::<2>(number("m").above(0.0));
     }
 }
@@ -29,7 +28,7 @@ record! {
 record! {
     /// A cuboid.
     pub struct Cuboid {
-        /// Extents along x, y and z, m, above 0.
+        /// Extents along x, y and z.
         required size_m: Placed<[f64; 3]> = vector::<3>(number("m").above(0.0));
     }
 }
@@ -37,7 +36,7 @@ record! {
 record! {
     /// A sphere.
     pub struct Sphere {
-        /// Radius, m, above 0.
+        /// Radius.
         required radius_m: Placed<f64> = number("m").above(0.0);
     }
 }
@@ -45,7 +44,7 @@ record! {
 record! {
     /// A disc.
     pub struct Disc {
-        /// Radius, m, above 0.
+        /// Radius.
         required radius_m: Placed<f64> = number("m").above(0.0);
     }
 }

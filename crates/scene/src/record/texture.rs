@@ -9,23 +9,23 @@ use crate::reader::{choice, number, path, record, text, vector, words};
 record! {
     /// An image that materials use as reflectance, as a factor, as normals or on their emission.
     pub struct Texture check(check) {
-        /// Name by which materials refer to it.
+        /// Name.
         required name: Placed<String> = text("the name of the texture");
-        /// The image. Its first row is at v = 1.
+        /// The image; its first row is at v = 1.
         required file: Placed<PathBuf> = path(&["png", "jpg", "jpeg", "hdr", "exr"]);
         /// Meaning of the file's values.
         required encoding: Placed<Encoding> = choice();
         /// Extension outside u, v = 0 … 1. Default: "repeat".
         optional wrap: Placed<Wrap> = choice();
-        /// Mapping from points of a surface to the image. Default: "uv".
+        /// Mapping from the surface to the image. Default: "uv".
         optional mapping: Placed<Mapping> = choice();
-        /// With mapping = "triplanar": width and height of the image on the surface, m, above 0, in the frame of the mesh's file or of the shape.
+        /// With mapping = "triplanar": image size on the surface, in the frame of the mesh's file or shape.
         optional size_m: Placed<f64> = number("m").above(0.0);
-        /// With mapping = "triplanar": sharpness of the transition between the three projections, 1 … 64. Default: 4.
+        /// With mapping = "triplanar": sharpness of the transitions. Default: 4.
         optional sharpness: Placed<f64> = number("").at_least(1.0).at_most(64.0);
-        /// With mapping = "uv": repetitions of the image along u and v from 0 to 1, above 0. Default: 1, 1.
+        /// With mapping = "uv": repetitions along u and v. Default: 1, 1.
         optional uv_scale: Placed<[f64; 2]> = vector::<2>(number("").above(0.0));
-        /// With mapping = "uv": position of u, v = 0, 0 in the image, in widths and heights. Default: 0, 0.
+        /// With mapping = "uv": position of u, v = 0, 0 in the image. Default: 0, 0.
         optional uv_offset: Placed<[f64; 2]> = vector::<2>(number(""));
     }
 }

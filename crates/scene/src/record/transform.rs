@@ -9,12 +9,11 @@ use crate::reader::{Rule, RuleExt as _, either, number, record, vector};
 record! {
     /// Transform from an object's frame to the world: scale, then rotation, then translation.
     pub struct Transform {
-        /// Position of the object's origin in the world, m. Default: the world's origin.
+        /// Position in the world. Default: its origin.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
-        /// Yaw, pitch and roll, degrees, right-handed about z, y and x: the object is first rolled about its x axis, then pitched about y (positive
-        /// lowers the front), then yawed about z (positive turns to the left). Default: no rotation.
+        /// Yaw, pitch and roll about z, y and x. Default: 0.
         optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
-        /// Factor on the object's size, above 0: a number or one for each axis. Default: 1.
+        /// Factor on the size. Default: 1.
         optional scale: Placed<[f64; 3]> = scale();
     }
 }

@@ -15,25 +15,23 @@ record! {
     /// Variations between the samples of `etendue dataset`. Each drawn value depends only on the seed, the number of the sample and the key (of a
     /// preset: its name).
     pub struct Variations check(check) {
-        /// Seed of all drawn values and of each sample's light and noise. Default: 0.
+        /// Seed of drawn values, light and noise. Default: 0.
         optional seed: Placed<u64> = whole(0, MAX_SEED);
-        /// Formats that are written, as for `--format`, which overrides this. Default: "coco".
+        /// Formats, as for `--format`, which overrides this. Default: "coco".
         many formats: Placed<SetFormat> = list(choice(), 1);
-        /// Probability with which a sample is assigned to validation ("val"); the others are for training ("train"), 0 … 1. Default: 0.
+        /// Probability of "val"; other samples are "train". Default: 0.
         optional validation_fraction: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// Samples per shard of "webdataset". Default: 1000.
         optional shard_samples: Placed<u64> = whole(1, MAX_SAMPLES);
-        /// Unit of depth in "bop", mm; the greatest depth is 65 535 units. Default: 1.
+        /// Unit of depth in "bop", at most 65 535 units. Default: 1.
         optional bop_depth_unit_mm: Placed<f64> = number("mm").above(0.0);
-        /// Cityscapes classes for classes of the scene: `{ car_body = "car" }`. A class that is not listed has the label of its own name, with "-"
-        /// and "_" replaced by blanks, or "unlabeled" where Cityscapes has no such name.
+        /// Cityscapes classes: `{ car_body = "car" }`. Default: the name with blanks for "-" and "_", or "unlabeled".
         many cityscapes_labels: (Placed<String>, Placed<String>) = keyed_by_name(text("a label of Cityscapes"));
-        /// KITTI types for classes of the scene: `{ bike = "Cyclist" }`. A class that is not listed has its own name with a capital letter ("person":
-        /// "Pedestrian"), and is omitted where KITTI has no such name.
+        /// KITTI types: `{ bike = "Cyclist" }`. Default: the capitalised name; omitted where KITTI has none.
         many kitti_types: (Placed<String>, Placed<String>) = keyed_by_name(text("a type of KITTI"));
-        /// Keys whose value is drawn; each sample draws every one.
+        /// Keys that are drawn for every sample.
         many vary: Variation = list(record(), 1);
-        /// Changes of several keys that belong together; each sample draws one choice of every preset.
+        /// Joint changes of keys; each sample draws one choice of each.
         many presets: Preset = list(record(), 1);
     }
 }
@@ -69,8 +67,7 @@ words! {
 record! {
     /// A key of the job, its scene or a camera, and the distribution of its value.
     pub struct Variation {
-        /// Dotted key, as for `--set`: "scene.environment.luminance_cd_m2", "cameras.front.lens.f_number", "scene.objects.car.position_m.0" (the
-        /// first of a list). Several keys in a list have the same value.
+        /// Dotted key, as for `--set` ("scene.objects.car.position_m.0"); keys of a list share the value.
         required key: Vec<Placed<String>> = either(
             text("a dotted key").map(|key| vec![key], |keys| (keys.len() == 1).then(|| keys[0].clone())),
             list(text("a dotted key"), 1),
@@ -89,7 +86,7 @@ variants! {
         "normal" => Normal(Normal),
         /// Uniform in the logarithm.
         "log_uniform" => LogUniform(LogUniform),
-        /// Uniform over the whole numbers from "min" to "max", both included.
+        /// Uniform over whole numbers.
         "integer" => Integer(Integer),
         /// One of several values.
         "choice" => Choice(ChoiceOf),
@@ -99,7 +96,7 @@ variants! {
 record! {
     /// A uniform distribution.
     pub struct Uniform check(check_uniform) {
-        /// Minimum, in the unit of the key.
+        /// Minimum.
         required min: Placed<f64> = number("");
         /// Maximum, excluded.
         required max: Placed<f64> = number("");
@@ -109,13 +106,13 @@ record! {
 record! {
     /// A normal distribution; with "min" or "max" truncated to that range.
     pub struct Normal check(check_normal) {
-        /// Mean, in the unit of the key.
+        /// Mean.
         required mean: Placed<f64> = number("");
-        /// Standard deviation, above 0.
+        /// Standard deviation.
         required standard_deviation: Placed<f64> = number("").above(0.0);
-        /// Minimum, at most the mean. Default: none.
+        /// Minimum, at most the mean.
         optional min: Placed<f64> = number("");
-        /// Maximum, at least the mean. Default: none.
+        /// Maximum, at least the mean.
         optional max: Placed<f64> = number("");
     }
 }
@@ -123,7 +120,7 @@ record! {
 record! {
     /// A distribution uniform in the logarithm.
     pub struct LogUniform check(check_log_uniform) {
-        /// Minimum, above 0, in the unit of the key.
+        /// Minimum.
         required min: Placed<f64> = number("").above(0.0);
         /// Maximum, excluded.
         required max: Placed<f64> = number("").above(0.0);
@@ -143,9 +140,9 @@ record! {
 record! {
     /// One of several values.
     pub struct ChoiceOf check(check_choice) {
-        /// Values, each as the key accepts it: numbers, texts, lists, tables.
+        /// Values that the key accepts.
         required values: Vec<Item> = list(any_value(), 1);
-        /// Relative frequency of each value, 0 or more. Default: all equal.
+        /// Relative frequencies. Default: equal.
         many weights: Placed<f64> = list(number("").at_least(0.0), 1);
     }
 }
@@ -153,12 +150,11 @@ record! {
 record! {
     /// Alternative sets of changes that belong together: clear weather or fog.
     pub struct Preset check(check_preset) {
-        /// Name, by which it is drawn and recorded.
+        /// Name in the record of draws.
         required name: Placed<String> = text("the name of the preset");
-        /// Choices, each a list of changes as for `--set`: "scene.environment.luminance_cd_m2=80". An empty list changes nothing, and "key=null"
-        /// removes the key.
+        /// Choices, each a list of changes as for `--set`; an empty list changes nothing, "key=null" removes a key.
         required choices: Vec<Vec<Placed<String>>> = list(list(text("a change KEY=VALUE"), 0), 1);
-        /// Relative frequency of each choice, 0 or more. Default: all equal.
+        /// Relative frequencies. Default: equal.
         many weights: Placed<f64> = list(number("").at_least(0.0), 1);
     }
 }

@@ -12,18 +12,17 @@ use crate::reader::{choice, keyed, list, number, path, record, time, whole, word
 record! {
     /// Vertex animation: the same mesh in several files, one for each time. Every vertex moves straight and at constant speed between two files.
     pub struct VertexAnimation check(check) {
-        /// The files (Wavefront OBJ), numbered: `%d` in the name stands for the number, `%03d` for the number in three digits with leading zeros. All
-        /// have the same faces; texture coordinates and materials are those of the first.
+        /// Numbered Wavefront OBJ files (`%d`, `%03d`) with equal faces; texture coordinates and materials of the first.
         required files: Placed<PathBuf> = path(&["obj"]);
-        /// Number of the first file. Default: 0.
+        /// First number. Default: 0.
         optional first: Placed<u64> = whole(0, 999_999_999);
-        /// Number of files, 2 or more.
+        /// Number of files.
         required count: Placed<u64> = whole(2, 100_000);
         /// Times of the files.
         inside times: FrameTimes;
-        /// Offset added to all times, s. Default: 0.
+        /// Offset added to all times. Default: 0.
         optional time_offset_s: Placed<ExactTime> = time();
-        /// Behaviour after the last file and before the first. Default: "hold".
+        /// Behaviour outside the files' times. Default: "hold".
         optional repeat: Placed<FrameRepeat> = choice();
     }
 }
@@ -31,10 +30,9 @@ record! {
 keyed! {
     /// Times of the files.
     pub enum FrameTimes {
-        /// Files per second, above 0: the first at 0 s of simulated time, the next 1 / "rate_hz" later. In a loop the first recurs the same time
-        /// after the last.
+        /// Files per second, the first at 0 s; in a loop it recurs one step after the last.
         rate_hz => Rate(Placed<f64>) = number("Hz").above(0.0).at_most(1e6);
-        /// A time for each file, s, rising; in a loop one more, at which the first recurs.
+        /// Rising times, one per file; a loop has one more, at which the first recurs.
         times_s => Times(Vec<Placed<ExactTime>>) = list(time(), 2);
     }
 }

@@ -16,12 +16,11 @@ record! {
     pub struct Weather check(check_weather) {
         /// Airlight: radiance of fog of infinite depth.
         required airlight: Airlight = record();
-        /// Fog; overlapping fogs add up. Default: none.
+        /// Fog; overlapping fogs add up.
         many fog: Fog = list(record(), 0);
-        /// Rain or snow: near drops and flakes as streaks, far ones by Koschmieder's law. The same keys and the same drops as in a scene. Default:
-        /// none.
+        /// Rain or snow: near drops and flakes as streaks, far ones by Koschmieder's law.
         optional precipitation: Precipitation = record();
-        /// Exposure of streaks from the image's time on, s, above 0 … 60; required with "precipitation", without effect otherwise.
+        /// Exposure of streaks from the image's time on; required with "precipitation".
         optional exposure_s: Placed<f64> = number("s").above(0.0).at_most(60.0);
     }
 }
@@ -39,7 +38,7 @@ variants! {
 record! {
     /// Airlight from the sky's own radiance.
     pub struct AirlightSky {
-        /// Greatest height above the horizon of the averaged sky, degrees, above 0 … 90. Default: 10.
+        /// Greatest elevation of the averaged sky. Default: 10.
         optional elevation_deg: Placed<f64> = number("°").above(0.0).at_most(90.0);
     }
 }
@@ -47,7 +46,7 @@ record! {
 record! {
     /// Fog in a part of the world.
     pub struct Fog check(check) {
-        /// Name of the fog.
+        /// Name.
         required name: Placed<String> = text("the name of the fog");
         /// Density.
         inside extinction: Extinction;
@@ -55,7 +54,7 @@ record! {
         optional shape: MediumShape = record();
         /// Placement of the shape in the world; only of shapes with bounds.
         inside transform: Transform;
-        /// Spatial variation of the density. Default: homogeneous.
+        /// Variation of the density. Default: homogeneous.
         optional unevenness: Unevenness = record();
     }
 }

@@ -115,7 +115,7 @@ impl Table {
         self.entries().find(|(known, _)| *known == key).map(|(_, item)| item)
     }
 
-    /// Place of the innermost stated part of a dotted key: of `dark.hot.share` the share, else `hot`, else `dark`; of a list its first entry. `None`
+    /// Place of the innermost stated part of a dotted key: of `dark.hot.fraction` the fraction, else `hot`, else `dark`; of a list its first entry. `None`
     /// if no part is stated.
     #[must_use]
     pub fn place_of(&self, key: &str) -> Option<&Place> {

@@ -251,7 +251,7 @@ fn comments_stand_where_they_belong() {
 
 #[test]
 fn keys_have_the_places_of_the_file() {
-    let text = "format = 1\n[sensor]\nbits = 12\n[sensor.dark]\nhot = { share = 0.1, mean_e_s = 1 }\n[[sensor.lag]]\nshare = 0.2\n";
+    let text = "format = 1\n[sensor]\nbits = 12\n[sensor.dark]\nhot = { fraction = 0.1, mean_e_s = 1 }\n[[sensor.lag]]\nfraction = 0.2\n";
     let tree = parse(&Arc::from(Path::new("camera.toml")), text, &mut Faults::none());
     let sensor = tree.as_table().and_then(|tree| tree.get("sensor")).expect("the sensor");
     let mut table = Table::new();

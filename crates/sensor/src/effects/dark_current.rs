@@ -109,7 +109,7 @@ impl Effect for DarkCurrent {
         checks.not_negative("dark.spread_row", self.spread.row);
         checks.not_negative("dark.spread_column", self.spread.column);
         if let Some(hot) = &self.hot {
-            checks.fraction_above_0("dark.hot.share", hot.fraction);
+            checks.fraction_above_0("dark.hot.fraction", hot.fraction);
             checks.positive("dark.hot.mean_e_s", hot.mean_e_s);
         }
         if let Some(rts) = &self.dark_current_rts {

@@ -7,7 +7,7 @@
 //! Within the scene the tree decides (`tree/`); at infinity suns and surroundings are weighted by irradiance. Of surroundings next to suns only
 //! bright patches count, and the part of the rest that exceeds the irradiance of the suns (`patches.rs`): scattered rays hit uniform surroundings
 //! often enough. A sample that falls on a sun behind the receiver's surface evaluates nothing, so that surfaces in shade do not sample the
-//! surroundings more often either. Figures are in `docs/decisions/light-choice.md`.
+//! surroundings more often either. Figures are in `docs/decisions/surroundings.md`.
 
 use super::tree::{LightBounds, LightTree, MATT_SHARE, Start, TreeQuery};
 use super::{LightSampleContext, light_sample::LampIrradiance, sun::Sun};

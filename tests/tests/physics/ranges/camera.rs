@@ -75,31 +75,31 @@ fn optics() -> Vec<Row> {
         Row::at_most("f/1000 against f/2", "light as 1/(1 + 4 N²) (relative error)", falls(1000.0, 2.0).abs(), 2e-2),
         Row::at_most(
             "focus at infinity and at 10⁹ m",
-            "one picture (relative difference)",
+            "equal images (relative difference)",
             (focus("\"infinity\"") / focus("1e9") - 1.0).abs(),
             1e-6,
         ),
-        out_of_focus("a wall seen with focus on 1 cm: blur circles of 1 500 px", "0.01", 1.5),
-        out_of_focus("the same with focus on 6.06 mm, 0.06 mm before the focal length: 100 000 px", "0.00606", 100.0),
-        at_pupil("the wall at 1 500 px on the route at the pupil", "0.01", 1.5, 16),
-        at_pupil("the wall at 100 000 px on the route at the pupil", "0.00606", 100.0, 16),
-        at_pupil("the wall at 1 500 px on the route at the pupil, 128 × 128 px", "0.01", 1.5, 128),
+        out_of_focus("a wall with focus at 1 cm: blur circles of 1 500 px", "0.01", 1.5),
+        out_of_focus("the same with focus at 6.06 mm, 0.06 mm beyond the focal length: 100 000 px", "0.00606", 100.0),
+        at_pupil("the wall at 1 500 px on the pupil route", "0.01", 1.5, 16),
+        at_pupil("the wall at 100 000 px on the pupil route", "0.00606", 100.0, 16),
+        at_pupil("the wall at 1 500 px on the pupil route, 128 × 128 px", "0.01", 1.5, 128),
         lamp_at_pupil(),
         refused(
-            "focus on 6 mm, the focal length",
+            "focus at 6 mm, the focal length",
             "refused: the image would be at infinity",
             &camera().replaced("focus_distance_m = 5", "focus_distance_m = 0.006"),
             "focus_distance_m",
         ),
         refused(
-            "focus on 1 mm, within the focal length",
+            "focus at 1 mm, within the focal length",
             "refused: there would be no image",
             &camera().replaced("focus_distance_m = 5", "focus_distance_m = 0.001"),
             "focus_distance_m",
         ),
         refused(
-            "distortion that folds over within the picture",
-            "refused with where it does: two places in one pixel are no lens's picture",
+            "distortion that folds over within the image",
+            "refused with the radius of the fold",
             &camera()
                 .replaced("pixel_pitch_um = 3", "pixel_pitch_um = 600")
                 .replaced("focus_distance_m = 5", "focus_distance_m = 5, distortion = { k1 = -0.5, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }"),
@@ -156,8 +156,8 @@ fn lamp_at_pupil() -> Row {
         .replaced("size_m = [100, 100]", "size_m = [0.01, 0.01]");
     let share = (LAMP_PX / STORED_PX) * (LAMP_PX / STORED_PX);
     let row = Row::at_most(
-        "a lamp of 10 × 10 px amid darkness there, 64 × 64 px and 16 around them: 1 500 px",
-        "its share of what is stored in every pixel, as what lies beyond counts as the mean (docs/lenses.md; relative error), and a warning of the plan",
+        "the same, a light of 10 × 10 px in darkness, 64 × 64 px with a margin of 16 px: 1 500 px",
+        "the mean of the stored image in every pixel (docs/lenses.md; relative error), and a warning of the plan",
         (electrons(&lamp) / electrons(&wall) / share - 1.0).abs(),
         2e-2,
     );
@@ -187,11 +187,11 @@ fn sizes() -> Vec<Row> {
         let numbers = numbers(&job.shot());
         numbers.iter().filter(|dn| **dn <= 64.0).count().max(pixels.abs_diff(numbers.len())) as f64
     };
-    let lit = "every pixel is there and has light (pixels without)";
+    let lit = "light in every pixel (pixels without)";
     vec![
-        Row::at_most("a picture of 1 × 1 px", lit, bad(&of(1, 1), 1), 0.0),
+        Row::at_most("an image of 1 × 1 px", lit, bad(&of(1, 1), 1), 0.0),
         Row::at_most(
-            "a picture of 65 535 × 64 px, 0.1 µm wide",
+            "an image of 65 535 × 64 px, pixels of 0.1 µm",
             lit,
             bad(
                 &of(65_535, 64)
@@ -246,7 +246,7 @@ fn electronics() -> Vec<Row> {
     vec![
         Row::at_most(
             "an exposure of 0 s",
-            "the black level alone, within the read noise of 256 pixels (DN from it)",
+            "the black level within the read noise of 256 pixels (difference, DN)",
             (signal(&with(&[("exposure_s = 0.001", "exposure_s = 0")])) - 64.0).abs(),
             0.25,
         ),
@@ -258,31 +258,31 @@ fn electronics() -> Vec<Row> {
         ),
         Row {
             extreme: "a pixel that holds one electron".to_owned(),
-            expected: "0 or 1 electron: nothing above 64 + 10 DN".to_owned(),
+            expected: "0 or 1 electron: at most 64 + 10 DN".to_owned(),
             found: format!("largest {} DN", figure(one_electron.iter().copied().fold(0.0, f64::max))),
             holds: one_electron.iter().all(|dn| *dn <= 74.0 && *dn >= 64.0),
         },
         Row {
             extreme: format!("{expected:.2} photons in a frame of 65 536 pixels"),
-            expected: "a whole number of them, Poisson: within four deviations".to_owned(),
+            expected: "an integer, Poisson: within four deviations".to_owned(),
             found: format!("{got} electrons"),
             holds: got.fract() == 0.0 && (got - expected).abs() <= 4.0 * expected.sqrt() + 1.0,
         },
         Row::at_most(
             "−50 °C, doubling every 8 K",
-            "the law's dark current over 10⁴ s (relative error, its shot noise in it)",
+            "the model's dark current over 10⁴ s (relative error with shot noise)",
             law(-50.0),
             0.05,
         ),
         Row::at_most(
             "+150 °C, doubling every 8 K",
-            "the law's dark current over 10⁴ s (relative error)",
+            "the model's dark current over 10⁴ s (relative error)",
             law(150.0),
             0.01,
         ),
         Row::at_most(
-            "24 bits, 100 DN an electron",
-            "the mean signal, as of 16 bits (relative error)",
+            "24 bits, 100 DN per electron",
+            "the mean signal of 16 bits (relative error)",
             ((signal(&with(&[("bits = 16", "bits = 24"), ("gain_dn_per_e = 0.5", "gain_dn_per_e = 100")])) - 64.0)
                 / 200.0
                 / (signal(&camera()) - 64.0)
@@ -298,6 +298,6 @@ fn cameras() {
     let mut rows = optics();
     rows.extend(sizes());
     rows.extend(electronics());
-    let about = "A camera of 6 mm before a white wall, 1 ms, 16 × 16 pixels of 3 µm.";
+    let about = "A camera of 6 mm in front of a white wall, 1 ms, 16 × 16 pixels of 3 µm.";
     check("Cameras", about, &rows);
 }

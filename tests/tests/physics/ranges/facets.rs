@@ -42,29 +42,30 @@ fn facets() {
     let rows = [
         Row::at_most(
             "distribution, facets of 0.01 to 30 times the roughness in slope",
-            "≤ 12 ULP: as many roundings, those before the square counted twice, nothing cancels",
+            "≤ 12 ULP: the number of roundings, those before the square counted twice; no cancellation",
             ulps("density", &|at| ggx(at).density(vector(at, 1))),
             12.0,
         ),
         Row::at_most(
             "masking G₁, cosines 10⁻⁶ to 1",
-            "≤ 6 ULP: as many roundings, nothing cancels",
+            "≤ 6 ULP: the number of roundings; no cancellation",
             ulps("masking", &|at| ggx(at).shadowing(vector(at, 1))),
             6.0,
         ),
         Row::at_most(
             "D G₂/(4 cos θₒ), cosines 10⁻⁶ to 1",
-            "≤ 24 ULP: as many roundings, nothing cancels",
+            "≤ 24 ULP: the number of roundings; no cancellation",
             ulps("reflection", &|at| ggx(at).reflect(vector(at, 1), vector(at, 4), vector(at, 7))),
             24.0,
         ),
         Row::at_most(
-            "facets drawn, cosines 10⁻⁶ to 1",
-            "≤ 10⁻⁶: the facet of numbers as near to those given, as a distance on the cap of radius 1 over which they are spread evenly",
+            "sampled facets, cosines 10⁻⁶ to 1",
+            "≤ 10⁻⁶: distance of the random numbers on the unit cap of uniformly distributed facets",
             drawn(&known(&figures["drawn"])),
             1e-6,
         ),
     ];
-    let about = "Roughness 10⁻⁴ to 1, against mpmath as above; 32 bits, units in the last place of the true value.";
+    let about =
+        "Roughness 10⁻⁴ to 1, compared with mpmath as above; 32 bits, units in the last place of the true value.";
     check("GGX", about, &rows);
 }

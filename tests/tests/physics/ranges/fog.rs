@@ -72,7 +72,7 @@ fn of_sphere(distance_m: f64) -> f64 {
 }
 
 pub(crate) fn lamps_in_fog() -> Vec<Row> {
-    let scattered = "the light that is scattered once, by the integral along the ray (relative error)";
+    let scattered = "single scattering by the integral along the ray (relative error)";
     let ball = |aside_m: f64| {
         let lamp = format!(
             "[[scene.objects]]\nname = \"lamp\"\nmaterial = \"lamp\"\nposition_m = [3, {aside_m}, 0]\nshape = {{ type = \"sphere\", radius_m = {RADIUS_M} }}"
@@ -85,9 +85,9 @@ pub(crate) fn lamps_in_fog() -> Vec<Row> {
     let lumens_per_watt = observer::xyz_of_bands(&vec![1.0; bands.count()], bands)[1];
     let of_point = |distance_m: f64| 100.0 / lumens_per_watt * exp(-BETA * distance_m) / (distance_m * distance_m);
     let point = radiance(&foggy(point)) / scattered_once(of_point, [3.0, 0.01]) - 1.0;
-    let within = "a lamp of 0.5 m across in fog, seen past it";
+    let within = "a ray past a light of 0.5 m in fog";
     vec![
-        Row::at_most("a point lamp in fog, seen 1 cm beside it: 1/r² along the ray", scattered, point.abs(), 1e-2),
+        Row::at_most("a ray 1 cm past a point light in fog", scattered, point.abs(), 1e-2),
         Row::at_most(&format!("{within}, 25 cm from its surface"), scattered, ball(0.5).abs(), 2e-2),
         Row::at_most(&format!("{within}, 1 mm from its surface"), scattered, ball(0.251).abs(), 2e-2),
     ]

@@ -73,7 +73,7 @@ fn position_error_m(at_m: [f64; 3]) -> f64 {
     worst((0..HEIGHT).flat_map(|row| (0..WIDTH).map(move |column| (row, column))).map(distance))
 }
 
-const DEPTH: &str = "depth within 10⁻⁶ of itself down to cos θ = 0.01";
+const DEPTH: &str = "depth error ≤ 10⁻⁶";
 
 fn places() -> Vec<Row> {
     let moved = [1e3, 1e5, 1e7, 1e8].map(|m: f64| {
@@ -109,8 +109,8 @@ fn small_beside_large() -> Row {
     let (grain, wall) = (f64::from(truth.depth.at(16, 12)), f64::from(truth.depth.at(2, 2)));
     let error = worst([(grain / (2e-5 - 5e-7) - 1.0).abs(), (wall / 1e6 - 1.0).abs()]);
     Row::at_most(
-        "a grain of 1 µm at 20 µm before a wall of 10⁶ m at 10⁶ m",
-        "both are seen, depth within 10⁻⁶",
+        "a grain of 1 µm at 20 µm in front of a wall of 10⁶ m at 10⁶ m",
+        "both are visible, depth error ≤ 10⁻⁶",
         error,
         1e-6,
     )
@@ -167,20 +167,20 @@ fn degenerate() -> Vec<Row> {
     let dark = |n: usize| format!("{n} pixels");
     vec![
         Row {
-            extreme: "triangles without area, on a line, needles of 10⁻⁶ of their length".to_owned(),
-            expected: "no pixel that is dark or not finite: they are there or not".to_owned(),
+            extreme: "triangles without area, collinear, needles of 10⁻⁶ of their length".to_owned(),
+            expected: "hit or miss; no pixel is dark or not finite".to_owned(),
             found: dark(unlit_or_not_finite(&needles)),
             holds: unlit_or_not_finite(&needles) == 0,
         },
         Row {
-            extreme: "10⁵ triangles on top of one another".to_owned(),
-            expected: "the picture of one: the nearest is met once, and none shadows the others".to_owned(),
+            extreme: "10⁵ coincident triangles".to_owned(),
+            expected: "the image of one: hit once, no self-shadowing".to_owned(),
             found: format!("{differing} pixels differ"),
             holds: differing == 0,
         },
         Row::at_most(
-            "two floors in one place",
-            "the light of one: neither shadows the other (half of the samples might, were it so)",
+            "two coincident floors",
+            "the light of one: neither shadows the other",
             changed(&twice, &plain),
             1e-6,
         ),
@@ -211,14 +211,14 @@ fn edges() -> Vec<Row> {
         floor(1.0, [0.0; 3], shelf).replaced("principal_point_px = [16, 0.4]", "principal_point_px = [16, 12.5]");
     vec![
         Row::at_most(
-            "a wall of 3 200 triangles, each pixel's ray through a corner that six of them share, one along the axis",
-            "no ray slips through: depth within 10⁻⁶ everywhere (pixels without)",
+            "a wall of 3 200 triangles, each ray through a vertex that six of them share, one along the axis",
+            "no ray passes through (pixels with depth error > 10⁻⁶)",
             missed as f64,
             0.0,
         ),
         Row::at_most(
-            "a row of pixels whose rays lie in the plane of a box's top",
-            "met or passed, and light in every pixel (pixels without, or not finite)",
+            "rays in the plane of a box's top",
+            "hit or miss; light in every pixel (pixels that are dark or not finite)",
             unlit_or_not_finite(&along) as f64,
             0.0,
         ),
@@ -244,19 +244,19 @@ fn strange_places() -> Vec<Row> {
     vec![
         Row::at_most(
             "the camera on the floor, looking along it",
-            "light is finite everywhere (pixels not finite)",
+            "finite light (pixels not finite)",
             finite(&on_floor) as f64,
             0.0,
         ),
         Row::at_most(
-            "the camera in the middle of a ball of glass",
-            "every pixel has light (pixels without)",
+            "the camera in the centre of a glass sphere",
+            "light in every pixel (pixels without)",
             unlit_or_not_finite(&in_glass) as f64,
             0.0,
         ),
         Row {
-            extreme: "the camera in a ball that glows outwards only".to_owned(),
-            expected: "black: such a lamp is opaque and dark inside".to_owned(),
+            extreme: "the camera in a sphere that emits outwards only".to_owned(),
+            expected: "black: such a light is opaque and dark inside".to_owned(),
             found: format!("brightest pixel {}", figure(f64::from(inside.iter().copied().fold(0.0, f32::max)))),
             holds: inside.iter().all(|v| *v == 0.0),
         },
@@ -270,6 +270,6 @@ fn geometry() {
     rows.extend(edges());
     rows.extend(degenerate());
     rows.extend(strange_places());
-    let about = "A camera one unit above a floor that it sees from nearly below its feet to where its rays graze it, against the closed form; 32-bit planes of ground truth.";
+    let about = "A camera one unit above a floor, from nearly vertical to grazing rays, compared with the closed form; 32-bit planes of ground truth. Depth errors are relative, down to cos θ = 0.01.";
     check("Geometry", about, &rows);
 }

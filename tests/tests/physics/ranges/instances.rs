@@ -97,11 +97,11 @@ fn instances() {
     let pixels = (0..WIDTH).flat_map(|row| (0..WIDTH).map(move |column| (row, column)));
     let missed = pixels.filter(|pixel| wrong(*pixel)).count();
     let row = Row::at_most(
-        "10⁶ instances of one mesh, each at a height of its own, from above",
-        "every pixel sees the right one, depth within 10⁻⁶, in less than 8 GB (pixels without)",
+        "10⁶ instances of one mesh at different heights, from above",
+        "the correct one in every pixel, depth error ≤ 10⁻⁶, in less than 8 GB (pixels without)",
         missed as f64,
         0.0,
     );
     let rows = [Row { holds: row.holds && most_gb() < MOST_GB, ..row }];
-    check("Many instances", "Memory and time by their number: docs/robustness.md.", &rows);
+    check("Many instances", "Memory and time by number: docs/robustness.md.", &rows);
 }

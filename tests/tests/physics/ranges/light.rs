@@ -65,7 +65,7 @@ fn bad(values: &[f64]) -> f64 {
     values.iter().filter(|v| !(v.is_finite() && **v > 0.0)).count() as f64
 }
 
-const ALL_LIT: &str = "light in every pixel (pixels without, or not finite)";
+const ALL_LIT: &str = "light in every pixel (pixels dark or not finite)";
 
 fn surfaces() -> Vec<Row> {
     let glass = |index: f64| seen(&ball(&format!("type = \"dielectric\", index = {index}"), ""));
@@ -76,24 +76,24 @@ fn surfaces() -> Vec<Row> {
     let (one, smooth) = (glass(1.0), metal(0.0));
     let mut rows = vec![
         Row::at_most(
-            "a ball of index 1",
-            "is not seen: the light of the picture without it (relative difference of the mean)",
+            "a sphere of index 1",
+            "invisible: the image without it (relative difference of the mean)",
             (mean(&one) / mean(&bare) - 1.0).abs(),
             1e-2,
         ),
         Row::at_most(
             "a mirror of roughness 0 and one of 10⁻⁶",
-            "one picture: narrower than a hundredth of a degree is a mirror",
+            "equal images: a lobe below 0.01° is a mirror",
             difference(&metal(1e-6), &smooth),
             1e-6,
         ),
     ];
     for index in [1.0001, 4.0] {
-        rows.push(Row::at_most(&format!("a ball of index {index}"), ALL_LIT, bad(&glass(index)), 0.0));
+        rows.push(Row::at_most(&format!("a sphere of index {index}"), ALL_LIT, bad(&glass(index)), 0.0));
     }
     for alpha in [1e-4, 1e-3, 1.0] {
         rows.push(Row::at_most(
-            &format!("a metal ball of roughness {}", figure(alpha)),
+            &format!("a metal sphere of roughness {}", figure(alpha)),
             ALL_LIT,
             bad(&metal(alpha)),
             0.0,
@@ -116,8 +116,8 @@ fn nothing_is_swallowed() -> Row {
     let found = mean(&radiance.mean.iter().map(|v| f64::from(*v)).collect::<Vec<_>>());
     let expected = f64::from(BOUNCES) + 1.0;
     Row::at_most(
-        "a closed ball of albedo 1 that glows inside, 200 bounces",
-        "201 times its own radiance (relative error)",
+        "a closed sphere of albedo 1 that emits inside, 200 bounces",
+        "201 times its radiance (relative error)",
         (found / expected - 1.0).abs(),
         1e-2,
     )
@@ -139,8 +139,8 @@ fn mirrors() -> Vec<Row> {
     let bounces =
         |bounces: &str| seen(&ball_between().replaced("max_bounces = 8", &format!("max_bounces = {bounces}")));
     let (few, many) = (bounces("8"), bounces("1000"));
-    let extreme = "two mirrors that face each other, 1 000 bounces";
-    let deeper = "more light than 8 bounces show (mean of these over mean of 1 000)";
+    let extreme = "two facing mirrors, 1 000 bounces";
+    let deeper = "more light than with 8 bounces (ratio of means)";
     vec![Row::at_most(extreme, ALL_LIT, bad(&many), 0.0), Row::at_most(extreme, deeper, mean(&few) / mean(&many), 0.99)]
 }
 
@@ -159,7 +159,7 @@ fn lamps() -> Vec<Row> {
     let one = mean(&seen(&dark(lamp(0, 1e5))));
     let many = mean(&seen(&dark((0..MANY).map(|i| lamp(i, 1e5 / MANY as f64)).collect())));
     vec![Row::at_most(
-        "10⁵ lamps at one place, each of 10⁻⁵ of the power",
+        "10⁵ lights at one place, each of 10⁻⁵ of the power",
         "the light of one (relative difference of the mean)",
         (many / one - 1.0).abs(),
         5e-3,
@@ -205,7 +205,7 @@ fn wavelengths() -> Vec<Row> {
 fn lamp_in_fog() -> Row {
     let fog = "[[scene.media]]\nname = \"fog\"\nvisibility = { distance_m = 20, contrast = 0.05 }\nphase = { type = \"henyey_greenstein\", g = 0.8 }\n[[scene.lights]]\nname = \"lamp\"\ntype = \"point\"\nposition_m = [-2.9, 0, 1]\nilluminant = \"E\"\nintensity_cd = 100\n";
     Row::at_most(
-        "a point lamp in fog, 10 cm before the camera",
+        "a point light in fog, 10 cm in front of the camera",
         ALL_LIT,
         bad(&seen(&ball("type = \"diffuse\", reflectance = 0.5", fog))),
         0.0,
@@ -226,7 +226,7 @@ fn levels() -> Vec<Row> {
     let row = |level: f64| {
         Row::at_most(
             &format!("a sky of {} W·m⁻²·sr⁻¹·nm⁻¹", figure(level)),
-            "the picture under 1, so many times as bright: rounding of 32 bits alone (relative difference)",
+            "the image under 1, scaled: only 32-bit rounding (relative difference)",
             difference(&under(level), &scaled(level)),
             1e-5,
         )
@@ -251,8 +251,8 @@ fn sun_in_frame() -> Row {
     let pixel_sr = 1.0 / (500.0 * 500.0);
     let found = lit.iter().sum::<f64>() * pixel_sr / mean(&even);
     Row::at_most(
-        "the sun in the picture, 4.7 px across",
-        "all pixels together have its irradiance, as against those of an even sky (relative error)",
+        "the sun in the image, 4.7 px across",
+        "the sum of pixels is its irradiance, compared with a uniform sky (relative error)",
         (found / expected - 1.0).abs(),
         1e-2,
     )
@@ -275,14 +275,14 @@ fn grazing() -> Vec<Row> {
     // 1 − F to first order, mean of both planes: 2 cos θ Re((1 + N²)/√(N² − 1)) = 2.06 cos θ for N = 1.0 + 6.6i; n is 0.77 to 1.20 over the band.
     vec![
         Row::at_most(
-            "a mirror of aluminium seen at a cosine of 10⁻⁴",
-            "reflects all of the sky but 2.06·10⁻⁴ (distance from that, of which its index over the band makes up to 4·10⁻⁵)",
+            "an aluminium mirror at a cosine of 10⁻⁴",
+            "reflectance 1 − 2.06·10⁻⁴ (difference; its index over the band causes up to 4·10⁻⁵)",
             (1.0 - floor("type = \"conductor\", metal = \"Al\", alpha = 0") - 2.06 * COSINE).abs(),
             0.4 * COSINE,
         ),
         Row::at_most(
-            "rough aluminium (0.3) seen at a cosine of 10⁻⁴",
-            "no more light than the sky's, and no less than half of it (distance from 3/4)",
+            "rough aluminium (0.3) at a cosine of 10⁻⁴",
+            "between half of the sky's light and all of it (distance from 3/4)",
             (floor("type = \"conductor\", metal = \"Al\", alpha = 0.3") - 0.75).abs(),
             0.25,
         ),
@@ -306,10 +306,10 @@ fn long_sums() -> Vec<Row> {
     // As the sum has it: of floats of 32 bits.
     let each = 0.1 * f64::from(0.7_f32) / (f64::from(0.01_f32) * 100.0);
     vec![
-        Row::at_most("mean and variance of 10⁹ numbers", "neither drifts (relative error)", error, 1e-9),
+        Row::at_most("mean and variance of 10⁹ numbers", "no drift (relative error)", error, 1e-9),
         Row::at_most(
             "a pixel of 10⁹ equal samples",
-            "one sample: below the 6·10⁻⁸ that a result of 32 bits can tell (relative error)",
+            "equals one sample: below 6·10⁻⁸, the resolution of 32 bits (relative error)",
             (pixel / each - 1.0).abs(),
             6e-8,
         ),
@@ -329,6 +329,6 @@ fn light() {
     rows.push(sun_in_frame());
     rows.extend(grazing());
     rows.extend(long_sums());
-    let about = "A ball over a floor under an even sky, 64 samples.";
+    let about = "A sphere over a floor under a uniform sky, 64 samples.";
     check("Light", about, &rows);
 }

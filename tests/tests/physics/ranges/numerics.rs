@@ -136,8 +136,7 @@ fn elementary_functions_keep_their_last_places() {
         let known = known(&figures["single"][name]);
         rows.push(row(name, 32, SINGLE_ULP, &worst(&known, ulp_single, |x| vec![f(x[0] as f32, x[1] as f32).into()])));
     }
-    let about = "`core::maths`, the functions with the same bits on every machine, against mpmath 1.4.1 with 60 digits (tests/oracles/closed_forms.py): arguments of all sizes (10⁻³⁰⁰ to 10³⁰⁰; \
-        of 32 bits 10⁻³⁷ to 10³⁷; angles to 10⁵ and 10⁴), more of them next to multiples of π/2, to 1 and to the ends of domains. The greatest distance in units in the last place of the true value.";
+    let about = "`core::maths`, with the same bits on every machine, compared with mpmath 1.4.1 at 60 digits (tests/oracles/closed_forms.py). Arguments: 10⁻³⁰⁰ to 10³⁰⁰ (32 bits: 10⁻³⁷ to 10³⁷), angles to 10⁵ and 10⁴, and more next to multiples of π/2, to 1 and to the ends of domains. Found: the largest error in units in the last place of the true value, and its arguments.";
     check("Elementary functions", about, &rows);
 }
 
@@ -175,24 +174,24 @@ fn closed_forms_keep_their_digits() {
         off_the_observer(&known(&figures["black_bodies"]), |at| Spectrum::from_fn(|nm| planck(nm, at[0])));
     let line = |at: &[f64], nm: f64| double::exp(-((nm - at[0]) / at[1]) * ((nm - at[0]) / at[1]));
     let lines = off_the_observer(&known(&figures["lines"]), |at| Spectrum::from_fn(|nm| line(at, nm)));
-    let observed = "≤ 1.5·10⁻⁷ of X + Y + Z, and x and y as close: spectra and the observer are kept in 32 bits, 6·10⁻⁸ each, and sums and products are of 64 bits";
+    let observed = "≤ 1.5·10⁻⁷ of X + Y + Z, and of x and y: spectra and observer have 32 bits (6·10⁻⁸ each)";
     let rows = [
         Row::at_most(
             "Fresnel, both planes, indices 1.0001 to 4, cosines 10⁻⁶ to 1, 32 bits",
-            "≤ 2·10⁻⁶ relative: some twenty roundings of 6·10⁻⁸, none of them magnified but by Brewster's angle",
+            "≤ 2·10⁻⁶: about twenty roundings of 6·10⁻⁸, magnified only at Brewster's angle",
             dielectric,
             2e-6,
         ),
-        Row::at_most("Fresnel, metals, n 0.03 to 6.3, k 0.1 to 10, 32 bits", "≤ 2·10⁻⁶ relative", conductor, 2e-6),
+        Row::at_most("Fresnel, metals, n 0.03 to 6.3, k 0.1 to 10, 32 bits", "≤ 2·10⁻⁶", conductor, 2e-6),
         Row::at_most(
             "Planck's law, 10 to 10⁸ K, 300 to 1 100 nm, 64 bits",
-            "≤ 10⁻¹² relative: the exponent, to 700, is rounded by 10⁻¹⁶ of itself",
+            "≤ 10⁻¹²: the exponent, up to 700, is rounded by 10⁻¹⁶ of itself",
             black_body,
             1e-12,
         ),
         Row::at_most(
             "CIEDE2000, colours 10⁻⁶ to 30 apart, 64 bits",
-            "≤ 10⁻⁸ relative: differences of 10⁻⁶ keep ten of sixteen digits",
+            "≤ 10⁻⁸: differences of 10⁻⁶ keep ten of sixteen digits",
             difference,
             1e-8,
         ),
@@ -204,6 +203,6 @@ fn closed_forms_keep_their_digits() {
         ),
         Row::at_most("the same of Gaussian lines at 380 to 780 nm, 1 to 100 nm wide", observed, lines, 1.5e-7),
     ];
-    let about = "Against mpmath as above; the greatest relative error.";
+    let about = "Compared with mpmath as above; the largest relative error.";
     check("Closed forms", about, &rows);
 }

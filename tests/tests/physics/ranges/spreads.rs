@@ -78,7 +78,7 @@ fn point_spreads() {
     let narrow = |sigma_px: f64, cycles: f64| {
         let exact = exp(-2.0 * (PI * sigma_px * cycles) * (PI * sigma_px * cycles));
         Row::at_most(
-            &format!("a Gaussian of {sigma_px} px, bars of {cycles} cycles a pixel"),
+            &format!("a Gaussian of {sigma_px} px, bars of {cycles} cycles/px"),
             &format!("contrast {exact:.3} (absolute error)"),
             (contrast_of_samples(sigma_px, cycles) - exact).abs(),
             6e-3,
@@ -87,12 +87,12 @@ fn point_spreads() {
     let mut rows: Vec<Row> =
         [(0.05, 0.5), (0.1, 0.25), (0.2, 0.5), (0.4, 0.25), (0.4, 0.5)].map(|(s, c)| narrow(s, c)).into();
     rows.push(Row::at_most(
-        "a Gaussian three times as wide as a picture without margin, even light",
-        "the part of the function that lies over the picture, in every pixel (relative error)",
+        "a Gaussian three times as wide as an image without margin, uniform illumination",
+        "the part of the function within the image, in every pixel (relative error)",
         even_light_behind_a_wide_one(),
         // Some roundings of f32, in which the spread's picture and the film are held.
         1e-6,
     ));
-    let about = "Narrow ones displace samples (`spread_by = \"samples\"`), as they do unless told otherwise where a film of whole pixels would be wrong (by up to 0.08 at 0.4 px); wide ones are spread by the film.";
+    let about = "Narrow point spreads displace samples (`spread_by = \"samples\"`, the default where the film would be wrong, by up to 0.08 at 0.4 px); wide ones are applied to the film.";
     check("Point spreads", about, &rows);
 }

@@ -37,29 +37,29 @@ fn spoilt(name: &str, from: &str, to: &str) -> (Spoilt, Ran) {
 fn empty_and_cut() -> Vec<Row> {
     let named = "the file and where the job names it";
     let empty = |name: &str| row(&format!("{name} is empty"), named, &with_file(name, b""));
-    let cut = |name: &str| row(&format!("{name} ends in its middle"), named, &with_file(name, &part(name, 0.5)));
-    let job = row("a job file that is empty", "the key that is missing", &with_file("small.toml", b""));
+    let cut = |name: &str| row(&format!("{name} is truncated"), named, &with_file(name, &part(name, 0.5)));
+    let job = row("a job file that is empty", "the missing key", &with_file("small.toml", b""));
     vec![job, empty("tower.obj"), empty("checker.png"), empty("sky.hdr"), cut("checker.png"), cut("sky.hdr")]
 }
 
 fn counts() -> Vec<Row> {
-    let before = "refused before anything is allotted";
+    let before = "refused before any allocation";
     let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000000000 +X 2000000000\n";
     let png = png_head(i32::MAX as u32, i32::MAX as u32);
     let far = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4000000000\n";
     let deep = format!("format = 1\nscene = {}{}\n", "[".repeat(5000), "]".repeat(5000));
     let bases = "format = 1\nbase = \"small.toml\"\n";
     vec![
-        row("an HDR picture of 4·10¹⁸ pixels in 62 bytes", before, &with_file("sky.hdr", hdr)),
-        row("a PNG whose head says 2³¹ − 1 pixels a side", before, &with_file("checker.png", &png)),
-        row("a face of the vertex 4 000 000 000 of three", "file and line", &with_file("tower.obj", far.as_bytes())),
-        row("lists in lists, 5 000 deep", "refused at a depth of 80", &with_file("small.toml", deep.as_bytes())),
-        row("a job that is its own base", "the circle", &with_file("small.toml", bases.as_bytes())),
+        row("an HDR image of 4·10¹⁸ pixels in 62 bytes", before, &with_file("sky.hdr", hdr)),
+        row("a PNG whose header states 2³¹ − 1 pixels per side", before, &with_file("checker.png", &png)),
+        row("a face with vertex 4 000 000 000 of three", "file and line", &with_file("tower.obj", far.as_bytes())),
+        row("nested lists, 5 000 deep", "refused at a depth of 80", &with_file("small.toml", deep.as_bytes())),
+        row("a job that is its own base", "the cycle", &with_file("small.toml", bases.as_bytes())),
         {
             let spoilt = Spoilt::new();
             let set = format!("{}=1", vec!["a"; 20_000].join("."));
             let ran = etendue(["plan", &spoilt.job(), "--set", &set]);
-            refused("a key of 20 000 parts", "refused in a line", &ran, &[spoilt.folder()])
+            refused("a key of 20 000 parts", "refused in one line", &ran, &[spoilt.folder()])
         },
     ]
 }
@@ -69,7 +69,7 @@ const WRONG_ENDS: &[u8] = b"MM*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\
 
 /// Files at their limits: docs/limits.md.
 fn budgets() -> Vec<Row> {
-    let raised = "refused, with the limit that may be raised";
+    let raised = "the limit to raise";
     let long = |spoilt: &Spoilt| {
         let job = std::fs::read_to_string(spoilt.job()).expect("the job");
         spoilt.write("small.toml", format!("{job}# {}\n", " ".repeat(16 << 20)));
@@ -90,7 +90,7 @@ fn budgets() -> Vec<Row> {
     let picture = png_head(40_000, 40_000);
     vec![
         planned("a job of 17 MB", &long),
-        planned("17 files that are built one on the other", &chain),
+        planned("17 files, each based on the next", &chain),
         row("a PNG of 40 000 × 40 000 px in 70 bytes", raised, &with_file("checker.png", &picture)),
     ]
 }
@@ -120,15 +120,15 @@ fn names_and_paths() -> Vec<Row> {
     let through = etendue(["plan", &linked.job(), "--sandboxed"]);
     let camera = row(
         "a camera called \"../x\"",
-        "names of cameras are names of files",
+        "camera names are file names",
         &self::spoilt("small.toml", "name = \"front\"", "name = \"../x\""),
     );
     let device = etendue(["inspect", "/dev/zero"]);
     vec![
         camera,
-        refused("`--sandboxed`, a path through parents", "refused unseen", &climbing, &[spoilt.folder()]),
-        refused("`--sandboxed`, a link to a foreign file", "refused unseen", &through, &[linked.folder()]),
-        refused("a device in the place of a file", "refused: it has no end", &device, &[]),
+        refused("`--sandboxed`, a path through parents", "refused unread", &climbing, &[spoilt.folder()]),
+        refused("`--sandboxed`, a link to a foreign file", "refused unread", &through, &[linked.folder()]),
+        refused("a device instead of a file", "refused: unbounded", &device, &[]),
     ]
 }
 
@@ -142,18 +142,18 @@ fn folders() -> Vec<Row> {
     std::fs::write(&file, b"theirs").expect("written");
     vec![
         refused(
-            "an output folder that takes nothing, not even of root",
-            "refused before the work",
+            "an output folder that is not writable, even for root",
+            "refused before rendering",
             &render(Path::new("/proc")),
             &[],
         ),
-        refused("a file in the place of the output folder", "refused before the work", &render(&file), &[place.path()]),
+        refused("a file instead of the output folder", "refused before rendering", &render(&file), &[place.path()]),
     ]
 }
 
 #[test]
 fn files_that_are_none() {
     let parts = [empty_and_cut(), counts(), budgets(), numbers(), names_and_paths(), folders()];
-    let about = "Each refused with status 2, nothing written: what a user reads (of several faults the first). Every reader is fuzzed as well (docs/evidence/fuzzing.md); limits and how to raise them: docs/limits.md.";
+    let about = "Each is refused with status 2 and nothing is written. Found: the first error. Readers are also fuzzed (docs/evidence/fuzzing.md); docs/limits.md has the limits.";
     check("Files", about, &parts.concat());
 }

@@ -25,21 +25,20 @@ fn measured(extreme: &str, expected: &str, picture: &str, folder: &Path) -> Row 
 fn pictures_that_show_nothing() {
     let place = tempfile::tempdir().expect("a folder");
     let folder = place.path();
-    let all = "each refuses it with one error; `compare` finds it equal to itself";
-    let even = "no fall-off, no noise, no flicker, all else refused";
-    let number = "a reading that is no number is named by its place";
+    let all = "refused with one error; `compare` finds it equal to itself";
+    let even = "no fall-off, noise or flicker; all else refused";
+    let number = "the value that is not finite is named by its place";
     let bad = |value: f32| move |i: usize| if i == 6208 { value } else { 20_000.0 + (i % 7) as f32 };
     let rows = [
-        measured("a picture of one pixel", all, &grey(folder, "pixel.png", (1, 1), 20_000), folder),
-        measured("an even picture", even, &grey(folder, "even.png", SIZE, 20_000), folder),
-        measured("an even picture in colour", even, &coloured(folder, "coloured-even.png", SIZE, 0.4), folder),
-        measured("an even picture of 3·10³⁸", even, &floats(folder, "huge.tif", |_| 3e38), folder),
-        measured("a dark picture", all, &grey(folder, "dark.png", SIZE, 0), folder),
-        measured("a picture that is clipped everywhere", all, &grey(folder, "clipped.png", SIZE, 65_535), folder),
+        measured("an image of one pixel", all, &grey(folder, "pixel.png", (1, 1), 20_000), folder),
+        measured("a uniform image", even, &grey(folder, "even.png", SIZE, 20_000), folder),
+        measured("a uniform image in colour", even, &coloured(folder, "coloured-even.png", SIZE, 0.4), folder),
+        measured("a uniform image of 3·10³⁸", even, &floats(folder, "huge.tif", |_| 3e38), folder),
+        measured("a dark image", all, &grey(folder, "dark.png", SIZE, 0), folder),
+        measured("an image that is clipped everywhere", all, &grey(folder, "clipped.png", SIZE, 65_535), folder),
         measured("one pixel is NaN", number, &floats(folder, "nan.tif", bad(f32::NAN)), folder),
         measured("one pixel is infinite", number, &floats(folder, "infinite.tif", bad(f32::INFINITY)), folder),
     ];
-    let about = "How many of the command lines of `measure` and `calibrate` (crates/cli/tests/binary/bad\\_pictures.rs, `ptc`, `dark-current`, `lens` and `compare` among them) refuse a picture of 128 × 96 px with \
-        status 2 and one error, how many answer, and the first error. Never a panic, never a number that is none. Pictures of charts that are mirrored, turned or of another chart are below.";
-    check("Measurements of pictures that show nothing", about, &rows);
+    let about = "Each command line of `measure` and `calibrate` (crates/cli/tests/binary/bad\\_pictures.rs, among them `ptc`, `dark-current`, `lens` and `compare`) reads an image of 128 × 96 px. Found: how many refuse it with status 2 and one error, how many answer, and the first error. None panics, and none prints a value that is not finite. Mirrored, rotated and wrong charts are below.";
+    check("Measurements of images without content", about, &rows);
 }

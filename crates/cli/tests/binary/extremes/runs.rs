@@ -17,7 +17,7 @@ fn after(before: &str, arguments: &[&str]) -> Ran {
 
 /// The row of a run that leaves nothing in its folder.
 fn nothing_left(status: i32, extreme: &str, ran: &Ran, place: &Path) -> Row {
-    let row = ended(status, extreme, "nothing under a final name", ran, &[place]);
+    let row = ended(status, extreme, "no file under a final name", ran, &[place]);
     let left = contents(place).len();
     Row { found: format!("{}; {left} files", row.found), holds: row.holds && left == 0, ..row }
 }
@@ -36,7 +36,6 @@ fn runs_that_cannot_go_on() {
     // Free memory depends on the addresses given by the system.
     let needed = memory.found.split(", and ").next().unwrap_or_default().to_owned();
     let memory = Row { found: format!("{needed}, and less is free"), ..memory };
-    let about = "With real limits of the system. Smaller allocations that fail and panics of workers have tests of their own (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/library/errors.rs); \
-        kills and several runs in one folder are below.";
-    check("Runs that cannot go on", about, &[full, memory]);
+    let about = "With real limits of the system. Small failed allocations and panics of workers have their own tests (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/library/errors.rs).";
+    check("Runs that cannot continue", about, &[full, memory]);
 }

@@ -59,13 +59,13 @@ fn faults_of_distortion_centre_focal_length_and_axes_are_flagged() {
     flagged("focal length + 0.3 %", "`lens.focal_length_mm` 2.4072 for 2.4", "fx_px", &faulty, &length);
 
     let mirrored = redrawn(&bench, &healthy, "mirrored.png", |p| p.size, |p, x, y| p.at(p.size[0] - 1 - x, y));
-    refused("mirrored axis", "the picture mirrored left to right", &mirrored);
+    refused("mirrored axis", "the image mirrored left to right", &mirrored);
     let exchanged = |p: &Picture| [p.size[1], p.size[0]];
     let transposed = redrawn(&bench, &healthy, "transposed.png", exchanged, |p, x, y| p.at(y, x));
-    refused("transposed axis", "columns and rows of the picture exchanged", &transposed);
+    refused("transposed axis", "columns and rows of the image exchanged", &transposed);
     let turned =
         redrawn(&bench, &healthy, "turned.png", |p| p.size, |p, x, y| p.at(p.size[0] - 1 - x, p.size[1] - 1 - y));
-    let seeded = "the picture turned by 180°";
+    let seeded = "the image rotated by 180°";
     flagged("both axes turned", seeded, "forward_centre_x_px", &distortion(&bench, &turned), &curve);
 }
 
@@ -95,7 +95,7 @@ fn a_channel_that_is_shifted_is_flagged() {
     let chromatic = |file: &Path| bench.beside(&["chromatic", &text(file), "--target", "dots"], COLOUR, &[]);
     let healthy = chromatic(&picture);
     sound(&healthy);
-    let seeded = "red of the developed picture half a pixel to the left";
+    let seeded = "red of the developed image half a pixel to the left";
     flagged("channel shifted by 0.5 px", seeded, "red_shift_x_px", &chromatic(&shifted), &healthy);
 }
 

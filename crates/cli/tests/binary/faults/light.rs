@@ -39,7 +39,7 @@ fn a_fall_off_by_the_third_power_of_the_cosine_is_flagged() {
     let chart = bench.chart("flat-field", CAMERA, &[]);
     let [healthy, faulty] = [0.0, 1.0].map(|over| fall_off(&bench, &chart, over));
     sound(&healthy);
-    let seeded = "`lens.relative_illumination`: the file's own fall-off, and that over cos θ";
+    let seeded = "`lens.relative_illumination`: the file's fall-off divided by cos θ";
     flagged("cos⁴ exponent 3", seeded, "corner_percent", &faulty, &healthy);
     assert!(faulty["profile"].differs(), "{faulty:?}");
 }

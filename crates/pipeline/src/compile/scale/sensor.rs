@@ -81,8 +81,8 @@ fn enlarge_exchange(exchange: &mut Exchange, k: f64) {
 /// Sources of dark current are distributed over the area: the number of those of hot and blinking pixels is unchanged. A pixel of n parts has one or more with
 /// the probability 1 − (1 − p)ⁿ, and then n p/(1 − (1 − p)ⁿ) on average: the mean dark current of a pixel is exactly n times as large.
 fn enlarge_dark(dark: &mut Dark, area: f64) {
-    let hot = dark.hot.iter_mut().map(|hot| (&mut hot.share.value, &mut hot.mean_e_s.value));
-    let blinking = dark.dark_current_rts.iter_mut().map(|rts| (&mut rts.share.value, &mut rts.mean_e_s.value));
+    let hot = dark.hot.iter_mut().map(|hot| (&mut hot.fraction.value, &mut hot.mean_e_s.value));
+    let blinking = dark.dark_current_rts.iter_mut().map(|rts| (&mut rts.fraction.value, &mut rts.mean_e_s.value));
     for (share, mean_e_s) in hot.chain(blinking) {
         let sources = area * *share;
         *share = -exp_m1(area * ln_1p(-*share));

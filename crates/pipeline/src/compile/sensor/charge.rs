@@ -16,7 +16,7 @@ use etendue_sensor::effects::two_level::TwoLevel;
 const FREEZING_K: f64 = 273.15;
 
 pub(super) fn charge(e: &record::Electronics) -> ChargeEffects {
-    let trap = |t: &description::Trap| Trap { fraction: t.share.value, time_constant_s: t.time_constant_s.value };
+    let trap = |t: &description::Trap| Trap { fraction: t.fraction.value, time_constant_s: t.time_constant_s.value };
     let dead = e.non_uniformity.as_ref().and_then(|n| n.dead_fraction.as_ref());
     ChargeEffects {
         dark: dark(e),
@@ -42,9 +42,9 @@ fn dark(e: &record::Electronics) -> DarkCurrent {
             column: or(d.spread_column.as_ref(), 0.0),
             distribution,
         },
-        hot: d.hot.as_ref().map(|hot| Hot { fraction: hot.share.value, mean_e_s: hot.mean_e_s.value }),
+        hot: d.hot.as_ref().map(|hot| Hot { fraction: hot.fraction.value, mean_e_s: hot.mean_e_s.value }),
         dark_current_rts: d.dark_current_rts.as_ref().map(|b| TwoLevel {
-            fraction: b.share.value,
+            fraction: b.fraction.value,
             mean: b.mean_e_s.value,
             dwell_frames: b.dwell_frames.value,
         }),

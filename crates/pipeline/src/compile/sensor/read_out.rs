@@ -26,7 +26,7 @@ pub(super) fn voltage(e: &record::Electronics) -> VoltageEffects {
             column_e: or(e.column_noise_e.as_ref(), 0.0),
         },
         rts_noise: e.rts_noise.as_ref().map(|t| {
-            RtsNoise(TwoLevel { fraction: t.share.value, mean: t.mean_e.value, dwell_frames: t.dwell_frames.value })
+            RtsNoise(TwoLevel { fraction: t.fraction.value, mean: t.mean_e.value, dwell_frames: t.dwell_frames.value })
         }),
     }
 }

@@ -11,38 +11,33 @@ record! {
     /// Drops of water on the outer face of a windscreen: spherical caps at random positions in a rectangle. Each refracts the scene behind it;
     /// touching drops merge into one of their total volume. Ground truth ignores them.
     pub struct Drops check(check) {
-        /// Width and height of the rectangle with drops, in the plane tangent to the glass at its middle (where the camera's axis meets it), mm,
-        /// above 0.
+        /// Width and height of the rectangle with drops, centred on the camera's axis.
         required size_mm: Placed<[f64; 2]> = vector::<2>(number("mm").above(0.0));
-        /// Offset of the rectangle's middle from that point, to the right and down along the glass, mm. Default: none.
+        /// Offset of the rectangle's middle, right and down along the glass. Default: 0.
         optional offset_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
         /// Number of drops on the glass.
         inside amount: DropAmount;
-        /// Smallest radius of a drop's base, mm, above 0.
+        /// Smallest base radius.
         required min_radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// Largest radius of a drop's base, mm, above 0; merged drops are larger. Real drops keep the shape of a cap up to about 2.7 mm.
+        /// Largest base radius before merging. Real drops stay caps up to about 2.7 mm.
         required max_radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// Exponent of the size distribution: numbers by base radius a fall as a^(−size_exponent) from the smallest to the largest, 0 … 6. Default:
-        /// 8/3, for drops that condense and merge (Le Fevre and Rose 1966).
+        /// Number falls as a^(−size_exponent) with base radius a. Default: 8/3 (Le Fevre and Rose 1966).
         optional size_exponent: Placed<f64> = number("").at_least(0.0).at_most(6.0);
-        /// Contact angle between glass and surface, within the water, degrees, 5 … 150. Less than 30 on clean glass, about 60 on used glass, 100 and
-        /// more on water-repellent glass. Default: 60.
+        /// Contact angle: below 30 on clean glass, 100 and more on water-repellent glass. Default: 60.
         optional contact_angle_deg: Placed<f64> = number("°").at_least(5.0).at_most(150.0);
-        /// Includes the dispersion of water (Hale and Querry 1973), so that a path carries one wavelength; otherwise the index is that at 587.56 nm.
-        /// Default: true.
+        /// Dispersion of water (one wavelength per path); without it the index at 587.56 nm. Default: true.
         optional dispersion: Placed<bool> = flag();
         /// Seed of positions and sizes. Default: 0.
         optional seed: Placed<u64> = whole(0, MAX_SEED);
-        /// Simulated time at which the drops lie on the glass as they fell, s; they do not change before it. Much later frames take longer, as the
-        /// drops are simulated from this time. Default: 0.
+        /// Simulated time at which the drops lie as they fell; later states are simulated from it. Default: 0.
         optional start_s: Placed<ExactTime> = time();
-        /// Time in which a drop of "max_radius_mm" dries, s, above 0; the square of a radius falls linearly with time. Default: they do not dry.
+        /// Drying time of a drop of "max_radius_mm"; r² falls linearly. Default: no drying.
         optional drying_s: Placed<f64> = number("s").above(0.0);
-        /// Rate of new drops on the rectangle after "start_s", 1/s, above 0 … 10 000. Default: none.
+        /// Rate of new drops after "start_s".
         optional arrivals_per_s: Placed<f64> = number("1/s").above(0.0).at_most(10_000.0);
-        /// Sliding of drops down the glass. Default: none.
+        /// Sliding down the glass.
         optional sliding: Sliding = record();
-        /// Wiper that removes drops. Default: none.
+        /// Wiper.
         optional wiper: Wiper = record();
     }
 }
@@ -51,9 +46,9 @@ record! {
     /// Sliding of drops down tilted glass: v = speed_mm_s (a² sin α − still_radius_mm²)/(max_radius_mm² − still_radius_mm²) for a drop of radius a on
     /// a slope α, never below 0, along gravity in the plane tangent to the glass at its middle, for the camera's pose at "start_s".
     pub struct Sliding {
-        /// Speed of a drop of "max_radius_mm" on vertical glass, mm/s, above 0; merged drops can be faster.
+        /// Speed of a drop of "max_radius_mm" on vertical glass.
         required speed_mm_s: Placed<f64> = number("mm/s").above(0.0).at_most(10_000.0);
-        /// Radius below which drops on vertical glass do not slide, mm, 0 or more and below "max_radius_mm"; about 1 to 2 mm on glass in use.
+        /// Radius below which drops on vertical glass stay; 1 to 2 mm on used glass.
         required still_radius_mm: Placed<f64> = number("mm").at_least(0.0);
     }
 }
@@ -61,18 +56,17 @@ record! {
 record! {
     /// A wiper, itself invisible: drops that its blade touches are removed.
     pub struct Wiper check(check_wiper) {
-        /// Position of its axis, as "offset_mm" of drops, mm.
+        /// Position of the axis, as "offset_mm" of drops.
         required pivot_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
-        /// Distances from the axis between which the blade wipes, mm, the smaller first.
+        /// Distances from the axis between which the blade wipes, rising.
         required blade_mm: Placed<[f64; 2]> = vector::<2>(number("mm").at_least(0.0));
-        /// Rest position and turning point of the blade: degrees from upwards, clockwise as seen from the camera, −360 … 360, not equal and less than
-        /// 360 apart.
+        /// Rest and turning angles of the blade, clockwise from up as seen from the camera.
         required angles_deg: Placed<[f64; 2]> = vector::<2>(number("°").at_least(-360.0).at_most(360.0));
-        /// Duration of one stroke, at constant speed, s, at least 0.1.
+        /// Duration of one stroke.
         required sweep_s: Placed<f64> = number("s").at_least(0.1);
-        /// Time between the starts of two sweeps, s, at least twice "sweep_s"; the blade rests in between.
+        /// Time between the starts of sweeps, at least twice "sweep_s".
         required period_s: Placed<f64> = number("s").above(0.0);
-        /// Simulated time of the first sweep, s. Default: "start_s" of the drops.
+        /// Simulated time of the first sweep. Default: "start_s" of the drops.
         optional start_s: Placed<ExactTime> = time();
     }
 }
@@ -80,9 +74,9 @@ record! {
 keyed! {
     /// Number of fallen drops, before touching drops merge.
     pub enum DropAmount {
-        /// Drops in the rectangle, 1 … 1 000 000, or 0 with "arrivals_per_s".
+        /// Drops in the rectangle; 0 only with "arrivals_per_s".
         count => Count(Placed<u64>) = whole(0, 1_000_000);
-        /// Drops per square decimetre, above 0; 1 … 1 000 000 in all.
+        /// Drops per dm²; 1 … 1 000 000 in all.
         count_per_dm2 => Density(Placed<f64>) = number("").above(0.0);
     }
 }

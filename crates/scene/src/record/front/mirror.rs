@@ -14,12 +14,11 @@ record! {
     pub struct Mirror check(check) {
         /// Shape of its surface.
         inside shape: MirrorShape;
-        /// Distance from the centre of the entrance pupil to its vertex (of a mesh: its origin), along the camera's axis, mm, above 0. Default, of a
-        /// hyperboloid only: the pupil at its outer focus, which gives a single viewpoint.
+        /// Distance from the entrance pupil to its vertex (mesh: origin). Default, hyperboloid: pupil at its outer focus.
         optional distance_mm: Placed<f64> = number("mm").above(0.0);
-        /// Offset of its vertex from the camera's axis, to the right and down, mm. Default: on the axis.
+        /// Offset of its vertex, right and down. Default: 0.
         optional offset_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
-        /// Rotation, right-handed about the camera's x, then its y, then its z axis, degrees. Default: none.
+        /// Rotation about the camera's x, then y, then z. Default: 0.
         optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
         /// Reflectance.
         inside finish: Finish;
@@ -31,9 +30,9 @@ variants! {
     pub enum MirrorShape by "type" {
         /// A sphere.
         "sphere" => Sphere(Sphere),
-        /// A paraboloid; with a telecentric camera it has a single viewpoint.
+        /// A paraboloid; a single viewpoint with a telecentric camera.
         "paraboloid" => Paraboloid(Sphere),
-        /// A hyperboloid; with the pupil at its outer focus it has a single viewpoint.
+        /// A hyperboloid; a single viewpoint with the pupil at its outer focus.
         "hyperboloid" => Hyperboloid(Hyperboloid),
         /// A cone with its apex towards the camera.
         "cone" => Cone(Cone),
@@ -46,7 +45,7 @@ record! {
     /// A mesh in the mirror's frame: x to the right, y down, z away from the camera. It reflects on the side from which its triangles are
     /// counter-clockwise.
     pub struct MeshFile {
-        /// The file (Wavefront OBJ). Without normals, each corner has the mean normal of its triangles.
+        /// Wavefront OBJ. Without normals, each corner has the mean normal of its triangles.
         required file: Placed<PathBuf> = path(&["obj"]);
         /// Millimetres per unit of the file. Default: 1.
         optional scale_mm: Placed<f64> = number("mm").above(0.0);
@@ -56,7 +55,7 @@ record! {
 record! {
     /// A sphere or a paraboloid.
     pub struct Sphere {
-        /// Radius of curvature at the vertex, mm, above 0.
+        /// Radius of curvature at the vertex.
         required radius_mm: Placed<f64> = number("mm").above(0.0);
         /// Edges.
         inside edges: Edges;
@@ -66,10 +65,9 @@ record! {
 record! {
     /// A hyperboloid r² + (1 + conic) z² = 2 radius_mm z.
     pub struct Hyperboloid {
-        /// Radius of curvature at the vertex, mm, above 0.
+        /// Radius of curvature at the vertex.
         required radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// Conic constant, minus the square of the eccentricity e, from −1 000 to below −1. The outer focus lies radius_mm/(e − 1) in front of the
-        /// vertex.
+        /// Conic constant −e². The outer focus lies radius_mm/(e − 1) in front of the vertex.
         required conic: Placed<f64> = number("").at_least(-1000.0).at_most(-1.000_001);
         /// Edges.
         inside edges: Edges;
@@ -79,7 +77,7 @@ record! {
 record! {
     /// A cone.
     pub struct Cone {
-        /// Angle between its axis and its surface, degrees, above 0 and at most 89.
+        /// Angle between axis and surface.
         required half_angle_deg: Placed<f64> = number("°").above(0.0).at_most(89.0);
         /// Edges.
         inside edges: Edges;
@@ -89,9 +87,9 @@ record! {
 record! {
     /// Edges of a mirror; rays beyond them pass it.
     pub struct Edges {
-        /// Outer radius of the mirror, from its axis, mm, above 0.
+        /// Outer radius.
         required rim_radius_mm: Placed<f64> = number("mm").above(0.0);
-        /// Radius of a central hole, mm, 0 or more. Default: none.
+        /// Radius of a central hole.
         optional hole_radius_mm: Placed<f64> = number("mm").at_least(0.0);
     }
 }
@@ -99,12 +97,11 @@ record! {
 keyed! {
     /// Reflectance of a mirror.
     pub enum Finish {
-        /// Reflectance, equal at all angles: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`, `{ spectrum = file }` or `{ named = "…" }`;
-        /// 0 … 1.
+        /// Reflectance at all angles; lists are linear sRGB.
         reflectance => Share(Colour) = any_colour();
-        /// A clean metal, by Fresnel's equations: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
+        /// A clean metal, by Fresnel's equations.
         metal => Named(Placed<String>) = known("a metal", metal::names());
-        /// A clean metal given by a table of three columns: wavelength in nm, n, k.
+        /// A clean metal: wavelength in nm, n, k.
         index_file => File(Placed<PathBuf>) = path(&["csv"]);
     }
 }

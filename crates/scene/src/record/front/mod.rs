@@ -15,11 +15,11 @@ pub use windscreen::Windscreen;
 record! {
     /// Elements in front of the lens that move with the camera.
     pub struct Front check(check) {
-        /// Dirt and scratches on the front glass. Default: none.
+        /// Dirt on the front glass.
         optional dirt: Dirt = record();
-        /// Windscreen in front of the camera. Default: none.
+        /// Windscreen.
         optional windscreen: Windscreen = record();
-        /// Mirror in front of the camera. Default: none.
+        /// Mirror.
         optional mirror: Mirror = record();
     }
 }

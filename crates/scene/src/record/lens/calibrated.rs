@@ -15,20 +15,19 @@ record! {
     pub struct Calibrated check(check) {
         /// Viewing directions of the pixels.
         inside view: View;
-        /// f-number, 0.5 or more: irradiance on the axis is E = π τ L/(4 N²). With "focus_distance_m" it also sets the pupil's size.
+        /// f-number: irradiance on the axis is E = π τ L/(4 N²). With "focus_distance_m" also the pupil's size.
         required f_number: Placed<f64> = f_number();
-        /// Distance from the entrance pupil to the surface in focus, m, above 0, or "infinity": along the axis for a flat pupil, along the ray for a
-        /// turning one. Default: everything is sharp.
+        /// Distance from the entrance pupil to the surface in focus, along the axis (flat) or ray (turning). Default: everything is sharp.
         optional focus_distance_m: FocusDistance = focus_distance();
-        /// Orientation of the entrance pupil. Default: "flat" for projections that see less than 180°, "turning" for others.
+        /// Orientation of the entrance pupil. Default: "flat" for less than 180°, otherwise "turning".
         optional pupil: Placed<Pupil> = choice();
-        /// Measured relative illumination, instead of that of the pupil and the projection. Default: theirs.
+        /// Measured relative illumination. Default: that of pupil and projection.
         optional relative_illumination: RelativeIllumination = record();
-        /// Field angle (from the axis) beyond which the camera sees nothing, degrees, above 0 and at most 180. Default: the end of the projection.
+        /// Field angle beyond which the camera sees nothing. Default: the projection's end.
         optional greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
-        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
+        /// Transmittance. Default: 1.
         optional transmittance: Placed<f64> = share();
-        /// Lateral colour: image size by wavelength. Default: equal for all wavelengths.
+        /// Image size by wavelength. Default: equal.
         optional lateral_colour: LateralColour = record();
     }
 }
@@ -36,9 +35,9 @@ record! {
 keyed! {
     /// Viewing directions of the pixels.
     pub enum View {
-        /// A projection with its parameters.
+        /// The projection.
         projection => Projection(Box<Projection>) = record();
-        /// A calibration file of another program; its image size must be that of the sensor.
+        /// Calibration file of another program, for the sensor's image size.
         calibration => Calibration(Box<CalibrationFile>) = record();
     }
 }
@@ -75,7 +74,7 @@ record! {
     pub struct RelativeIllumination check(check_illumination) {
         /// Source of the points.
         inside source: IlluminationSource;
-        /// With "radius_mm": irradiance over that on the axis, 0 or more; the first is 1.
+        /// With "radius_mm": irradiance over that on the axis; the first is 1.
         optional ratio: Vec<Placed<f64>> = list(number("").at_least(0.0), 1);
     }
 }
@@ -83,9 +82,9 @@ record! {
 keyed! {
     /// Source of a relative illumination.
     pub enum IlluminationSource {
-        /// Zemax's "Relative Illumination" exported as text, its fields in degrees or in mm on the image, to the image's farthest corner or beyond.
+        /// Zemax "Relative Illumination" text, fields in degrees or mm, at least to the farthest corner.
         file => File(Placed<PathBuf>) = path(&["txt"]);
-        /// Distances from the principal point, mm, rising from 0 to the image's farthest corner or beyond.
+        /// Distances from the principal point, rising from 0 to at least the farthest corner.
         radius_mm => Radii(Vec<Placed<f64>>) = list(number("mm").at_least(0.0), 1);
     }
 }

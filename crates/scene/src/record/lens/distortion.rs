@@ -10,9 +10,9 @@ record! {
         required k1: Placed<f64> = number("");
         /// Coefficient of r⁴. Default: 0.
         optional k2: Placed<f64> = number("");
-        /// Direction of the mapping from r to r′: ideal to observed radius, or the reverse.
+        /// Direction of the mapping from r to r′.
         required direction: Placed<Direction> = choice();
-        /// The unit of r and r′.
+        /// Unit of r and r′.
         required radius_unit: Placed<RadiusUnit> = choice();
     }
 }

@@ -7,9 +7,9 @@ use crate::reader::{list, number, record};
 record! {
     /// Lateral colour: image size about the principal point, by wavelength. Linear between the points, constant beyond them.
     pub struct LateralColour check(check_colour) {
-        /// Wavelengths, nm, rising; two or more.
+        /// Two or more rising wavelengths.
         required wavelength_nm: Vec<Placed<f64>> = list(number("nm").above(0.0), 1);
-        /// Image size over that at 587.56 nm (only ratios count), above 0; between 0.999 and 1.001 for a good lens.
+        /// Image size over that at 587.56 nm; only ratios count. A good lens has 0.999 to 1.001.
         required magnification: Vec<Placed<f64>> = list(number("").above(0.0), 1);
     }
 }

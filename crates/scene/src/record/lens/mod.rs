@@ -33,15 +33,15 @@ variants! {
         "pinhole" => Pinhole(Pinhole),
         /// An ideal lens without thickness.
         "thin" => Thin(Thin),
-        /// A paraxial lens with two principal planes, two pupils and two clear apertures that vignette.
+        /// A paraxial lens with two principal planes, two pupils and two apertures that vignette.
         "thick" => Thick(Box<Thick>),
-        /// A lens of surfaces and glasses, ray traced, with its aberrations, chromatic errors and vignetting.
+        /// A ray-traced lens of surfaces and glasses.
         "prescription" => Prescription(Box<Prescription>),
-        /// A lens given only by its ray-transfer functions, as makers publish them: from rays behind it to rays in front of it.
+        /// A lens given by its ray-transfer functions.
         "ray_transfer" => RayTransfer(RayTransfer),
-        /// A calibrated or ideal projection, which gives the viewing direction of each pixel.
+        /// A calibrated or ideal projection.
         "calibrated" => Calibrated(Box<Calibrated>),
-        /// Telecentric rays along the axis, as from an object-side telecentric lens; everything is sharp.
+        /// Object-side telecentric rays; everything is sharp.
         "telecentric" => Telecentric(Telecentric),
     }
 }

@@ -9,15 +9,15 @@ use crate::reader::record;
 record! {
     /// A pinhole.
     pub struct Pinhole {
-        /// Distance of the pinhole from the sensor, mm, above 0.
+        /// Distance from the pinhole to the sensor.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the pinhole's diameter, 0.5 or more; it sets the irradiance.
+        /// Focal length over the pinhole's diameter; sets the irradiance.
         required f_number: Placed<f64> = f_number();
-        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
+        /// Transmittance. Default: 1.
         optional transmittance: Placed<f64> = share();
-        /// Distortion. Default: none.
+        /// Distortion.
         optional distortion: Distortion = record();
-        /// Lateral colour: image size by wavelength. Default: equal for all wavelengths.
+        /// Image size by wavelength. Default: equal.
         optional lateral_colour: LateralColour = record();
     }
 }

@@ -15,25 +15,20 @@ record! {
     pub struct Prescription check(check) {
         /// Source of its surfaces.
         inside source: Source;
-        /// With "file": clear semi-apertures, mm, instead of those of the file; one for each of its surfaces that refracts, is the stop or has its
-        /// own aperture. Default: the file's; where it has none, as the light of its fields needs.
+        /// With "file": clear semi-apertures of its surfaces. Default: the file's, otherwise as its fields need.
         optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
-        /// Focal length divided by the diameter of the entrance pupil, with the focus at infinity, 0.5 or more. It opens the stop, at most to its
-        /// semi-aperture. Default: as stated in the file (entrance pupil, f-number or cone of light, for which the stop opens or closes), or the
-        /// stop's semi-aperture.
+        /// f-number at infinity focus; opens the stop, at most to its semi-aperture. Default: the file's, or the full stop.
         optional f_number: Placed<f64> = f_number();
-        /// Distance from the entrance pupil to the plane in focus, m, above 0, or "infinity". Required, except with "file": there the default is the
-        /// object of the file.
+        /// Distance from the entrance pupil to the plane in focus. Default, with "file" only: its object.
         optional focus_distance_m: FocusDistance = focus_distance();
-        /// Part that moves to focus: "sensor" (or the lens as a whole), or the first and last surface of a group, counted from 1 at the scene; the
-        /// sensor then stays where the lens images infinity. Default: "sensor".
+        /// Part that moves to focus: the sensor, or a group by its first and last surface, counted from 1 at the scene; the sensor then stays at infinity
+        /// focus. Default: "sensor".
         optional focus_by: FocusBy = focus_by();
-        /// Distance of the sensor behind the paraxial image (at 587.56 nm, or the primary wavelength of the file), mm: best focus of an aberrated
-        /// lens. Default: that of the file's image, otherwise 0.
+        /// Distance of the sensor behind the paraxial image at 587.56 nm, or the file's primary wavelength. Default: the file's, otherwise 0.
         optional defocus_mm: Placed<f64> = number("mm");
-        /// Coating of the surfaces that border on air and state none of their own: as a surface's "coating". Default: "uncoated".
+        /// Coating of surfaces in air without their own. Default: "uncoated".
         optional coating: Coating = coating();
-        /// An interference filter in front of the sensor that blocks infrared light. Default: none.
+        /// Interference filter in front of the sensor.
         optional ir_cut: IrCut = record();
     }
 }
@@ -41,11 +36,11 @@ record! {
 keyed! {
     /// Source of the surfaces.
     pub enum Source {
-        /// A published lens, with its reference in docs/lenses.md: "double-gauss", "wide-angle", "fisheye", "telephoto".
+        /// A lens of docs/lenses.md: "double-gauss", "wide-angle", "fisheye", "telephoto".
         published => Published(Placed<String>) = text("the name of a published lens");
-        /// A sequential lens of Zemax (.zmx) or CODE V (.seq), as text.
+        /// Sequential lens of Zemax (.zmx) or CODE V (.seq), as text.
         file => File(Placed<PathBuf>) = path(&["zmx", "seq"]);
-        /// The surfaces, from the scene to the sensor; one is the stop. Air follows the last surface.
+        /// Surfaces from the scene to the sensor, one of them the stop; air follows the last.
         surfaces => Surfaces(Vec<Surface>) = list(record::<Surface>(), 1);
     }
 }
@@ -54,19 +49,19 @@ record! {
     /// A surface and the space behind it. With c = 1/radius_mm and r the distance from the axis its sag is c r²/(1 + √(1 − (1 + conic) c² r²)) + a₁
     /// r² + a₂ r⁴ + …, a the list `asphere`.
     pub struct Surface {
-        /// Radius of curvature, mm, positive where the centre lies towards the sensor. Default: a plane.
+        /// Radius of curvature, positive with the centre towards the sensor. Default: a plane.
         optional radius_mm: Placed<f64> = number("mm");
-        /// Conic constant: 0 for a sphere, −1 for a paraboloid. Default: 0.
+        /// Conic constant: 0 sphere, −1 paraboloid. Default: 0.
         optional conic: Placed<f64> = number("");
-        /// Coefficients of r², r⁴, r⁶ …, mm to the power 1 − 2i; at most ten. Default: none.
+        /// Coefficients of r², r⁴, r⁶ …; at most ten.
         optional asphere: Vec<Placed<f64>> = list(number("mm^(1 - 2i)"), 1);
-        /// Distance to the next surface along the axis, mm, 0 or more. Without effect on the last surface, where it is left out.
+        /// Distance to the next surface; omitted for the last.
         optional thickness_mm: Placed<f64> = number("mm").at_least(0.0);
-        /// Radius of the clear aperture, mm, above 0.
+        /// Radius of the clear aperture.
         required semi_aperture_mm: Placed<f64> = number("mm").above(0.0);
-        /// Medium behind the surface: a glass of the catalogues of Schott or Ohara by name ("N-BK7"), or a table. Default: air.
+        /// Medium behind the surface: a glass of Schott or Ohara ("N-BK7"), or a table. Default: air.
         optional glass: Glass = glass();
-        /// Transmittance: "uncoated" (Fresnel), a fraction above 0 and at most 1, or a layer. Default: the lens's coating.
+        /// Transmittance: uncoated (Fresnel), a fraction or a layer. Default: the lens's coating.
         optional coating: Coating = coating();
         /// Marks the aperture stop. Default: false.
         optional stop: Placed<bool> = flag();
@@ -88,9 +83,9 @@ record! {
     pub struct GlassNumbers check(check_glass) {
         /// Given constants.
         inside known: GlassKnown;
-        /// With "index": Abbe number V_d, above 5. Default: no dispersion.
+        /// With "index": Abbe number V_d. Default: no dispersion.
         optional abbe: Placed<f64> = number("").above(5.0);
-        /// With "sellmeier_b": C₁, C₂, C₃, µm².
+        /// With "sellmeier_b": C₁, C₂, C₃.
         optional sellmeier_c_um2: Placed<[f64; 3]> = vector::<3>(number("µm²"));
     }
 }
@@ -98,7 +93,7 @@ record! {
 keyed! {
     /// Given constants of a glass.
     pub enum GlassKnown {
-        /// Refractive index n_d, at 587.56 nm, above 1 and at most 5; with "abbe" a Conrady curve on the normal line.
+        /// Refractive index n_d, at 587.56 nm; with "abbe" a Conrady curve on the normal line.
         index => Index(Placed<f64>) = number("").above(1.0).at_most(5.0);
         /// B₁, B₂, B₃ of Sellmeier's equation n² = 1 + Σ B λ²/(λ² − C), λ in µm.
         sellmeier_b => Sellmeier(Placed<[f64; 3]>) = vector::<3>(number(""));
@@ -127,7 +122,7 @@ words! {
 keyed! {
     /// A layer.
     pub enum Layer {
-        /// A layer of magnesium fluoride, a quarter of this wavelength thick, nm, 300 … 1 100.
+        /// Wavelength of a quarter-wave layer of magnesium fluoride.
         quarter_wave_nm => QuarterWave(Placed<f64>) = number("nm").at_least(300.0).at_most(1100.0);
     }
 }
@@ -154,9 +149,9 @@ record! {
     pub struct IrCut check(check_filter) {
         /// Transmittance at normal incidence.
         inside normal: IrCutCurve;
-        /// With "edge_nm": width of the edge from full transmittance to none, nm, above 0.
+        /// With "edge_nm": width of the edge from full transmittance to none.
         optional edge_width_nm: Placed<f64> = number("nm").above(0.0);
-        /// Effective index of its layers, above 1; 1.5 to 2.2 is usual.
+        /// Effective index of its layers; 1.5 to 2.2 is usual.
         required effective_index: Placed<f64> = number("").above(1.0);
     }
 }
@@ -164,9 +159,9 @@ record! {
 keyed! {
     /// Transmittance of a filter at normal incidence.
     pub enum IrCutCurve {
-        /// A table of two columns, wavelength in nm and transmittance 0 … 1.
+        /// Two columns: wavelength in nm, transmittance 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
-        /// Wavelength of half transmittance, nm, 300 … 1 100: full below, none beyond, and a linear edge between.
+        /// Wavelength of half transmittance: full below, none above, linear between.
         edge_nm => Edge(Placed<f64>) = number("nm").at_least(300.0).at_most(1100.0);
     }
 }

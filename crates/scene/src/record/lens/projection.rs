@@ -13,9 +13,9 @@ record! {
     pub struct CalibrationFile {
         /// The file.
         required file: Placed<PathBuf> = path(&["yaml", "yml", "json", "txt"]);
-        /// Program that the file belongs to.
+        /// Program of the file.
         required format: Placed<CalibrationFormat> = choice();
-        /// Name of the camera within the file. Default: the only one.
+        /// Camera within the file. Default: the only one.
         optional camera: Placed<String> = text("the name of a camera");
     }
 }
@@ -86,9 +86,9 @@ record! {
     pub struct Matrix {
         /// Length of the unit of the normalised plane.
         inside scale: Scale;
-        /// With "fx_px": the same for rows, px, above 0. Default: fx_px.
+        /// fy. Default: fx_px.
         optional fy_px: Placed<f64> = number("px").above(0.0);
-        /// Shift to the right per unit step down, px. Default: 0.
+        /// Shift right per step down. Default: 0.
         optional skew_px: Placed<f64> = number("px");
         /// The principal point.
         inside centre: Centre;
@@ -98,11 +98,11 @@ record! {
 keyed! {
     /// The unit of the normalised plane on the sensor.
     pub enum Scale {
-        /// fx, px, above 0.
+        /// fx.
         fx_px => Columns(Placed<f64>) = number("px").above(0.0);
-        /// The focal length (of a lens without distortion), mm, above 0.
+        /// Focal length without distortion.
         focal_length_mm => Millimetres(Placed<f64>) = number("mm").above(0.0);
-        /// Horizontal field of view of an image of this width with the principal point in its middle, degrees, above 0 and at most 360.
+        /// Horizontal field of view, centred.
         field_of_view_deg => FieldOfView(Placed<f64>) = number("degrees").above(0.0).at_most(360.0);
     }
 }
@@ -110,10 +110,9 @@ keyed! {
 record! {
     /// The principal point.
     pub struct Centre {
-        /// Column of the principal point, px, in raster coordinates (OpenCV's and ROS's plus 0.5). Default: the sensor's
-        /// "principal_point_px", or the middle.
+        /// Principal-point column (OpenCV plus 0.5). Default: "principal_point_px".
         optional cx_px: Placed<f64> = number("px");
-        /// Row of the principal point, px. See "cx_px".
+        /// Principal-point row; see "cx_px".
         optional cy_px: Placed<f64> = number("px");
     }
 }
@@ -123,7 +122,7 @@ record! {
     pub struct OpenCv {
         /// Camera matrix.
         inside matrix: Matrix;
-        /// Coefficients distCoeffs: 4, 5, 8, 12 or 14 numbers in OpenCV's order (k1, k2, p1, p2, k3, k4, k5, k6, s1 … s4, τx, τy). Default: none.
+        /// distCoeffs in OpenCV's order, 4, 5, 8, 12 or 14.
         optional distortion: Vec<Placed<f64>> = list(number(""), 1);
     }
 }
@@ -137,7 +136,7 @@ record! {
         required k1: Placed<f64> = number("");
         /// Coefficient of r⁴. Default: 0.
         optional k2: Placed<f64> = number("");
-        /// Direction of the mapping from r to r′: ideal to observed radius, or the reverse.
+        /// Direction of the mapping from r to r′.
         required direction: Placed<Direction> = choice();
     }
 }
@@ -157,7 +156,7 @@ record! {
     pub struct FieldOfView {
         /// Camera matrix.
         inside matrix: Matrix;
-        /// ω, rad, between 0 and π.
+        /// ω, between 0 and π.
         required omega_rad: Placed<f64> = number("rad").above(0.0);
     }
 }
@@ -177,11 +176,11 @@ record! {
     pub struct ThinPrismFisheye {
         /// Camera matrix.
         inside matrix: Matrix;
-        /// Coefficients of the angle's polynomial, k1 … k6 (COLMAP's RAD_TAN_THIN_PRISM_FISHEYE, Aria's Fisheye624). Default: 0.
+        /// k1 … k6 of the angle's polynomial (COLMAP RAD_TAN_THIN_PRISM_FISHEYE, Aria Fisheye624). Default: 0.
         optional k: Placed<[Placed<f64>; 6]> = exactly(number(""));
-        /// Radial coefficients in the fisheye plane, before p and s: x (1 + k1 r² + k2 r⁴ + k3 r⁶ + k4 r⁸) (COLMAP's THIN_PRISM_FISHEYE). Default: 0.
+        /// Radial k1 … k4 in the fisheye plane, before p and s (COLMAP THIN_PRISM_FISHEYE). Default: 0.
         optional plane_k: Placed<[Placed<f64>; 4]> = exactly(number(""));
-        /// p1, p2 in OpenCV's order. Default: 0.
+        /// p1, p2 (OpenCV). Default: 0.
         optional p: Placed<[Placed<f64>; 2]> = exactly(number(""));
         /// s1, s2 (x, by r² and r⁴), s3, s4 (y). Default: 0.
         optional s: Placed<[Placed<f64>; 4]> = exactly(number(""));
@@ -193,9 +192,9 @@ record! {
     pub struct Unified {
         /// Camera matrix.
         inside matrix: Matrix;
-        /// ξ, 0 or more.
+        /// ξ.
         required xi: Placed<f64> = number("").at_least(0.0);
-        /// k1, k2, p1, p2. Default: none.
+        /// k1, k2, p1, p2.
         optional distortion: Placed<[Placed<f64>; 4]> = exactly(number(""));
     }
 }
@@ -205,9 +204,9 @@ record! {
     pub struct ExtendedUnified {
         /// Camera matrix.
         inside matrix: Matrix;
-        /// α, 0 … 1.
+        /// α.
         required alpha: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// β, above 0.
+        /// β.
         required beta: Placed<f64> = number("").above(0.0);
     }
 }
@@ -219,7 +218,7 @@ record! {
         inside matrix: Matrix;
         /// ξ, between −1 and 1.
         required xi: Placed<f64> = number("");
-        /// α, 0 … 1.
+        /// α.
         required alpha: Placed<f64> = number("").at_least(0.0).at_most(1.0);
     }
 }
@@ -257,7 +256,7 @@ record! {
         required polynomial: Vec<Placed<f64>> = list(number(""), 1);
         /// Direction of the mapping.
         required maps: Placed<FThetaSense> = choice();
-        /// Largest field angle of the polynomial, degrees, above 0 and at most 180.
+        /// Largest field angle of the polynomial.
         required greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
         /// The affine map.
         inside stretch: Stretch;
@@ -281,9 +280,9 @@ record! {
         inside centre: Centre;
         /// Source of the points.
         inside source: TableSource;
-        /// With "angle_deg": the radius on the sensor at each angle, mm, rising from above 0.
+        /// With "angle_deg": rising radii on the sensor.
         optional radius_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 2);
-        /// With "file": focal length to which its distortion refers, mm, above 0. Default: that of the file.
+        /// With "file": focal length of its distortion. Default: the file's.
         optional focal_length_mm: Placed<f64> = number("mm").above(0.0);
     }
 }
@@ -291,9 +290,9 @@ record! {
 keyed! {
     /// Source of a projection table.
     pub enum TableSource {
-        /// Zemax's "Field Curvature/Distortion" exported as text, its fields in degrees.
+        /// Zemax "Field Curvature/Distortion" text, fields in degrees.
         file => File(Placed<PathBuf>) = path(&["txt"]);
-        /// Field angles, degrees, rising from above 0; the axis is not among them.
+        /// Rising field angles, without the axis.
         angle_deg => Angles(Vec<Placed<f64>>) = list(number("degrees").above(0.0).at_most(180.0), 2);
     }
 }

@@ -14,7 +14,7 @@ record! {
         required file: Placed<PathBuf> = path(&["json"]);
         /// Position of the sensor.
         inside sensor: SensorPlace;
-        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
+        /// Transmittance. Default: 1.
         optional transmittance: Placed<f64> = share();
     }
 }
@@ -22,9 +22,9 @@ record! {
 keyed! {
     /// Position of the sensor.
     pub enum SensorPlace {
-        /// Distance from the entrance pupil of the point in best focus on the axis, m, above 0, or "infinity".
+        /// Distance from the entrance pupil to the point in best focus on the axis.
         focus_distance_m => Focus(FocusDistance) = focus_distance();
-        /// Distance from the last surface to the sensor, mm, above 0 and beyond the input plane of the file (ISET's "filmdistance").
+        /// Distance from the last surface to the sensor (ISET's "filmdistance"), beyond the file's input plane.
         sensor_distance_mm => Distance(Placed<f64>) = number("mm").above(0.0);
     }
 }

@@ -7,11 +7,11 @@ use crate::reader::{number, record};
 record! {
     /// A parallel (orthographic) camera.
     pub struct Telecentric {
-        /// Width of the field of view in the scene, m, above 0.
+        /// Width of the field of view in the scene.
         required field_width_m: Placed<f64> = number("m").above(0.0);
-        /// f-number on the sensor's side, 0.5 or more; it sets the irradiance.
+        /// f-number on the sensor's side; sets the irradiance.
         required f_number: Placed<f64> = f_number();
-        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
+        /// Transmittance. Default: 1.
         optional transmittance: Placed<f64> = share();
     }
 }

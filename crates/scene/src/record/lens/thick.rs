@@ -10,32 +10,32 @@ use crate::reader::{choice, number, record, words};
 record! {
     /// A thick lens. Positions are along the axis towards the sensor, from the front principal plane.
     pub struct Thick {
-        /// Focal length, mm, above 0.
+        /// Focal length.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the diameter of the entrance pupil, 0.5 or more.
+        /// Focal length over the entrance pupil's diameter.
         required f_number: Placed<f64> = f_number();
-        /// Distance from the entrance pupil to the plane in focus, m, beyond the focal length, or "infinity".
+        /// Distance from the entrance pupil to the plane in focus, beyond the focal length.
         required focus_distance_m: FocusDistance = focus_distance();
-        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
+        /// Transmittance. Default: 1.
         optional transmittance: Placed<f64> = share();
-        /// Distortion. Default: none.
+        /// Distortion.
         optional distortion: Distortion = record();
-        /// Lateral colour: image size by wavelength. Default: equal for all wavelengths.
+        /// Image size by wavelength. Default: equal.
         optional lateral_colour: LateralColour = record();
-        /// Position of the rear principal plane, from the front principal plane, mm; may be negative. Default: 0.
+        /// Position of the rear principal plane from the front one. Default: 0.
         optional principal_separation_mm: Placed<f64> = number("mm");
-        /// Position of the entrance pupil, from the front principal plane, mm; negative is towards the scene. One statement about the pupils fixes
-        /// the others; several must agree. Default: the pupils lie in the principal planes.
+        /// Position of the entrance pupil from the front principal plane, negative towards the scene. The pupil keys must agree. Default: pupils in the
+        /// principal planes.
         optional entrance_pupil_mm: Placed<f64> = number("mm");
-        /// Position of the exit pupil, from the front principal plane, mm. See "entrance_pupil_mm".
+        /// Position of the exit pupil from the front principal plane; see "entrance_pupil_mm".
         optional exit_pupil_mm: Placed<f64> = number("mm");
-        /// Diameter of the exit pupil over that of the entrance pupil, above 0. See "entrance_pupil_mm".
+        /// Exit pupil's diameter over the entrance pupil's; see "entrance_pupil_mm".
         optional pupil_magnification: Placed<f64> = number("").above(0.0);
         /// Pupil whose area is constant over the field.
         required constant_pupil: Placed<Pupil> = choice();
-        /// Clear aperture in front of the pupil. Default: none.
+        /// Aperture in front of the pupil.
         optional front_aperture: Rim = record();
-        /// Clear aperture behind the pupil. Default: none.
+        /// Aperture behind the pupil.
         optional rear_aperture: Rim = record();
     }
 }
@@ -53,9 +53,9 @@ words! {
 record! {
     /// A round clear aperture.
     pub struct Rim {
-        /// Position along the axis, from the front principal plane, mm.
+        /// Position from the front principal plane.
         required position_mm: Placed<f64> = number("mm");
-        /// Radius, mm, above 0.
+        /// Radius.
         required radius_mm: Placed<f64> = number("mm").above(0.0);
     }
 }

@@ -10,17 +10,17 @@ use crate::reader::record;
 record! {
     /// A thin lens.
     pub struct Thin {
-        /// Focal length, mm, above 0.
+        /// Focal length.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the diameter of the pupil, 0.5 or more.
+        /// Focal length over the pupil's diameter.
         required f_number: Placed<f64> = f_number();
-        /// Distance from the entrance pupil to the plane in focus, m, beyond the focal length, or "infinity".
+        /// Distance from the entrance pupil to the plane in focus, beyond the focal length.
         required focus_distance_m: FocusDistance = focus_distance();
-        /// Transmittance of the lens, above 0 and at most 1. Default: 1.
+        /// Transmittance. Default: 1.
         optional transmittance: Placed<f64> = share();
-        /// Distortion. Default: none.
+        /// Distortion.
         optional distortion: Distortion = record();
-        /// Lateral colour: image size by wavelength. Default: equal for all wavelengths.
+        /// Image size by wavelength. Default: equal.
         optional lateral_colour: LateralColour = record();
     }
 }

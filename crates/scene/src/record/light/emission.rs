@@ -13,14 +13,13 @@ use etendue_spectra::illuminant;
 keyed! {
     /// Strength of the emission of a surface or of the sky.
     pub enum Level {
-        /// Luminance, cd/m², 0 or more; one of "illuminant", "temperature_k", "rgb", "spectrum" gives the colour.
+        /// Luminance; colour by one of "illuminant", "temperature_k", "rgb", "spectrum".
         luminance_cd_m2 => Luminance(Placed<f64>) = number("cd/m²").at_least(0.0);
-        /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, 0 or more: a number (constant over wavelength) or `{ spectrum = file }`.
+        /// Spectral radiance.
         radiance_w_m2_sr_nm => Radiance(Curve) = curve(number("W·m⁻²·sr⁻¹·nm⁻¹").at_least(0.0));
-        /// Luminous flux, lm, 0 or more, of each object, from all its surfaces of this material together. Only for surfaces without a texture on
-        /// their light, not for an environment, which has no area. The colour is given as for a luminance.
+        /// Luminous flux of each object's untextured surfaces of this material; not for an environment.
         luminous_flux_lm => LuminousFlux(Placed<f64>) = number("lm").at_least(0.0);
-        /// Radiant flux over all wavelengths (300 to 1 100 nm), W, 0 or more, of each object, like the luminous flux.
+        /// Radiant flux, 300 to 1 100 nm, like the luminous flux.
         radiant_flux_w => RadiantFlux(Placed<f64>) = number("W").at_least(0.0);
     }
 }
@@ -40,13 +39,13 @@ impl Level {
 keyed! {
     /// The relative spectrum of a light.
     pub enum LightColour {
-        /// A tabulated illuminant or lamp, or "solar", the direct sunlight of ASTM G-173.
+        /// Tabulated illuminant or lamp; "solar" is ASTM G-173 sunlight.
         illuminant => Illuminant(Placed<String>) = illuminants();
-        /// Black-body temperature, K, 500 to 20 000.
+        /// Black-body temperature.
         temperature_k => Temperature(Placed<f64>) = number("K").at_least(500.0).at_most(20_000.0);
-        /// Chromaticity as linear sRGB, converted to a smooth spectrum; only ratios count, not all may be 0.
+        /// Chromaticity, linear sRGB; not all 0.
         rgb => Rgb(Placed<[f64; 3]>) = vector::<3>(number("").at_least(0.0));
-        /// A table of two columns, wavelength in nm and relative power.
+        /// Two columns: wavelength in nm, relative power.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
     }
 }

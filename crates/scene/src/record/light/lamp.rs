@@ -22,11 +22,11 @@ record! {
         inside strength: LampStrength;
         /// Colour.
         inside colour: LightColour;
-        /// An image that shapes the light, projected along the lamp's +x axis. Default: none.
+        /// Image projected along +x that shapes the light.
         optional mask: Mask = record();
-        /// Luminous surface of the lamp. Default: none, a point, which casts sharp shadows and is not visible itself.
+        /// Luminous surface. Default: an invisible point.
         optional opening: LampOpening = record();
-        /// Variation of its strength over time. Default: constant.
+        /// Strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
@@ -42,16 +42,15 @@ record! {
         inside strength: LampStrength;
         /// Colour.
         inside colour: LightColour;
-        /// Full angle of the cone outside which there is no light, degrees, above 0 and at most 360.
+        /// Full angle of the cone.
         required field_angle_deg: Placed<f64> = number("°").above(0.0).at_most(360.0);
-        /// Full angle of the cone of constant intensity, degrees, 0 up to the field angle; the intensity falls smoothly between the two. Default: the
-        /// field angle, a sharp edge.
+        /// Full angle of constant intensity, falling smoothly to the field angle. Default: the field angle.
         optional inner_angle_deg: Placed<f64> = number("°").at_least(0.0).at_most(360.0);
-        /// An image that shapes the light, projected along the lamp's +x axis. Default: none.
+        /// Image projected along +x that shapes the light.
         optional mask: Mask = record();
-        /// Luminous surface of the lamp. Default: none, a point, which casts sharp shadows and is not visible itself.
+        /// Luminous surface. Default: an invisible point.
         optional opening: LampOpening = record();
-        /// Variation of its strength over time. Default: constant.
+        /// Strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
@@ -70,11 +69,11 @@ record! {
         group strength: MeasuredStrength;
         /// Colour; the file does not contain it.
         inside colour: LightColour;
-        /// An image that shapes the light, projected along the lamp's +x axis. Not for photometry of type C, which shines down. Default: none.
+        /// Image projected along +x that shapes the light; not for photometry of type C.
         optional mask: Mask = record();
-        /// Luminous surface of the lamp. Default: none, a point, which casts sharp shadows and is not visible itself.
+        /// Luminous surface. Default: an invisible point.
         optional opening: LampOpening = record();
-        /// Variation of its strength over time. Default: constant.
+        /// Strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
@@ -86,9 +85,9 @@ record! {
         required name: Placed<String> = text("the name of the light");
         /// Beam.
         required beam: Placed<Beam> = choice();
-        /// With beam = "low_beam": side of the road on which traffic drives; the cut-off rises towards it.
+        /// For "low_beam": side of the road of the traffic, towards which the cut-off rises.
         optional traffic: Placed<Traffic> = choice();
-        /// Downward tilt of the lamp in its frame, degrees, −10 … 10, in addition to the dip of the beam itself. Default: 0.
+        /// Downward tilt besides the beam's own dip. Default: 0.
         optional aim_down_deg: Placed<f64> = number("°").at_least(-10.0).at_most(10.0);
         /// Position and direction.
         inside placement: LampPlacement;
@@ -96,11 +95,11 @@ record! {
         group strength: MeasuredStrength;
         /// Colour.
         inside colour: LightColour;
-        /// An image that shapes the light, projected along the lamp's +x axis. Default: none.
+        /// Image projected along +x that shapes the light.
         optional mask: Mask = record();
-        /// Luminous surface of the lamp. Default: none, a point, which casts sharp shadows and is not visible itself.
+        /// Luminous surface. Default: an invisible point.
         optional opening: LampOpening = record();
-        /// Variation of its strength over time. Default: constant.
+        /// Strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }
@@ -129,9 +128,9 @@ record! {
     /// An image in front of a lamp that shapes its light. Its middle is projected along the lamp's +x axis, its left column to the lamp's left (+y),
     /// its top row up.
     pub struct Mask {
-        /// The image, whose luminance is the transmittance; 0 … 1, or more in an HDR image. PNG and JPEG are read as sRGB-encoded.
+        /// Image whose luminance is the transmittance (PNG, JPEG: sRGB-encoded; HDR may exceed 1).
         required file: Placed<PathBuf> = path(&["png", "jpg", "jpeg", "hdr", "exr"]);
-        /// Full angles covered by the image's width and height, degrees, above 0 and at most 179 (a plane image, projected). No light falls outside.
+        /// Full angles of the image's width and height; no light falls outside.
         required field_deg: Placed<[f64; 2]> = vector::<2>(number("°").above(0.0).at_most(179.0));
     }
 }

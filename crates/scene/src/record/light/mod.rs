@@ -29,9 +29,9 @@ variants! {
         "point" => Point(PointLamp),
         /// A lamp with a cone of light about its +x axis.
         "spot" => Spot(SpotLamp),
-        /// A lamp with measured intensities: an IES LM-63 or EULUMDAT file.
+        /// A lamp with measured intensities (IES LM-63, EULUMDAT).
         "measured" => Measured(MeasuredLamp),
-        /// Low or high beam of a headlamp, modelled on the test points of UN R149; the lamp's +x axis points forward.
+        /// Low or high beam by the test points of UN R149; +x points forward.
         "head_lamp" => HeadLamp(HeadLamp),
     }
 }

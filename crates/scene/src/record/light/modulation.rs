@@ -16,15 +16,15 @@ variants! {
     /// Modulation: variation of a light's strength over time. With "pwm" and "mains" the stated strength is the mean over time, as a photometer reads
     /// it; with the others it is that of level 1.
     pub enum Modulation by "type" {
-        /// Pulse-width modulation. The strength is the mean of the pulses, so that a pulse is stronger by 1 / "duty_cycle".
+        /// Pulse-width modulation with the stated mean: a pulse is 1/"duty_cycle" times stronger.
         "pwm" => Pwm(PwmModulation),
-        /// A lamp on alternating current: 1 + m cos(2π · 2f t) about the stated strength, brightest at time 0.
+        /// Alternating current: 1 + m cos(2π · 2f t) about the stated strength.
         "mains" => Mains(MainsModulation),
-        /// On at the stated strength and off, such as a car's indicator.
+        /// On at the stated strength, and off, such as an indicator.
         "blink" => Blink(BlinkModulation),
         /// Levels at stated times, from a file or inline.
         "table" => Table(TableModulation),
-        /// Steps with durations, in sequence from time 0, such as those of a traffic light.
+        /// Steps with durations from time 0, such as a traffic light.
         "programme" => Programme(ProgrammeModulation),
     }
 }
@@ -32,16 +32,15 @@ variants! {
 record! {
     /// Pulse-width modulation.
     pub struct PwmModulation check(check_pwm) {
-        /// Pulse frequency, Hz, above 0.
+        /// Pulse frequency.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e9);
-        /// Duty cycle: fraction of the period that a pulse lasts, between its half heights, 0.000001 … 0.999999.
+        /// Duty cycle, between half heights.
         required duty_cycle: Placed<f64> = number("").at_least(1e-6).at_most(0.999_999);
-        /// Rise time of a pulse, s, 0 or more: linear, half of it within the pulse. Default: 0.
+        /// Linear rise time, half of it within the pulse. Default: 0.
         optional rise_s: Placed<f64> = number("s").at_least(0.0);
-        /// Fall time, s, 0 or more. Default: 0.
+        /// Fall time. Default: 0.
         optional fall_s: Placed<f64> = number("s").at_least(0.0);
-        /// For a surface: number of panel rows with pulses in sequence, from the top of the texture coordinates (v = 1) down, each delayed by an
-        /// equal part of the period, 2 … 4096. Default: the whole surface at once.
+        /// For a surface: panel rows pulsed in sequence, top (v = 1) to bottom. Default: all at once.
         optional multiplexed_rows: Placed<u64> = whole(2, 4096);
         /// Delay and phases.
         inside timing: Recurring;
@@ -51,10 +50,9 @@ record! {
 record! {
     /// A lamp on alternating current.
     pub struct MainsModulation {
-        /// Mains frequency, Hz, above 0; the light has twice that frequency.
+        /// Mains frequency; the light has twice that.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e6);
-        /// Modulation depth m, (greatest − least) / (greatest + least), above 0 and at most 1: about 0.1 for filament lamps, 0.3 to 1 for discharge
-        /// lamps and simple LED lamps.
+        /// Modulation depth m, (max − min)/(max + min): about 0.1 for filament lamps, 0.3 to 1 for discharge and simple LED lamps.
         required modulation_depth: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Delay and phases.
         inside timing: Recurring;
@@ -64,13 +62,13 @@ record! {
 record! {
     /// On and off.
     pub struct BlinkModulation check(check_blink) {
-        /// Blink frequency, Hz, above 0.
+        /// Blink frequency.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e9);
-        /// Fraction of the period that the light is on, between half heights, 0.000001 … 0.999999. Default: 0.5.
+        /// Fraction of the period that is on, between half heights. Default: 0.5.
         optional on_fraction: Placed<f64> = number("").at_least(1e-6).at_most(0.999_999);
-        /// Rise time, s, 0 or more: linear, half of it within the on-time. Default: 0.
+        /// Linear rise time, half of it within the on-time. Default: 0.
         optional rise_s: Placed<f64> = number("s").at_least(0.0);
-        /// Fall time, s, 0 or more. Default: 0.
+        /// Fall time. Default: 0.
         optional fall_s: Placed<f64> = number("s").at_least(0.0);
         /// Delay and phases.
         inside timing: Recurring;
@@ -82,10 +80,9 @@ record! {
     pub struct TableModulation check(check_table) {
         /// The levels.
         inside rows: TableRows;
-        /// Interpolation between the rows. Default: "linear".
+        /// Interpolation between rows. Default: "linear".
         optional interpolation: Placed<Interpolation> = choice();
-        /// Period of repetition, s, above 0: at least the time from the first row to the last, more with steps. Default: no repetition; the first
-        /// level holds before the first row, the last after the last row.
+        /// Period, at least the table's duration, more with steps. Default: no repetition, the end levels hold.
         optional period_s: Placed<f64> = number("s").above(0.0);
         /// Delay and phases.
         inside timing: Recurring;
@@ -95,9 +92,9 @@ record! {
 keyed! {
     /// Source of the levels.
     pub enum TableRows {
-        /// Rows [time in s, level], the times rising, levels 0 … 1 000 000.
+        /// Rows of rising time (s) and level (0 … 1 000 000).
         points => Points(Vec<Placed<[f64; 2]>>) = list(vector::<2>(number("")), 2);
-        /// A table of two columns, time in s (rising) and level (0 … 1 000 000).
+        /// Two columns: rising time in s, level (0 … 1 000 000).
         file => File(Placed<PathBuf>) = path(&["csv"]);
     }
 }
@@ -117,7 +114,7 @@ record! {
     pub struct ProgrammeModulation check(check_programme) {
         /// The steps.
         many steps: Step = list(record(), 1);
-        /// Repeats after the last step. Otherwise the last level holds afterwards, and the first before the start. Default: true.
+        /// Repeats after the last step; otherwise the end levels hold. Default: true.
         optional repeats: Placed<bool> = flag();
         /// Delay and phases.
         inside timing: Recurring;
@@ -127,9 +124,9 @@ record! {
 record! {
     /// One step of a programme.
     pub struct Step {
-        /// Factor on the stated strength, 0 … 1 000 000.
+        /// Factor on the stated strength.
         required level: Placed<f64> = level();
-        /// Duration, s, above 0.
+        /// Duration.
         required duration_s: Placed<f64> = number("s").above(0.0);
     }
 }
@@ -137,9 +134,9 @@ record! {
 record! {
     /// Delay and phases of a modulation.
     pub struct Recurring {
-        /// Delay of the modulation, s. Default: 0.
+        /// Delay. Default: 0.
         optional delay_s: Placed<ExactTime> = time();
-        /// Phases of the light's instances (or of the objects of its material): "common" to all, or "random". Default: "common".
+        /// Phases of the instances. Default: "common".
         optional phases: Placed<Phases> = choice();
     }
 }

@@ -12,13 +12,13 @@ variants! {
     pub enum LampOpening by "shape" {
         /// A sphere.
         "sphere" => Sphere(SphereOpening),
-        /// A disc: a regular polygon of 48 sides with the area of the disc.
+        /// A disc: a 48-sided polygon of equal area.
         "disc" => Disc(DiscOpening),
         /// A rectangle.
         "rectangle" => Rectangle(RectangleOpening),
-        /// A cylinder that emits from its side and ends, along the lamp's y axis (to the left): a prism of 48 sides.
+        /// A cylinder along y that emits from side and ends: a prism of 48 sides.
         "tube" => Tube(TubeOpening),
-        /// With type = "measured": the opening stated in the file of the intensities.
+        /// For "measured": the opening in the file of intensities.
         "file" => File(FileOpening),
     }
 }
@@ -26,7 +26,7 @@ variants! {
 record! {
     /// A sphere.
     pub struct SphereOpening {
-        /// Radius, m, 0.0001 … 50.
+        /// Radius.
         required radius_m: Placed<f64> = radius();
     }
 }
@@ -34,7 +34,7 @@ record! {
 record! {
     /// A disc.
     pub struct DiscOpening {
-        /// Radius, m, 0.0001 … 50.
+        /// Radius.
         required radius_m: Placed<f64> = radius();
     }
 }
@@ -42,9 +42,9 @@ record! {
 record! {
     /// A rectangle.
     pub struct RectangleOpening {
-        /// Extent along the lamp's y axis, m, 0.0001 … 100.
+        /// Extent along the lamp's y axis.
         required width_m: Placed<f64> = side();
-        /// Extent along the lamp's z axis, m, 0.0001 … 100; along x for photometry in C planes.
+        /// Extent along the lamp's z axis; x for photometry in C planes.
         required height_m: Placed<f64> = side();
     }
 }
@@ -52,9 +52,9 @@ record! {
 record! {
     /// A cylinder.
     pub struct TubeOpening {
-        /// Extent along the lamp's y axis, m, 0.0001 … 100.
+        /// Extent along the lamp's y axis.
         required length_m: Placed<f64> = side();
-        /// Radius, m, 0.0001 … 50.
+        /// Radius.
         required radius_m: Placed<f64> = radius();
     }
 }

@@ -13,20 +13,19 @@ use crate::record::transform::yaw_pitch_roll;
 record! {
     /// Position and direction of a lamp, with one or more instances.
     pub struct LampPlacement check(check) {
-        /// Position in the world, m, of a lamp with one instance.
+        /// World position of a single instance.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Direction, of a lamp with one instance. Default: no rotation.
         group aim: LampAim;
-        /// Instances of the lamp.
+        /// Instances.
         many instances: LampInstance = list(record(), 1);
-        /// Positions over time; one key is stationary.
+        /// Positions over time.
         many keys: LampKey = list(record(), 1);
         /// Motion.
         group course: Course;
-        /// Frame in which it is placed, and with which it moves; positions and targets are relative to it. Default: the world.
+        /// Frame of its positions and targets. Default: the world.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// Attenuation coefficient a of Gruyer, Grapinet, De Souza (2012), 1/m, 0 or more: a factor 1 / (1 + a·distance) in addition to the law of
-        /// 1/d². Default: 0, as in clear air.
+        /// Coefficient a of a factor 1/(1 + a·distance). Default: 0.
         optional attenuation_per_m: Placed<f64> = number("1/m").at_least(0.0);
     }
 }
@@ -36,13 +35,13 @@ record! {
     pub struct LampInstance check(check_instance) {
         /// Name of the instance. Default: the lamp's name and a number.
         optional name: Placed<String> = text("the name of the instance");
-        /// Frame in which it is placed, and with which it moves. Default: the lamp's.
+        /// Frame. Default: the lamp's.
         optional frame: Placed<String> = name_of(Named::Frame);
-        /// Position in the world, m.
+        /// Position in the world.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Direction. Default: no rotation.
         group aim: LampAim;
-        /// Delay of the lamp's "modulation" at this instance, s, added to its own delay. Default: 0.
+        /// Delay added to the lamp's "modulation". Default: 0.
         optional modulation_delay_s: Placed<f64> = number("s");
     }
 }
@@ -50,9 +49,9 @@ record! {
 record! {
     /// Position of a lamp at a time.
     pub struct LampKey check(check_key) {
-        /// Simulated time, s.
+        /// Simulated time.
         required time_s: Placed<ExactTime> = time();
-        /// Position in the world, m.
+        /// Position in the world.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Direction. Default: no rotation.
         group aim: LampAim;
@@ -62,10 +61,9 @@ record! {
 keyed! {
     /// Direction of a lamp.
     pub enum LampAim {
-        /// Yaw, pitch and roll, degrees, as for objects. At 0, 0, 0 the lamp's axes are the world's.
+        /// Yaw, pitch and roll; at 0 the lamp's axes are the world's.
         rotation_deg => Rotation(Placed<[f64; 3]>) = vector::<3>(number("°"));
-        /// Point in the world, m, at which the lamp's main direction aims: its +x axis, or the downward axis (γ = 0) for photometry in C planes. Its
-        /// y axis stays level.
+        /// World point at which +x (γ = 0 in C planes) aims; y stays level.
         target_m => Target(Placed<[f64; 3]>) = vector::<3>(number("m"));
     }
 }

@@ -10,19 +10,17 @@ record! {
     pub struct Sun check(check) {
         /// Name of the light.
         required name: Placed<String> = text("the name of the light");
-        /// Elevation of its centre above the horizon, degrees, −90 … 90.
+        /// Elevation of its centre.
         required elevation_deg: Placed<f64> = number("°").at_least(-90.0).at_most(90.0);
-        /// Azimuth of its centre, degrees from +x (forward) towards +y (left), −360 … 360.
+        /// Azimuth of its centre, from +x towards +y.
         required azimuth_deg: Placed<f64> = number("°").at_least(-360.0).at_most(360.0);
         /// Strength.
         inside level: SunLevel;
         /// Colour; given already by "turbidity".
         group colour: LightColour;
-        /// Diameter of the disc, degrees, above 0 and at most 20. The stated irradiance does not change; the disc's radiance follows. Default:
-        /// 0.5338.
+        /// Diameter of the disc, at constant irradiance. Default: 0.5338.
         optional angular_diameter_deg: Placed<f64> = number("°").above(0.0).at_most(20.0);
-        /// Limb darkening: the disc is darker and redder towards its edge (Hosek and Wilkie 2013). The stated irradiance does not change. Default:
-        /// true with "turbidity", else false.
+        /// Limb darkening (Hosek and Wilkie 2013), at constant irradiance. Default: true with "turbidity", else false.
         optional limb_darkening: Placed<bool> = flag();
     }
 }
@@ -30,11 +28,11 @@ record! {
 keyed! {
     /// Strength of the sunlight, on a plane perpendicular to the beam.
     pub enum SunLevel {
-        /// Irradiance normal to the beam, summed over 300 … 1 100 nm, W/m², 0 or more.
+        /// Normal irradiance, 300 … 1 100 nm.
         irradiance_w_m2 => Irradiance(Placed<f64>) = number("W/m²").at_least(0.0);
-        /// Illuminance normal to the beam, lx, 0 or more.
+        /// Normal illuminance.
         illuminance_lx => Illuminance(Placed<f64>) = number("lx").at_least(0.0);
-        /// Strength and colour by the solar model of Hosek and Wilkie (2013) through air of this turbidity, 1 … 10; the elevation must be above 0.
+        /// Turbidity of the solar model of Hosek and Wilkie (2013), for elevations above 0.
         turbidity => Turbidity(Placed<f64>) = number("").at_least(1.0).at_most(10.0);
     }
 }

@@ -17,11 +17,11 @@ pub enum Factor {
 record! {
     /// A number from an image.
     pub struct FactorTexture {
-        /// The name of a texture.
+        /// Name of a texture.
         required texture: Placed<String> = name_of(Named::Texture);
-        /// Channel of the image. Default: "luminance", which of a grey image is its grey value.
+        /// Channel. Default: "luminance".
         optional channel: Placed<Channel> = choice();
-        /// Factor on the values, above 0 and at most 1. Default: 1.
+        /// Factor on the values. Default: 1.
         optional scale: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
@@ -45,11 +45,11 @@ words! {
 record! {
     /// Normals from an image: (r, g, b) = 0 … 1 is the vector (2r − 1, 2g − 1, 2b − 1) along u, v and the normal.
     pub struct NormalMap {
-        /// The name of a texture with encoding = "data".
+        /// Texture with encoding = "data".
         required texture: Placed<String> = name_of(Named::Texture);
-        /// Factor on the slopes, 0 … 10. Default: 1.
+        /// Factor on the slopes. Default: 1.
         optional strength: Placed<f64> = number("").at_least(0.0).at_most(10.0);
-        /// Direction of green in the image: up (OpenGL) or down (DirectX). Default: "up".
+        /// Direction of green: up (OpenGL) or down (DirectX). Default: "up".
         optional y: Placed<Green> = choice();
     }
 }

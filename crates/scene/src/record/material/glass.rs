@@ -12,13 +12,13 @@ use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectanc
 record! {
     /// A solid of glass, water or plastic.
     pub struct Dielectric check(check_dielectric) {
-        /// Refractive index relative to air, 1 … 4; equal at all wavelengths.
+        /// Refractive index, equal at all wavelengths.
         required index: Placed<f64> = any_index();
-        /// Roughness α of the surface's GGX distribution (not its square root), 0 … 1; clear below 0.0001. Default: 0.
+        /// GGX roughness α; clear below 0.0001. Default: 0.
         optional alpha: Factor = any_factor();
         /// Absorption in the volume. Default: none.
         group absorption: Absorption;
-        /// With "internal_transmittance": path length in the substance to which it refers, mm, above 0.
+        /// With "internal_transmittance": its path length.
         optional thickness_mm: Placed<f64> = number("mm").above(0.0);
     }
 }
@@ -33,11 +33,11 @@ impl NamesFiles for Dielectric {
 record! {
     /// A pane.
     pub struct ThinSheet check(check_sheet) {
-        /// Refractive index relative to air, 1 … 4; equal at all wavelengths. Default: 1.5.
+        /// Refractive index, equal at all wavelengths. Default: 1.5.
         optional index: Placed<f64> = any_index();
         /// Absorption in the volume. Default: none.
         group absorption: Absorption;
-        /// With "absorption_per_m": thickness of the pane, mm, above 0.
+        /// With "absorption_per_m": thickness of the pane.
         optional thickness_mm: Placed<f64> = number("mm").above(0.0);
     }
 }
@@ -52,10 +52,9 @@ impl NamesFiles for ThinSheet {
 keyed! {
     /// Absorption of a clear substance.
     pub enum Absorption {
-        /// Absorption coefficient (natural logarithm), 1/m, 0 or more: a number, or `{ spectrum = file }`.
+        /// Absorption coefficient (natural logarithm).
         absorption_per_m => Coefficient(Curve) = curve(number("1/m").at_least(0.0));
-        /// Transmittance of the substance itself, without reflection at its surfaces, above 0 and at most 1: a number, `[r, g, b]` (linear sRGB), `{
-        /// srgb = … }` or `{ spectrum = file }`. For a solid it refers to "thickness_mm", for a thin sheet to the sheet.
+        /// Transmittance without surface reflections, of "thickness_mm" (solid) or of the sheet; lists are linear sRGB.
         internal_transmittance => Transmittance(Colour) = any_colour();
     }
 }
@@ -72,9 +71,9 @@ impl NamesFiles for Absorption {
 record! {
     /// A leaf.
     pub struct Leaf {
-        /// Reflectance, as for "diffuse". Together with "transmittance" at most 1 at every wavelength.
+        /// Reflectance; with "transmittance" at most 1 at every wavelength.
         required reflectance: Reflectance = any_reflectance();
-        /// Transmittance, as for "diffuse".
+        /// Transmittance.
         required transmittance: Reflectance = any_reflectance();
     }
 }

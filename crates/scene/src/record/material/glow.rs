@@ -11,13 +11,11 @@ record! {
     pub struct SurfaceEmission check(check_glow) {
         /// Strength and colour.
         inside light: Emission;
-        /// Sides that emit. The front is the side of the normal: by the winding of triangles, outwards for a box or a sphere, +z for a quad. Default:
-        /// "front".
+        /// Sides that emit; the front is outwards, +z of a quad, or by triangle winding. Default: "front".
         optional sides: Placed<Sides> = choice();
-        /// Name of a texture whose colours are factors on the emission. The stated level holds where the texture is 1, 1, 1, so that an image in
-        /// physical units (HDR, EXR) with level 1 gives its own values. Default: none.
+        /// Texture of factors on the emission; the stated level holds at 1, 1, 1.
         optional texture: Placed<String> = name_of(Named::Texture);
-        /// Variation of its strength over time. Default: constant.
+        /// Strength over time. Default: constant.
         optional modulation: Modulation = record();
     }
 }

@@ -13,7 +13,7 @@ record! {
         required a: Placed<String> = name_of(Named::Material);
         /// Name of the second material.
         required b: Placed<String> = name_of(Named::Material);
-        /// Fraction of the second material, 0 … 1: a number, or `{ texture = name, channel = "r" }`.
+        /// Fraction of the second material.
         required weight: Factor = any_factor();
     }
 }

@@ -30,16 +30,15 @@ use serde_json::json;
 record! {
     /// Optical properties of a surface.
     pub struct Material check(check) {
-        /// Name by which objects refer to it.
+        /// Name.
         required name: Placed<String> = text("the name of the material");
         /// Scattering model.
         inside surface: SurfaceSource;
-        /// Emission of the surface, equal in all directions. Default: none.
+        /// Emission.
         optional emission: SurfaceEmission = record();
-        /// Opacity: fraction of the surface that is present, 0 … 1. Light passes straight through the rest, as through a fence or between leaves; a
-        /// number, or `{ texture = name, channel = "a" }`. Default: 1.
+        /// Fraction of the surface present. Default: 1.
         optional opacity: Factor = any_factor();
-        /// Normal map, finer than the mesh. Default: none.
+        /// Normal map.
         optional normal_map: NormalMap = record();
     }
 }
@@ -63,8 +62,7 @@ impl Record for SurfaceSource {
 
     fn forms() -> Vec<Form> {
         let models = Surface::forms();
-        let about = "A ready material (see the list of presets below). Keys of its type that are given beside it take the place \
-                     of its own.";
+        let about = "A preset of the list below; keys of its type replace its own.";
         let mut preset = Form::only_with("preset", about, json!({ "enum": preset::names() }));
         for key in models.iter().flat_map(|form| &form.keys).filter(|key| key.name != "type") {
             preset = preset.or_with(key);

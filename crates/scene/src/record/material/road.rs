@@ -16,13 +16,11 @@ record! {
         inside table: SheetingTable;
         /// With "class": colour of the sheeting. Default: "white".
         optional colour: Placed<SheetingColour> = choice();
-        /// With "r_a_table": diffuse reflectance by day: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`.
+        /// With "r_a_table": diffuse reflectance by day.
         optional reflectance: Colour = any_colour();
-        /// With "r_a_table": colour of the retro-reflected light; only its relative spectrum counts, and the table refers to this colour. Default:
-        /// white.
+        /// With "r_a_table": relative spectrum of the retro-reflected light. Default: white.
         optional retro_colour: Colour = any_colour();
-        /// Transparent ink printed on white sheeting, as for the reflectance of "diffuse": its transmittance by day and by night. A texture makes it
-        /// a sign. Default: none.
+        /// Transmittance of transparent ink on white sheeting.
         optional print: Reflectance = any_reflectance();
     }
 }
@@ -40,10 +38,9 @@ impl NamesFiles for Sheeting {
 keyed! {
     /// Coefficients of retro-reflection R_A.
     pub enum SheetingTable {
-        /// Minimum values of a standard; new sheeting has about one and a half times as much.
+        /// Minimum values of a standard; new sheeting has about 1.5 times as much.
         class => Class(Placed<SheetingClass>) = choice();
-        /// A measured table: coefficients in cd·lx⁻¹·m⁻² by observation and entrance angle, CSV: a row of entrance angles (degrees) after a first
-        /// field, then rows of an observation angle (degrees) and its coefficients.
+        /// Measured R_A, cd·lx⁻¹·m⁻²: CSV, entrance angles after one field, then rows of observation angle and coefficients (degrees).
         r_a_table => File(Placed<PathBuf>) = path(&["csv"]);
     }
 }
@@ -92,11 +89,9 @@ record! {
         inside night: MarkingNight;
         /// Brightness by day.
         inside day: MarkingDay;
-        /// Colour, of which only the relative spectrum counts: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`. Default:
-        /// white.
+        /// Relative spectrum of the colour. Default: white.
         optional colour: Colour = any_colour();
-        /// Angle from the direction back to the light at which the retro-reflected light falls to a quarter, degrees, 0.5 … 30. Default: 3, an
-        /// assumption.
+        /// Angle at which retro-reflected light falls to a quarter. Default: 3, an assumption.
         optional spread_deg: Placed<f64> = number("°").at_least(0.5).at_most(30.0);
     }
 }
@@ -111,9 +106,9 @@ impl NamesFiles for RoadMarking {
 keyed! {
     /// The coefficient of retro-reflected luminance R_L at the 30 m geometry of EN 1436.
     pub enum MarkingNight {
-        /// R_L, mcd·m⁻²·lx⁻¹, 0 or more.
+        /// R_L.
         r_l_mcd_m2_lx => Coefficient(Placed<f64>) = number("mcd·m⁻²·lx⁻¹").at_least(0.0);
-        /// Minimum of a class of EN 1436.
+        /// Minimum R_L of a class of EN 1436.
         class => Class(Placed<MarkingClass>) = choice();
     }
 }
@@ -121,9 +116,9 @@ keyed! {
 keyed! {
     /// Brightness of a marking by day.
     pub enum MarkingDay {
-        /// Luminance coefficient under diffuse light Q_d, mcd·m⁻²·lx⁻¹, 0 … 318.
+        /// Luminance coefficient under diffuse light Q_d.
         q_d_mcd_m2_lx => Qd(Placed<f64>) = number("mcd·m⁻²·lx⁻¹").at_least(0.0).at_most(318.0);
-        /// Luminance factor β, 0 … 1.
+        /// Luminance factor β.
         luminance_factor => LuminanceFactor(Placed<f64>) = number("").at_least(0.0).at_most(1.0);
     }
 }

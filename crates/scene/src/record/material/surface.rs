@@ -44,13 +44,13 @@ surfaces! {
     "conductor" => Conductor,
     /// A diffuse base under a clear dielectric coat.
     "coated" => Coated,
-    /// Ground under a film of water, with puddles in its low parts: darker, and mirror-like at grazing angles.
+    /// Ground under a film of water, with puddles in its low parts.
     "wet_ground" => WetGround,
-    /// Cook and Torrance's model: microfacets of any refractive index, with nothing below them.
+    /// Cook and Torrance: microfacets of any refractive index, without a base.
     "cook_torrance" => CookTorrance,
-    /// Lafortune's model: a diffuse base with generalised cosine lobes.
+    /// Lafortune: a diffuse base with generalised cosine lobes.
     "lafortune" => Lafortune,
-    /// Blinn and Phong's model: a diffuse base with a glossy lobe.
+    /// Blinn and Phong: a diffuse base with a glossy lobe.
     "blinn_phong" => BlinnPhong,
     /// Metallic car paint: flakes in pigment under a clear coat.
     "car_paint" => CarPaint,
@@ -60,11 +60,11 @@ surfaces! {
     "retro_sheeting" => Sheeting,
     /// A road marking with glass beads.
     "road_marking" => RoadMarking,
-    /// Clear or tinted glass or water as a solid with two sides: refracts, and absorbs inside. The mesh must be closed.
+    /// Clear or tinted glass or water as a solid; the mesh must be closed.
     "dielectric" => Dielectric,
-    /// A pane without thickness of its own: reflects and transmits light straight through, with all internal reflections.
+    /// A pane without thickness, with all internal reflections.
     "thin_sheet" => ThinSheet,
-    /// A leaf: reflects diffusely on the lit side and transmits diffusely to the other, both Lambertian.
+    /// A leaf: Lambertian reflection and transmission.
     "leaf" => Leaf,
     /// Two other materials side by side, finer than visible.
     "mix" => Mix,
@@ -75,7 +75,7 @@ surfaces! {
 record! {
     /// Lambertian reflection.
     pub struct Diffuse {
-        /// Reflectance: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`, `{ spectrum = file }` or `{ texture = name, scale = … }`; 0 … 1.
+        /// Reflectance; lists are linear sRGB.
         required reflectance: Reflectance = any_reflectance();
     }
 }
@@ -92,13 +92,11 @@ record! {
     pub struct Conductor {
         /// Metal.
         inside metal: Metal;
-        /// Roughness α of the microfacet distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or `{ texture = name,
-        /// channel = "r" }`.
+        /// Microfacet roughness α (not its square root); a mirror below 0.0001.
         required alpha: Factor = any_factor();
         /// Distribution of microfacet slopes. Default: "ggx".
         optional distribution: Placed<Distribution> = choice();
-        /// Adds light scattered several times between facets (Kulla and Conty 2017). Without it rough metals are too dark, by up to six tenths.
-        /// Default: false.
+        /// Adds scattering between facets (Kulla and Conty 2017); without it rough metals are up to 0.6 too dark. Default: false.
         optional multiple_scattering: Placed<bool> = flag();
     }
 }
@@ -113,9 +111,9 @@ impl NamesFiles for Conductor {
 keyed! {
     /// A metal, by its complex refractive index.
     pub enum Metal {
-        /// A tabulated metal: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
+        /// A tabulated metal.
         metal => Named(Placed<String>) = known("a metal", metal::names());
-        /// A table of three columns: wavelength in nm, n, k (above 0 where it absorbs); constant beyond the table.
+        /// Three columns: wavelength in nm, n, k.
         index_file => File(Placed<PathBuf>) = path(&["csv"]);
     }
 }
@@ -134,12 +132,11 @@ record! {
     pub struct CookTorrance {
         /// Substance.
         inside interface: Interface;
-        /// Roughness α of the microfacet distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or `{ texture = name,
-        /// channel = "r" }`.
+        /// Microfacet roughness α (not its square root); a mirror below 0.0001.
         required alpha: Factor = any_factor();
         /// Distribution of microfacet slopes. Default: "ggx".
         optional distribution: Placed<Distribution> = choice();
-        /// Adds light scattered several times between facets (Kulla and Conty 2017). Without it rough surfaces are too dark. Default: false.
+        /// Adds scattering between facets (Kulla and Conty 2017). Default: false.
         optional multiple_scattering: Placed<bool> = flag();
     }
 }
@@ -154,11 +151,11 @@ impl NamesFiles for CookTorrance {
 keyed! {
     /// Substance of an interface, by its refractive index.
     pub enum Interface {
-        /// A tabulated metal: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
+        /// A tabulated metal.
         metal => Named(Placed<String>) = known("a metal", metal::names());
-        /// A table of three columns: wavelength in nm, n, k; constant beyond the table.
+        /// Three columns: wavelength in nm, n, k.
         index_file => File(Placed<PathBuf>) = path(&["csv"]);
-        /// A real refractive index relative to air, 1 … 4: a number, or `{ spectrum = file }`.
+        /// Real refractive index relative to air.
         index => Index(Curve) = curve(number("").at_least(1.0).at_most(4.0));
     }
 }
@@ -186,12 +183,11 @@ words! {
 record! {
     /// A diffuse base under a dielectric coat with a GGX microfacet distribution.
     pub struct Coated {
-        /// Reflectance of the base, as for "diffuse".
+        /// Reflectance of the base.
         required reflectance: Reflectance = any_reflectance();
-        /// Refractive index of the coat, 1.1 … 4. Default: 1.5.
+        /// Refractive index of the coat. Default: 1.5.
         optional index: Placed<f64> = number("").at_least(*COAT_INDICES.start()).at_most(*COAT_INDICES.end());
-        /// Roughness α of the coat's GGX distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or
-        /// `{ texture = name, channel = "r" }`.
+        /// GGX roughness α of the coat; a mirror below 0.0001.
         required alpha: Factor = any_factor();
     }
 }
@@ -206,9 +202,9 @@ impl NamesFiles for Coated {
 record! {
     /// A diffuse base and up to four cosine lobes, f = k_d/π + Σ w [C_t (wᵢₓ wₒₓ + wᵢ_y wₒ_y) + C_n wᵢ_z wₒ_z]ⁿ.
     pub struct Lafortune {
-        /// Reflectance of the base, as for "diffuse".
+        /// Reflectance of the base.
         required reflectance: Reflectance = any_reflectance();
-        /// The lobes, one to four.
+        /// One to four lobes.
         many lobes: Lobe = list(record(), 1);
     }
 }
@@ -226,7 +222,7 @@ record! {
     pub struct Lobe check(check_lobe) {
         /// Direction.
         inside direction: LobeDirection;
-        /// Exponent n, 0 … 10 000: a larger exponent gives a narrower lobe.
+        /// Exponent n; larger is narrower.
         required exponent: Placed<f64> = number("").at_least(0.0).at_most(1e4);
         /// Strength.
         inside strength: LobeStrength;
@@ -245,8 +241,7 @@ keyed! {
     pub enum LobeDirection {
         /// "mirror" (C_t = −1, C_n = 1) or "retro" (C_t = C_n = 1).
         kind => Kind(Placed<LobeKind>) = choice();
-        /// C_t and C_n: factors along the surface and along the normal. C_t < 0 points to the mirror's side (off-specular where C_n < −C_t), C_t > 0
-        /// back towards the light; C_n at least 0, not both 0.
+        /// C_t and C_n along surface and normal: C_t < 0 mirrors, C_t > 0 points back to the light; C_n at least 0, not both 0.
         factors => Factors(Placed<[f64; 2]>) = vector::<2>(number(""));
     }
 }
@@ -254,9 +249,9 @@ keyed! {
 keyed! {
     /// Strength of a lobe.
     pub enum LobeStrength {
-        /// Albedo of the lobe at normal incidence: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`; needs C_n above 0.
+        /// Albedo of the lobe at normal incidence; needs C_n above 0.
         albedo => Albedo(Colour) = any_colour();
-        /// Weight w, 1/sr, 0 or more: a number, or `{ spectrum = file }`.
+        /// Weight w.
         weight_per_sr => Weight(Curve) = curve(number("1/sr").at_least(0.0));
     }
 }
@@ -283,11 +278,11 @@ words! {
 record! {
     /// A diffuse base and a glossy lobe about the half vector, with its exact normalisation.
     pub struct BlinnPhong {
-        /// Reflectance of the base, as for "diffuse".
+        /// Reflectance of the base.
         required reflectance: Reflectance = any_reflectance();
-        /// Albedo of the lobe at normal incidence: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`.
+        /// Albedo of the lobe at normal incidence.
         required specular: Colour = any_colour();
-        /// Exponent n, 0 … 100 000: a larger exponent gives a narrower lobe. It is not a roughness.
+        /// Exponent n; larger is narrower. It is not a roughness.
         required exponent: Placed<f64> = number("").at_least(0.0).at_most(1e5);
     }
 }
@@ -313,20 +308,19 @@ fn check_lobe(lobe: &Lobe, faults: &mut Faults) {
 record! {
     /// Metal flakes in pigment under a clear coat. Solid paint without flakes is "coated".
     pub struct CarPaint {
-        /// Reflectance of the pigment between the flakes, as for "diffuse".
+        /// Reflectance of the pigment.
         required reflectance: Reflectance = any_reflectance();
         /// The metal of the flakes.
         inside metal: Metal;
-        /// Tint of the light reflected by the flakes, as from stained lacquer: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum =
-        /// file }`. Default: 1.
+        /// Tint of light from the flakes. Default: 1.
         optional flake_tint: Colour = any_colour();
-        /// Fraction of the area covered by flakes, 0 … 1.
+        /// Fraction of the area with flakes.
         required flake_coverage: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// Roughness of the flakes' orientation: GGX α (not its square root), 0.05 … 1. Default: 0.25.
+        /// GGX α of the flakes' orientation. Default: 0.25.
         optional flake_alpha: Placed<f64> = number("").at_least(0.05).at_most(1.0);
-        /// Refractive index of the coat, 1.1 … 4. Default: 1.5.
+        /// Refractive index of the coat. Default: 1.5.
         optional index: Placed<f64> = number("").at_least(*COAT_INDICES.start()).at_most(*COAT_INDICES.end());
-        /// Roughness α of the coat's GGX distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. Default: 0.01.
+        /// GGX roughness α of the coat; a mirror below 0.0001. Default: 0.01.
         optional alpha: Placed<f64> = number("").at_least(0.0).at_most(1.0);
     }
 }
@@ -344,12 +338,11 @@ impl NamesFiles for CarPaint {
 record! {
     /// Cloth: a diffuse base under a sheen of upright fibres.
     pub struct Cloth {
-        /// Reflectance of the base, as for "diffuse".
+        /// Reflectance of the base.
         required reflectance: Reflectance = any_reflectance();
-        /// Colour of the sheen, 0 … 1: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`.
-        /// Default: 0.1.
+        /// Colour of the sheen. Default: 0.1.
         optional sheen: Colour = any_colour();
-        /// Roughness α of the sheen, 0.1 … 1: a smaller α gives a narrower sheen at the silhouette. Default: 0.5.
+        /// Roughness α of the sheen; smaller is narrower. Default: 0.5.
         optional alpha: Placed<f64> = number("").at_least(0.1).at_most(1.0);
     }
 }

@@ -9,11 +9,11 @@ use crate::record::reflectance::{Reflectance, any_reflectance};
 record! {
     /// A diffuse base under water of index 1.333. Internal reflection in the water darkens it (Lekner and Dorf 1988).
     pub struct WetGround {
-        /// Reflectance of the dry ground, as for "diffuse".
+        /// Reflectance of the dry ground.
         required reflectance: Reflectance = any_reflectance();
-        /// Roughness α of the film over the ground's grains, 0 … 1. Default: 0.06.
+        /// Roughness α of the film over the grains. Default: 0.06.
         optional film_alpha: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// Standing water. Default: none.
+        /// Standing water.
         optional puddles: Box<Puddles> = record();
     }
 }
@@ -21,15 +21,15 @@ record! {
 record! {
     /// Water in the low parts of the ground, flat except for the rings of falling drops.
     pub struct Puddles {
-        /// Height of the ground, from 0, the lowest, to 1: `{ texture = name, channel = "r" }`.
+        /// Height of the ground, from 0 (lowest) to 1.
         required height: FactorTexture = record();
-        /// Height of the highest point above the lowest, mm, above 0 … 1000.
+        /// Height of the highest point above the lowest.
         required relief_mm: Placed<f64> = number("mm").above(0.0).at_most(1000.0);
-        /// Height of the water level above the lowest point, mm, 0 … 1000.
+        /// Water level above the lowest point.
         required level_mm: Placed<f64> = number("mm").at_least(0.0).at_most(1000.0);
-        /// Height of the ground's grains, mm, above 0 … 100. The surface of deeper water is flat. Default: 2.
+        /// Grain height; deeper water is flat. Default: 2.
         optional grain_mm: Placed<f64> = number("mm").above(0.0).at_most(100.0);
-        /// Rain rate on the water, mm/h, 0 … 150; its rings roughen the surface. Default: 0.
+        /// Rain rate on the water, which roughens it. Default: 0.
         optional rain_mm_h: Placed<f64> = number("mm/h").at_least(0.0).at_most(150.0);
     }
 }

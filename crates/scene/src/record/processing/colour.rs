@@ -43,7 +43,7 @@ pub enum ColourMatrix {
 keyed! {
     /// A fitted colour matrix.
     pub enum ColourMatrixTable {
-        /// Name of the illuminant under which the colour chart is fitted.
+        /// Illuminant of the fit.
         fit => Fit(Placed<String>) = illuminants();
     }
 }

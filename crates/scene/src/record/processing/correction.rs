@@ -31,9 +31,9 @@ pub(super) fn black_level() -> impl Rule<Out = BlackLevel> {
 keyed! {
     /// Gains of a shading correction.
     pub enum ShadingTable {
-        /// Gains at equal steps of the distance from the centre to the farthest corner of the image, two or more, each 1 or more.
+        /// Two or more gains at equal steps from the centre to the farthest corner.
         radial_gains => Radial(Vec<Placed<f64>>) = list(number("").at_least(1.0), 2);
-        /// A table of gains over the image, each 1 or more, two by two or more, with the outer entries on the corners.
+        /// Table of gains (1 or more), two by two or more, outer entries on the corners.
         grid => Grid(Placed<PathBuf>) = path(&["csv"]);
     }
 }
@@ -43,7 +43,7 @@ record! {
     pub struct Shading check(check_shading) {
         /// Its gains.
         inside table: ShadingTable;
-        /// With "radial_gains": the centre, raster coordinates, px. Default: the principal point.
+        /// With "radial_gains": centre, raster coordinates. Default: the principal point.
         optional centre_px: Placed<[f64; 2]> = vector::<2>(number("px"));
     }
 }

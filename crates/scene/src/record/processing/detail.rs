@@ -7,9 +7,9 @@ use crate::reader::{keyed, number, record, whole};
 keyed! {
     /// Noise reduction method.
     pub enum NoiseReductionKind {
-        /// Bilateral filter (Tomasi & Manduchi 1998): spatial σ, px, above 0 and at most 10; with "range".
+        /// Bilateral filter (Tomasi & Manduchi 1998): spatial σ; with "range".
         bilateral_px => Bilateral(Placed<f64>) = number("px").above(0.0).at_most(10.0);
-        /// Median of each channel over a square of 2 r + 1 pixels: r, px, 1 … 3.
+        /// Median over a square of 2 r + 1 pixels: r.
         median_px => Median(Placed<u64>) = whole(1, 3);
     }
 }
@@ -19,7 +19,7 @@ record! {
     pub struct NoiseReduction check(check) {
         /// Method.
         inside kind: NoiseReductionKind;
-        /// With "bilateral_px": σ over the colours, as a fraction of white, above 0 and at most 1; two or three times the noise.
+        /// With "bilateral_px": σ over the colours, fraction of white; two or three times the noise.
         optional range: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
@@ -49,11 +49,11 @@ fn check(reduction: &NoiseReduction, faults: &mut Faults) {
 record! {
     /// Unsharp mask on luma.
     pub struct Sharpening {
-        /// Factor on the detail, above 0 and at most 10.
+        /// Factor on the detail.
         required amount: Placed<f64> = number("").above(0.0).at_most(10.0);
-        /// σ of the blur that separates detail, px, above 0 and at most 50.
+        /// σ of the blur that separates detail.
         required radius_px: Placed<f64> = number("px").above(0.0).at_most(50.0);
-        /// Detail of at most this amplitude is not changed, fraction of white, 0 … 1. Default: 0.
+        /// Amplitude up to which detail is unchanged, fraction of white. Default: 0.
         optional threshold: Placed<f64> = number("").at_least(0.0).at_most(1.0);
     }
 }

@@ -10,15 +10,15 @@ use crate::reader::{
 variants! {
     /// A filter of the paper.
     pub enum PaperFilter by "type" {
-        /// Gain control by the histogram, and blooming, on linear light (our interpretation of the paper).
+        /// Histogram gain control and blooming, on linear light.
         "glow" => Glow(Glow),
-        /// Tone mapping from the scene's range to the sensor's, on linear light (our interpretation of the paper).
+        /// Tone mapping to the sensor's range, on linear light.
         "tone_map" => ToneMap(ToneMap),
-        /// Raindrops: inverted images in discs, which flow and fade, on linear light (our interpretation of the paper).
+        /// Raindrops: inverted images in discs, on linear light.
         "drops" => Drops(PaperDrops),
         /// A 4 × 4 affine matrix on colours.
         "colour" => Colour(ColourChange),
-        /// Pulse noise: some pixels brighter, some darker.
+        /// Pulse noise: brighter and darker pixels.
         "pulse_noise" => PulseNoise(PulseNoise),
         /// A normally distributed number added to each pixel's brightness.
         "gaussian_noise" => GaussianNoise(GaussianNoise),
@@ -30,15 +30,15 @@ variants! {
 record! {
     /// Gain control and blooming.
     pub struct Glow {
-        /// Percentile of the image's luminance that controls the gain, above 1 and at most 100: 50 is the median.
+        /// Luminance percentile that controls the gain; 50 is the median.
         required percentile: Placed<f64> = percentile();
-        /// Luminance to which this percentile is mapped, fraction of white, above 0.
+        /// Luminance to which the percentile is mapped, fraction of white.
         required target: Placed<f64> = number("").above(0.0);
-        /// Luminance after the gain above which the excess glows, fraction of white, 0 or more.
+        /// Luminance after the gain above which the excess glows, fraction of white.
         required threshold: Placed<f64> = number("").at_least(0.0);
-        /// σ of the glow, px, above 0 and at most 500.
+        /// σ of the glow.
         required radius_px: Placed<f64> = number("px").above(0.0).at_most(500.0);
-        /// Fraction of the excess that is added, 0 or more.
+        /// Fraction of the excess that is added.
         required strength: Placed<f64> = number("").at_least(0.0);
     }
 }
@@ -46,11 +46,11 @@ record! {
 record! {
     /// Tone mapping.
     pub struct ToneMap {
-        /// Weight of the unmapped image, 0 … 1; the paper shows 0.4 and 1.0.
+        /// Weight of the unmapped image; the paper shows 0.4 and 1.0.
         required original_factor: Placed<f64> = number("").at_least(0.0).at_most(1.0);
-        /// Factor on the light before the curve, above 0. Default: 1.
+        /// Factor before the curve. Default: 1.
         optional gain: Placed<f64> = number("").above(0.0);
-        /// Sensitivity curve of the sensor, as a tone curve. Default: 1 − exp(−x).
+        /// Sensitivity curve of the sensor. Default: 1 − exp(−x).
         optional curve: ToneCurve = tone_curve();
     }
 }
@@ -58,19 +58,19 @@ record! {
 record! {
     /// Raindrops painted on the image: each disc shows its surroundings upside down. Drops on a windscreen are traced instead.
     pub struct PaperDrops check(check_drops) {
-        /// Number of drops, 1 … 100 000.
+        /// Number of drops.
         required count: Placed<u64> = whole(1, 100_000);
-        /// Smallest radius, px, above 0.
+        /// Smallest radius.
         required min_radius_px: Placed<f64> = number("px").above(0.0);
-        /// Largest radius, px, above 0; radii are uniformly distributed between the two.
+        /// Largest radius; radii are uniformly distributed.
         required max_radius_px: Placed<f64> = number("px").above(0.0);
         /// Reduction of the image within a drop, above 0.
         required scale: Placed<f64> = number("").above(0.0);
-        /// σ of the blur within a drop, and width of its soft edge, px, above 0; times "scale" at most 500.
+        /// σ of the blur and width of the soft edge; times "scale" at most 500.
         required blur_px: Placed<f64> = number("px").above(0.0);
-        /// With "fade_frames": distance that a drop flows down per frame, px, above 0. Default: no flow.
+        /// With "fade_frames": downward flow per frame.
         optional flow_px_per_frame: Placed<f64> = number("px").above(0.0);
-        /// Lifetime of a drop in frames; it fades linearly, and a new one appears elsewhere. Default: drops are permanent.
+        /// Lifetime in frames, fading linearly. Default: permanent.
         optional fade_frames: Placed<u64> = whole(1, 1_000_000);
     }
 }
@@ -95,9 +95,9 @@ fn check_drops(drops: &PaperDrops, faults: &mut Faults) {
 record! {
     /// A change of colours.
     pub struct ColourChange {
-        /// Stage on which the filter works: "display" (the encoded image) or "linear" (linear light). Default: "display".
+        /// Stage: encoded ("display") or linear image. Default: "display".
         optional on: Placed<Stage> = choice();
-        /// Operations in this order, combined into one matrix; clipped once at the end.
+        /// Operations in order, combined into one matrix and clipped once.
         many operations: Operation = list(record(), 1);
     }
 }
@@ -119,17 +119,17 @@ keyed! {
         scale => Scale(Placed<[f64; 3]>) = vector::<3>(number(""));
         /// Fractions of white added to red, green and blue.
         offset => Offset(Placed<[f64; 3]>) = vector::<3>(number(""));
-        /// Factor on all three, 0 or more.
+        /// Factor on all channels.
         brightness => Brightness(Placed<f64>) = number("").at_least(0.0);
-        /// Saturation, 0 or more: 0 is grey, 1 no change.
+        /// Saturation: 0 grey, 1 unchanged.
         saturation => Saturation(Placed<f64>) = number("").at_least(0.0);
-        /// Rotation of the hue about the grey axis, degrees, red towards green.
+        /// Hue rotation about the grey axis, red towards green.
         hue_rotation_deg => HueRotation(Placed<f64>) = number("°");
-        /// Conversion to this colour space: its components replace red, green and blue.
+        /// Conversion to this colour space, which replaces red, green and blue.
         to => To(Placed<ColourSpace>) = choice();
         /// Conversion from this colour space.
         from => From(Placed<ColourSpace>) = choice();
-        /// Any affine map: three rows of four numbers; the last of each row is added.
+        /// Affine map: three rows of four numbers, the last added.
         matrix => Matrix(Box<Placed<[Placed<[f64; 4]>; 3]>>) = exactly(vector::<4>(number(""))).map(Box::new, |rows| Some((**rows).clone()));
     }
 }
@@ -155,9 +155,9 @@ words! {
 record! {
     /// Pulse noise.
     pub struct PulseNoise {
-        /// p₁: change of brightness, DN of an 8-bit image, 0 … 255.
+        /// p₁: change of brightness, DN of 8 bits.
         required amplitude_dn: Placed<f64> = number("DN").at_least(0.0).at_most(255.0);
-        /// p₂: fraction of the pixels that become brighter, and of those that become darker, 0 … 0.5.
+        /// p₂: fraction of pixels that become brighter, and of those that become darker.
         required probability: Placed<f64> = number("").at_least(0.0).at_most(0.5);
     }
 }
@@ -165,7 +165,7 @@ record! {
 record! {
     /// Additive Gaussian noise.
     pub struct GaussianNoise {
-        /// p₁: standard deviation, DN of an 8-bit image, 0 … 255.
+        /// p₁: standard deviation, DN of 8 bits.
         required sigma_dn: Placed<f64> = number("DN").at_least(0.0).at_most(255.0);
     }
 }
@@ -173,7 +173,7 @@ record! {
 record! {
     /// Multiplicative uniform noise.
     pub struct UniformNoise {
-        /// p₁: width of the factor's range about 1, 0 … 2.
+        /// p₁: width of the factor's range about 1.
         required range: Placed<f64> = number("").at_least(0.0).at_most(2.0);
     }
 }

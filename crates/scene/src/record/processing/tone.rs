@@ -27,13 +27,13 @@ words! {
 keyed! {
     /// A tone curve with parameters.
     pub enum CurveKind {
-        /// γ of output = light^(1/γ), above 0.
+        /// γ of output = light^(1/γ).
         gamma => Gamma(Placed<f64>) = number("").above(0.0);
-        /// Contrast of an S-curve on top of sRGB, above 0; 1 is none, more darkens shadows and brightens highlights.
+        /// Contrast of an S-curve on sRGB; 1 is none.
         contrast => Contrast(Placed<f64>) = number("").above(0.0);
-        /// A table of two columns, linear light from 0 to 1 and output 0 … 1, with linear interpolation.
+        /// Two columns: linear light 0 … 1, output 0 … 1.
         table => Table(Placed<PathBuf>) = path(&["csv"]);
-        /// A measured conversion function (OECF, ISO 14524): a table of two columns, exposure (any unit, the largest is white) and output level.
+        /// Measured OECF (ISO 14524), two columns: exposure (the largest is white), output level.
         oecf => Oecf(Placed<PathBuf>) = path(&["csv"]);
     }
 }
@@ -43,9 +43,9 @@ record! {
     pub struct CurveTable check(check) {
         /// Kind of curve.
         inside kind: CurveKind;
-        /// With "contrast": encoded value that is mapped to 0.5, above 0 and below 1. Default: 0.5.
+        /// With "contrast": encoded value that becomes 0.5. Default: 0.5.
         optional midpoint: Placed<f64> = number("").above(0.0).at_most(0.999);
-        /// With "oecf": largest possible output level, above 0. Default: 255.
+        /// With "oecf": largest possible output level. Default: 255.
         optional largest_output: Placed<f64> = number("").above(0.0);
     }
 }

@@ -43,7 +43,7 @@ record! {
     pub struct Tile {
         /// Columns of the tile.
         required columns: Placed<u64> = whole(1, 64);
-        /// Names of the channels, row by row; each needs its "quantum_efficiency".
+        /// Channels, row by row, each with its "quantum_efficiency".
         required channels: Vec<Placed<String>> = list(text("the name of a channel"), 1);
     }
 }

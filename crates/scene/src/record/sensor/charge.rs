@@ -7,15 +7,15 @@ use crate::reader::{choice, number, record, variants, whole, words};
 record! {
     /// Non-uniformity: fixed differences between pixels, equal in all frames. Spreads are standard deviations.
     pub struct NonUniformity {
-        /// Seed of the unit (the individual sensor): the same number gives the same pattern. Default: a seed for each camera of a job.
+        /// Seed of the unit: equal numbers give equal patterns. Default: one for each camera.
         optional seed: Placed<u64> = whole(0, 9_007_199_254_740_991);
-        /// Spread of the response to light between pixels, as a fraction (PRNU). Default: 0.
+        /// PRNU between pixels, as a fraction. Default: 0.
         optional prnu: Placed<f64> = spread();
         /// The same between rows. Default: 0.
         optional prnu_row: Placed<f64> = spread();
         /// The same between columns. Default: 0.
         optional prnu_column: Placed<f64> = spread();
-        /// Spread of the offset between pixels, e⁻ (DSNU at zero exposure time). Default: 0.
+        /// DSNU between pixels, at zero exposure. Default: 0.
         optional dsnu_e: Placed<f64> = number("e⁻").at_least(0.0);
         /// The same between rows. Default: 0.
         optional dsnu_row_e: Placed<f64> = number("e⁻").at_least(0.0);
@@ -33,16 +33,15 @@ fn spread() -> crate::reader::Number {
 record! {
     /// Dark current by temperature and by pixel. All currents refer to "reference_c".
     pub struct Dark check(check_dark) {
-        /// Temperature of the sensor, °C, above absolute zero. Default: that of the stated current.
+        /// Temperature of the sensor. Default: that of the stated current.
         optional temperature_c: Placed<f64> = number("°C").above(-273.15);
-        /// Temperature of the stated current, °C; with "temperature_c".
+        /// With "temperature_c": temperature of the stated current.
         optional reference_c: Placed<f64> = number("°C").above(-273.15);
-        /// Temperature difference that doubles the current, K; with "temperature_c". Default: from the band gap of silicon.
+        /// With "temperature_c": difference that doubles the current. Default: from silicon's band gap.
         optional doubling_k: Placed<f64> = number("K").above(0.0);
-        /// With "temperature_c" and without "doubling_k": fraction of the stated current that is diffusion current, 0 … 1; the rest is generation
-        /// current. Default: 0.
+        /// With "temperature_c", without "doubling_k": fraction of diffusion current; the rest is generation current. Default: 0.
         optional diffusion_fraction: Placed<f64> = spread();
-        /// Spread of the current between pixels, as a fraction of its mean, 0 … 10. Default: 0.
+        /// Spread between pixels over the mean. Default: 0.
         optional spread: Placed<f64> = number("").at_least(0.0).at_most(10.0);
         /// The same between rows. Default: 0.
         optional spread_row: Placed<f64> = number("").at_least(0.0).at_most(10.0);
@@ -50,9 +49,9 @@ record! {
         optional spread_column: Placed<f64> = number("").at_least(0.0).at_most(10.0);
         /// Shape of the spread between pixels. Default: "normal".
         optional distribution: Placed<SpreadDistribution> = choice();
-        /// Hot pixels, with much more current. Default: none.
+        /// Hot pixels.
         optional hot: Hot = record();
-        /// Pixels whose current jumps between two levels. Default: none.
+        /// Pixels with a two-level current.
         optional dark_current_rts: DarkCurrentRts = record();
     }
 }
@@ -70,9 +69,9 @@ words! {
 record! {
     /// Hot pixels.
     pub struct Hot {
-        /// Fraction of pixels, above 0.
-        required share: Placed<f64> = number("").above(0.0).at_most(1.0);
-        /// Mean of their additional current (exponential), e⁻/s, above 0.
+        /// Fraction of pixels.
+        required fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
+        /// Mean additional current (exponential).
         required mean_e_s: Placed<f64> = number("e⁻/s").above(0.0);
     }
 }
@@ -80,11 +79,11 @@ record! {
 record! {
     /// Blinking pixels.
     pub struct DarkCurrentRts {
-        /// Fraction of pixels, above 0.
-        required share: Placed<f64> = number("").above(0.0).at_most(1.0);
-        /// Mean of their additional current at the upper level (exponential), e⁻/s, above 0.
+        /// Fraction of pixels.
+        required fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
+        /// Mean additional current at the upper level (exponential).
         required mean_e_s: Placed<f64> = number("e⁻/s").above(0.0);
-        /// Mean number of frames at a level, 1 or more.
+        /// Mean number of frames at a level.
         required dwell_frames: Placed<f64> = number("").at_least(1.0);
     }
 }
@@ -143,9 +142,9 @@ variants! {
 record! {
     /// Smear by light that leaks through the register's cover.
     pub struct Interline {
-        /// Smear of the data sheet for a spot of a tenth of the image's height, dB, −200 … −20.
+        /// Data-sheet smear for a spot of a tenth of the image's height.
         required smear_db: Placed<f64> = number("dB").at_least(-200.0).at_most(-20.0);
-        /// Accumulation time over frame time in the data sheet's measurement, above 0 and at most 1. Default: 1.
+        /// Accumulation time over frame time of that measurement. Default: 1.
         optional measured_exposure_ratio: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
@@ -153,7 +152,7 @@ record! {
 record! {
     /// Smear during the shift.
     pub struct FrameTransfer {
-        /// Time of a shift by one row, s, above 0.
+        /// Time of a shift by one row.
         required line_shift_s: Placed<f64> = number("s").above(0.0);
     }
 }
@@ -161,9 +160,9 @@ record! {
 record! {
     /// A kind of charge trap.
     pub struct Trap {
-        /// Fraction of a frame's charge that is trapped, above 0.
-        required share: Placed<f64> = number("").above(0.0).at_most(0.5);
-        /// Time after which 1/e of the trapped charge is left, s, above 0.
+        /// Fraction of a frame's charge that is trapped.
+        required fraction: Placed<f64> = number("").above(0.0).at_most(0.5);
+        /// Time after which 1/e of the trapped charge is left.
         required time_constant_s: Placed<f64> = number("s").above(0.0);
     }
 }
@@ -173,7 +172,7 @@ record! {
     pub struct Blooming {
         /// Direction of the overflow.
         required direction: Placed<Direction> = choice();
-        /// Fraction of the excess charge that flows to other pixels, above 0; the rest is drained.
+        /// Fraction of the excess that flows to other pixels; the rest is drained.
         required overflow_fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }

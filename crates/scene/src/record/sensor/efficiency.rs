@@ -27,11 +27,11 @@ pub enum QuantumEfficiency {
 keyed! {
     /// Source of tabulated quantum efficiencies.
     pub enum QuantumEfficiencyTable {
-        /// A table of two columns, wavelength in nm and quantum efficiency 0 … 1.
+        /// Two columns: wavelength in nm, quantum efficiency 0 … 1.
         spectrum => Spectrum(Placed<std::path::PathBuf>) = spectrum_file();
         /// A camera with measured relative sensitivities; needs "peak".
         camera => Camera(Placed<String>) = known("a measured camera", camera::names());
-        /// One for each channel of the filter array, by name: a number 0 … 1, or `{ spectrum = file }`.
+        /// Efficiency of each channel of the filter array.
         channels => Channels(Vec<(Placed<String>, Curve)>) = keyed_by_name(curve(share()));
     }
 }
@@ -41,7 +41,7 @@ record! {
     pub struct QuantumEfficiencySource check(check_source) {
         /// Source of the table.
         inside table: QuantumEfficiencyTable;
-        /// With "camera": the largest quantum efficiency of the three channels, above 0 and at most 1.
+        /// With "camera": largest quantum efficiency of its channels.
         optional peak: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }

@@ -6,11 +6,11 @@ use crate::reader::{flag, list, number, record, vector, whole};
 record! {
     /// Several captures per frame, merged: each pixel takes the first that is not saturated.
     pub struct Hdr {
-        /// Captures after the one that the sensor's keys describe, by falling sensitivity.
+        /// Captures after the first, by falling sensitivity.
         required captures: Vec<Capture> = list(record(), 1);
-        /// Bits of the merged number, from those of the ADC … 24.
+        /// Bits of the merged number, at least the ADC's.
         required merged_bits: Placed<u64> = whole(1, 24);
-        /// Fraction of a capture's range above which the next capture is used, between 0 and 1. Default: 0.9.
+        /// Fraction of a capture's range above which the next is used. Default: 0.9.
         optional transition_level: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
@@ -18,20 +18,19 @@ record! {
 record! {
     /// A capture, relative to the first.
     pub struct Capture {
-        /// Exposure over that of the first, above 0 and at most 1. Default: 1.
+        /// Exposure over that of the first. Default: 1.
         optional exposure_ratio: Placed<f64> = share();
-        /// Start of the exposure after that of the first, s, 0 or more. It matters where light varies in time. Default: the end of the previous
-        /// exposure of the same photodiode (of equal "sensitivity_ratio"), or the first's start where there is none.
+        /// Start after that of the first. Default: the end of the photodiode's previous exposure, or the first's start.
         optional start_s: Placed<f64> = number("s").at_least(0.0);
-        /// Sensitivity of the photodiode over that of the first (split pixel), above 0 and at most 1. Default: 1.
+        /// Photodiode sensitivity over that of the first (split pixel). Default: 1.
         optional sensitivity_ratio: Placed<f64> = share();
-        /// Conversion gain over that of the first, above 0 and at most 1. Default: 1.
+        /// Conversion gain over that of the first. Default: 1.
         optional gain_ratio: Placed<f64> = share();
-        /// Full well, e⁻, above 0. Default: the first's.
+        /// Full well. Default: the first's.
         optional full_well_e: Placed<f64> = number("e⁻").above(0.0);
-        /// Read noise, e⁻, 0 or more. Default: the first's.
+        /// Read noise. Default: the first's.
         optional read_noise_e: Placed<f64> = number("e⁻").at_least(0.0);
-        /// Dual conversion gain: reads the charge of the previous capture again. Default: false.
+        /// Dual conversion gain: reads the previous capture's charge again. Default: false.
         optional dual_conversion_gain: Placed<bool> = flag();
     }
 }
@@ -43,10 +42,9 @@ fn share() -> crate::reader::Number {
 record! {
     /// Piecewise linear compression to fewer bits, from (0, 0).
     pub struct Companding {
-        /// Bits of the companded number, 1 … 24.
+        /// Bits of the companded number.
         required bits: Placed<u64> = whole(1, 24);
-        /// Ends of the segments: pairs of a linear and a companded number. Both rise; slopes fall from at most 1. The last reaches the largest linear
-        /// number.
+        /// Ends of segments: rising linear and companded numbers, to the largest linear number; slopes fall from at most 1.
         required knees: Vec<Placed<[f64; 2]>> = list(vector::<2>(number("DN").above(0.0)), 1);
     }
 }

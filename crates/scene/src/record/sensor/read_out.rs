@@ -16,7 +16,7 @@ variants! {
 record! {
     /// Piecewise linear response.
     pub struct Knees {
-        /// Pairs of a charge, e⁻, and the slope above it. Slopes fall from below 1; below the first charge the slope is 1.
+        /// Pairs of charge (e⁻) and the slope above it, falling from below 1.
         required knees: Vec<Placed<[f64; 2]>> = list(vector::<2>(number("").above(0.0)), 1);
     }
 }
@@ -24,7 +24,7 @@ record! {
 record! {
     /// Logarithmic response.
     pub struct Logarithmic {
-        /// Charge above which the response is logarithmic, e⁻, above 0.
+        /// Charge above which the response is logarithmic.
         required from_e: Placed<f64> = number("e⁻").above(0.0);
     }
 }
@@ -32,11 +32,11 @@ record! {
 record! {
     /// Random telegraph signal (RTS) noise.
     pub struct RtsNoise {
-        /// Fraction of pixels, above 0.
-        required share: Placed<f64> = number("").above(0.0).at_most(1.0);
-        /// Mean size of their jumps (exponential), e⁻, above 0.
+        /// Fraction of pixels.
+        required fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
+        /// Mean size of the jumps (exponential).
         required mean_e: Placed<f64> = number("e⁻").above(0.0);
-        /// Mean number of frames at a level, 1 or more.
+        /// Mean number of frames at a level.
         required dwell_frames: Placed<f64> = number("").at_least(1.0);
     }
 }
@@ -58,7 +58,7 @@ record! {
         required columns: Placed<u64> = whole(1, 64);
         /// Pixels in a column.
         required rows: Placed<u64> = whole(1, 64);
-        /// Binned quantity: "charge" is added before it is read, digital "numbers" are averaged.
+        /// "charge" is added before it is read; digital "numbers" are averaged.
         required of: Placed<BinningOf> = choice();
     }
 }
@@ -67,9 +67,9 @@ record! {
     /// Pixels that are not read out: of every `columns` × `rows` tiles of the filter array only the first is read, in the region and in optical
     /// black.
     pub struct Skipping {
-        /// One of this many adjacent tiles in a row is read. Default: 1, no column is skipped.
+        /// One of this many adjacent tiles in a row is read. Default: 1.
         optional columns: Placed<u64> = whole(1, 64);
-        /// One of this many adjacent tiles in a column is read. Skipped rows take no time of a rolling shutter. Default: 1, no row is skipped.
+        /// One of this many adjacent tiles in a column is read, which saves shutter time. Default: 1.
         optional rows: Placed<u64> = whole(1, 64);
     }
 }

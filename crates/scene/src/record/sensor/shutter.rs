@@ -10,8 +10,7 @@ variants! {
         "global" => Global(Global),
         /// One row after the other, each for the whole exposure.
         "rolling" => Rolling(Rows),
-        /// All rows start together and are read one after the other. Each is exposed for one row time longer than the one read before it, and
-        /// receives more light.
+        /// All rows start together and are read in sequence; later rows are exposed longer.
         "global_reset" => GlobalReset(Rows),
     }
 }
@@ -19,7 +18,7 @@ variants! {
 record! {
     /// A shutter that exposes all rows together.
     pub struct Global {
-        /// Exposure time of a sensor without electronics, s, 0 or more. Default: 0, an instant.
+        /// Exposure time without electronics. Default: 0.
         optional exposure_s: Placed<f64> = number("s").at_least(0.0);
     }
 }
@@ -28,13 +27,13 @@ record! {
     /// A shutter whose rows are read in turn. Only rows that are read take time: those of a region ("roi_px"), without those that "skipping" leaves
     /// out.
     pub struct Rows {
-        /// Time from one row to the next, µs, 0 or more.
+        /// Time between rows.
         required row_time_us: Placed<f64> = number("µs").at_least(0.0);
-        /// Direction of the read-out in the erect image. Default: "down".
+        /// Read-out direction in the erect image. Default: "down".
         optional direction: Placed<Direction> = choice();
-        /// Fields of a frame, 1 … 16: with 2, all even rows (from 0) are read before the odd ones (interlaced). Default: 1.
+        /// Fields of a frame; with 2, even rows (from 0) are read before odd ones. Default: 1.
         optional fields: Placed<u64> = whole(1, 16);
-        /// Exposure time of a sensor without electronics, s, 0 or more. Default: 0, an instant.
+        /// Exposure time without electronics. Default: 0.
         optional exposure_s: Placed<f64> = number("s").at_least(0.0);
     }
 }
