@@ -72,7 +72,7 @@ fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut 
         return Some(asked.map_or(4, |n| n.value as u32));
     }
     if let Some(asked) = asked.filter(|n| n.value != 1) {
-        let problem = format!("a path cannot carry {} wavelengths through a dispersive lens", asked.value);
+        let problem = format!("a path cannot carry {} wavelengths through dispersive optics", asked.value);
         context.fault(ErrorCode::NotModelled, &asked.place, problem, "remove the key, or give 1");
         return None;
     }
@@ -153,7 +153,7 @@ fn remark_losses(products: &Products, route: &Route, folded: bool, body: &Camera
         context.remark(format!("electrons are computed from band means and have no variance; use {remedy}"));
     }
     if matches!(route, Route::Pupil(_)) && !products.radiance {
-        context.remark("route = \"pupil\" without radiance = true: nothing is stored for `expose`");
+        context.remark("route = \"pupil\" without radiance = true: nothing is stored for expose");
     }
     if products.variance && products.irradiance && *route != Route::Lens {
         context.remark("irradiance computed from stored radiance has no variance; the radiance has".to_owned());

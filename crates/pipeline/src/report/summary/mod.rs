@@ -220,7 +220,7 @@ fn samples(camera: &CameraPlan) -> String {
 fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let s = &camera.settings;
     let samples = samples(camera);
-    let alone = if s.wavelengths == 1 && camera.body.disperses() { ", as the lens is dispersive" } else { "" };
+    let alone = if s.wavelengths == 1 && camera.body.disperses() { ", as the optics are dispersive" } else { "" };
     let carried = count(s.wavelengths as usize, "wavelength");
     line(f, "sampling", format!("{samples}, seed {}, {carried} per path{alone}", s.seed))?;
     if let Some(text) = light::wavelengths(camera) {
