@@ -145,8 +145,8 @@ pub fn mirror(body: &CameraBody) -> Option<&'static str> {
     match body.front.as_ref().and_then(Front::optic)? {
         Optic::Windscreen(_) => None,
         Optic::Mirror(_) => Some(
-            "where the ray meets the mirror, m, camera frame; NaN: beside it. distance.Z counts from the \
-                                  pupil by way of the mirror, and depth.Z is NaN in it",
+            "point at which the ray hits the mirror, m, camera frame; NaN: no hit. distance.Z is measured from the \
+             pupil via the mirror, and depth.Z is NaN there",
         ),
     }
 }

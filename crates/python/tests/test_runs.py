@@ -75,7 +75,7 @@ def test_notes_go_to_logging(caplog):
 
 
 def test_warnings_go_to_warnings(tmp_path):
-    with pytest.warns(UserWarning, match="nothing gives light"):
+    with pytest.warns(UserWarning, match="there is no light"):
         etendue.Job.open(described(environment=None), meshes={"sheet.obj": sheet()}).save(tmp_path)
 
 

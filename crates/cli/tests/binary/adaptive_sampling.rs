@@ -100,11 +100,11 @@ fn samples_are_even_or_as_noise_says_but_not_both() {
     let limited = job(place.path(), "noise_threshold = 0.5\n");
     let plan = etendue(["plan", &limited]).ok().out;
     assert!(
-        plan.contains("16 to 4096 samples a pixel in 8 replicates, until its error is 0.5 of the sensor's noise"),
+        plan.contains("16 to 4096 samples per pixel in 8 replicates, until its error is 0.5 of the sensor's noise"),
         "{plan}"
     );
     let even = etendue(["plan", &limited, "--spp", "32"]).ok();
-    assert!(even.out.contains("32 samples a pixel in 4 replicates"), "{}", even.out);
+    assert!(even.out.contains("32 samples per pixel in 4 replicates"), "{}", even.out);
     assert!(even.err.contains("--spp 32 supersedes") && even.err.contains("noise_threshold"), "{}", even.err);
     let refused = |render: &str, told: &[&str]| {
         let job = job(place.path(), render);
@@ -113,7 +113,10 @@ fn samples_are_even_or_as_noise_says_but_not_both() {
     refused("noise_threshold = 0.5\nspp = 64\n", &["job.toml", "\"spp\" and \"noise_threshold\" exclude each other"]);
     refused("noise_threshold = 0\n", &["noise_threshold: found 0"]);
     refused("min_spp = 16\n", &["\"min_spp\" has no effect without \"noise_threshold\""]);
-    refused("noise_threshold = 0.5\nreplicates = 4\n", &["replicates that decide of each other", "give 5 or more"]);
-    refused("noise_threshold = 0.5\nmin_spp = 20\n", &["20 samples cannot be shared evenly among 8 replicates"]);
-    refused("noise_threshold = 0.5\nmax_spp = 8\n", &["fewer than the 16 that every pixel gets"]);
+    refused(
+        "noise_threshold = 0.5\nreplicates = 4\n",
+        &["replicates that determine each other's samples", "give 5 or more"],
+    );
+    refused("noise_threshold = 0.5\nmin_spp = 20\n", &["20 samples cannot be divided equally among 8 replicates"]);
+    refused("noise_threshold = 0.5\nmax_spp = 8\n", &["below the minimum of 16"]);
 }

@@ -62,7 +62,7 @@ fn what_bends_rays_has_no_route_at_the_pupil() {
     plan(GLASS, route).refused(&["job.toml:9", "render.route", "wind-screen", "route = \"lens\""]);
     plan(&format!("{SPHERE}distance_mm = 50"), route).refused(&["job.toml:9", "mirror", "route = \"lens\""]);
     let tinted = format!("{GLASS}internal_transmittance = [0.7, 0.9, 0.8]");
-    plan(&tinted, "[render]\nwavelengths_per_path = 4").refused(&["job.toml:9", "each differently"]);
+    plan(&tinted, "[render]\nwavelengths_per_path = 4").refused(&["job.toml:9", "dispersive optics"]);
     plan(&format!("{GLASS}internal_transmittance = 0.7"), "[render]\nwavelengths_per_path = 4").ok();
 }
 
@@ -73,7 +73,7 @@ const DROPS: &str = "[external_optics.windscreen]\ndistance_mm = 100\n[external_
 fn drops_that_cannot_lie_on_the_glass() {
     let refused = |more: &str, said: &[&str]| plan(&format!("{DROPS}{more}"), "").refused(said);
     let fine = plan(&format!("{DROPS}count = 40"), "").ok().out;
-    assert!(fine.contains("drops of water on it") && fine.contains("40 of 0.5 to 2 mm radius"), "{fine}");
+    assert!(fine.contains("water drops on the windscreen") && fine.contains("40 of 0.5 to 2 mm radius"), "{fine}");
     plan(&format!("{DROPS}count_per_dm2 = 100"), "").ok();
     refused("", &["camera.toml:12", "external_optics.windscreen.drops", "count"]);
     refused("count = 0", &["camera.toml:16", "drops.count", "none arrive"]);
@@ -87,7 +87,7 @@ fn drops_that_cannot_lie_on_the_glass() {
     plan(&swapped, "").refused(&["camera.toml:14", "min_radius_mm", "above max_radius_mm = 0.4"]);
     // One wavelength per path, except where the index is that of one wavelength.
     let four = "[render]\nwavelengths_per_path = 4";
-    plan(&format!("{DROPS}count = 4"), four).refused(&["job.toml:9", "each differently"]);
+    plan(&format!("{DROPS}count = 4"), four).refused(&["job.toml:9", "dispersive optics"]);
     plan(&format!("{DROPS}count = 4\ndispersion = false"), four).ok();
     let curved =
         DROPS.replace("distance_mm = 100", "distance_mm = 100\nradius_across_mm = 95").replace("[90, 60]", "[300, 60]");

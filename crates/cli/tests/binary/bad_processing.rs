@@ -57,7 +57,7 @@ fn a_black_level_above_white_at_the_smallest_gain() {
     plan(&spoilt).ok();
     let control = "exposure_s = 1e-6\nauto_exposure = { percentile = 50, target = 0.5, exposure_limits_s = [1e-7, 1e-3], gain_limits = [0.5, 2] }";
     spoilt.spoil("small.toml", "exposure_s = 1e-6", control);
-    plan(&spoilt).refused(&["cameras.front.isp.black_level", "3000", "saturated at"]);
+    plan(&spoilt).refused(&["cameras.front.isp.black_level", "3000", "saturates at"]);
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn a_dng_of_companded_numbers() {
 #[test]
 fn corrections_that_cannot_be() {
     refused("defect_outlier_threshold = 0", &["above 0"]);
-    table_refused("defect_map = \"table.csv\"", "x,y\n3,4\n46,4\n", &["defect_map", "outside the picture of 46 × 30"]);
+    table_refused("defect_map = \"table.csv\"", "x,y\n3,4\n46,4\n", &["defect_map", "outside the image of 46 × 30"]);
     table_refused("defect_map = \"table.csv\"", "x,y\n3,4.5\n", &["defect_map", "whole numbers"]);
     table_refused("defect_map = \"table.csv\"", "x,y,z\n3,4,5\n", &["defect_map", "3 columns", "expected 2"]);
     refused("shading = { radial_gains = [1, 0.9] }", &["0.9", "1"]);

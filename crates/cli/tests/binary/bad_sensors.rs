@@ -106,8 +106,8 @@ fn skipped_rows_that_cannot_be() {
 #[test]
 fn a_fault_of_the_job_is_told_once_for_all_cameras() {
     let ran = etendue(["plan", "scenes/sensors/sensors.toml", "--spp", "7", "--set", "render.replicates=4"]);
-    let ran = ran.refused(&["7 samples cannot be shared evenly among 4 replicates"]);
-    assert_eq!(ran.err.matches("cannot be shared evenly").count(), 1, "{ran:?}");
+    let ran = ran.refused(&["7 samples cannot be divided equally among 4 replicates"]);
+    assert_eq!(ran.err.matches("cannot be divided equally").count(), 1, "{ran:?}");
 }
 
 #[test]

@@ -144,7 +144,7 @@ fn a_camera_falls_off_as_published_ray_transfer_functions_say() {
     let said = plan(folder.path(), &job("", sensor, &lens, 2)).ok().out;
     for phrase in [
         "ray-transfer lens, 99.",
-        "fitted to 550 nm, taken for all wavelengths",
+        "fitted to 550 nm, used for all wavelengths",
         "within 22.8 mm of the axis",
         "errors of the fit",
     ] {
@@ -234,7 +234,7 @@ fn functions_of_several_wavelengths_are_read_in_any_order() {
     };
     let orders = [told(&red, &blue).ok().out, told(&blue, &red).ok().out];
     for said in orders {
-        let phrase = "fitted to 2 wavelengths from 450 to 650 nm, linear between them and held beyond";
+        let phrase = "fitted to 2 wavelengths from 450 to 650 nm, linear between them and constant beyond";
         assert!(said.contains(phrase), "no {phrase} in\n{said}");
     }
     told(&red, &red).refused(&["lens.json:", "the wavelength 650 nm is there twice"]);
@@ -254,7 +254,7 @@ fn shipped_cameras_are_measured_as_their_files_say() {
     let far = far.replace("../lenses/dgauss28deg-zemax-poly6-raytransfer.json", &file);
     std::fs::write(folder.path().join("far.toml"), far).expect("written");
     let said = etendue(["measure", "lens", &text(&folder.path().join("far.toml"))]).ok().out;
-    assert!(said.contains("the sensor stands 57.31"), "{said}");
+    assert!(said.contains("the sensor is 57.31"), "{said}");
     let said = etendue(["measure", "lens", &text(&root().join("scenes/cameras/zemax-fall-off.toml"))]).ok().out;
     assert!(said.contains("1.0000") && said.contains("relative-illumination.txt"), "{said}");
 }

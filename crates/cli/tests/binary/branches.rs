@@ -14,7 +14,7 @@ fn job(folder: &Path, render: &str) -> String {
 fn the_plan_tells_branches_and_refuses_what_they_exclude() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let plan = etendue(["plan", &job(place.path(), "branches = 4\n")]).ok().out;
-    assert!(plan.contains("4 lights are drawn and 4 paths go on at each sample's first surface"), "{plan}");
+    assert!(plan.contains("4 lights are sampled and 4 paths continue at each sample's first surface"), "{plan}");
     let refused = |render: &str, told: &[&str]| {
         etendue(["plan", &job(place.path(), render)]).refused(told);
     };
@@ -29,11 +29,15 @@ fn the_plan_tells_branches_and_refuses_what_they_exclude() {
     let branched = job(place.path(), "branches = 4\n");
     let ran = etendue(["plan", &branched, "--set", "render.path_reuse_px=2"]).ok();
     assert!(ran.err.contains("supersedes") && ran.err.contains("branches"), "{}", ran.err);
-    assert!(ran.out.contains("tails of the paths of 4 pixels") && !ran.out.contains("lights are drawn"), "{}", ran.out);
+    assert!(
+        ran.out.contains("tails of the paths of 4 pixels") && !ran.out.contains("lights are sampled"),
+        "{}",
+        ran.out
+    );
     let sharing = job(place.path(), "path_reuse_px = 2\n");
     let ran = etendue(["plan", &sharing, "--set", "render.branches=4"]).ok();
     assert!(ran.err.contains("supersedes") && ran.err.contains("path_reuse_px"), "{}", ran.err);
-    assert!(!ran.out.contains("tails of the paths") && ran.out.contains("4 lights are drawn"), "{}", ran.out);
+    assert!(!ran.out.contains("tails of the paths") && ran.out.contains("4 lights are sampled"), "{}", ran.out);
     etendue(["plan", &job(place.path(), "branches = 1\npath_reuse_px = 2\n")]).ok();
     etendue(["plan", &job(place.path(), "branches = 4\npath_reuse_px = 1\n")]).ok();
 }

@@ -93,7 +93,7 @@ fn contradictions_are_refused_with_both_numbers() {
         ("threshold_p = 5.25", "threshold_p = 6.5", &["sensitivity_threshold_p", "6.5 photons", "5.248 photons"]),
         ("per_dn = 4.0", "per_dn = 3.5", &["inverse_gain_e_per_dn", "3.5 e⁻/DN", "4.000 e⁻/DN"]),
         ("noise_dn = 0.69", "noise_dn = 0.95", &["temporal_dark_noise_dn", "0.95 DN", "0.688 DN"]),
-        ("bits = 12", "bits = 10", &["saturation_capacity_e", "3750.0 DN", "10 bits end at 1023 DN"]),
+        ("bits = 12", "bits = 10", &["saturation_capacity_e", "3750.0 DN", "largest number of 10 bits is 1023 DN"]),
         ("measured_at_nm = 525\n", "", &["saturation_capacity_p", "measured_at_nm"]),
         ("[525, 62]", "[465, 62]", &["quantum_efficiency_percent", "465 nm comes after 465 nm"]),
     ];

@@ -35,7 +35,7 @@ fn a_mesh_of_nothing_but_such_triangles_is_an_empty_one() {
     fs::write(&job, JOB).expect("written");
     fs::write(place.path().join("m.obj"), "v 0 0 0\nv 0 1 0\nv 0 2 0\nf 1 2 3\n").expect("written");
     let plan = etendue(["plan", &text(&job)]).ok().out;
-    assert!(plan.contains("0 triangles (0 stored)") && plan.contains("m.obj: 1 triangles of no area"), "{plan}");
+    assert!(plan.contains("0 triangles (0 stored)") && plan.contains("m.obj: 1 triangles of zero area"), "{plan}");
 }
 
 /// Renders a job of a folder with these files; returns its output.
@@ -49,14 +49,14 @@ fn rendered(files: &[(&str, &str)]) -> crate::support::Ran {
 #[test]
 fn a_rendering_repeats_what_was_dropped() {
     let ran = rendered(&[("job.toml", JOB), ("m.obj", OBJ)]).ok();
-    ran.says(&["warning: ", "m.obj: 2 triangles of no area and 2 duplicates dropped"]);
+    ran.says(&["warning: ", "m.obj: 2 triangles of zero area and 2 duplicates are removed"]);
 }
 
 #[test]
 fn a_rendering_says_that_nothing_gives_light() {
     let dark = JOB.replace("radiance_w_m2_sr_nm = 1", "radiance_w_m2_sr_nm = 0");
     let ran = rendered(&[("job.toml", &dark), ("m.obj", OBJ)]).ok();
-    ran.says(&["warning: camera front: nothing gives light"]);
+    ran.says(&["warning: camera front: there is no light"]);
 }
 
 const QUAD: &str = "v 0 -1 -1\nv 0 1 -1\nv 0 1 1\nv 0 -1 1\n";

@@ -206,12 +206,12 @@ fn the_plan_says_how_drops_change() {
         "12 of 0.1 to 0.4 mm radius",
         "slide at up to 8 mm/s from 0.2 mm",
         "dry in 3 s",
-        "40 a second",
+        "40 per second",
         "every 2 s from 0.9 s",
     ] {
         assert!(plan.contains(phrase), "{phrase}: {plan}");
     }
-    assert!(plan.contains("each sample has a moment"), "{plan}");
+    assert!(plan.contains("each sample has a time within"), "{plan}");
     let still = etendue(["plan", &scene(FLOOR, RAIN).job]).ok().out;
-    assert!(!still.contains("each sample has a moment"), "{still}");
+    assert!(!still.contains("each sample has a time within"), "{still}");
 }

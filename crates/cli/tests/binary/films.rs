@@ -127,7 +127,7 @@ fn the_plan_tells_where_a_film_is() {
     let place = Place::new("spp = 4\nreplicates = 2", &camera(THIN, "", ""), SPECTRA);
     let plan = |options: &[&str]| etendue(["plan", &place.job()].iter().chain(options)).ok().out;
     // 20 bands: means and variances of 4 bytes; also weights, samples and non-finite counts.
-    let told = "film 0.2 MB in memory, its bands 2.4 MB on the disk";
+    let told = "film 0.2 MB in memory, its bands 2.4 MB on disk";
     assert!(plan(&["--film-memory", "1"]).contains(told), "{}", plan(&["--film-memory", "1"]));
     assert!(plan(&["--film-memory", "3"]).contains("film 2.6 MB\n"), "{}", plan(&[]));
     let json: serde_json::Value = serde_json::from_str(&plan(&["--film-memory", "1", "--json"])).expect("JSON");
@@ -138,7 +138,7 @@ fn the_plan_tells_where_a_film_is() {
     let place = Place::new("spp = 1", &deep, "irradiance = true");
     let told = etendue(["plan", &place.job(), "--film-memory", "1"]).ok().out;
     let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(told.contains("MB on the disk, read into memory all at once for depth of field"), "{told}");
+    assert!(told.contains("MB on disk, all read into memory at once for depth of field"), "{told}");
 }
 
 #[test]

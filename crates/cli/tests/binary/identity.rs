@@ -75,7 +75,7 @@ fn a_width_of_bands_that_nobody_keeps_is_remarked_and_moves_no_wavelength() {
     let folded = ["--set", "output.radiance=false", "--set", "output.irradiance=false"];
     let wide = ["--set", "render.band_width_nm=97"].into_iter().chain(folded);
     let plan = etendue(["plan", &small()].into_iter().chain(wide)).ok().out;
-    assert!(plan.contains("no spectrum is kept, so the width of bands does not matter"), "{plan}");
+    assert!(plan.contains("no spectrum is stored, so the width of bands has no effect"), "{plan}");
     let (a, b) = (
         rendered(&small(), &folded),
         rendered(&small(), &[&folded[..], &["--set", "render.band_width_nm=97"]].concat()),

@@ -232,7 +232,7 @@ fn a_lens_file_s_image_aperture_and_glasses_govern_and_are_told() {
         let report = measured(name, file, &[]);
         assert_eq!(report["sensor_from_last_vertex_mm"].as_f64(), Some(18.0), "{name}");
         assert!(
-            remarks(&report).contains("18.0000 mm behind the last vertex, as the file says: -"),
+            remarks(&report).contains("18.0000 mm behind the last vertex, as the file states: -"),
             "{}",
             remarks(&report)
         );
@@ -240,8 +240,7 @@ fn a_lens_file_s_image_aperture_and_glasses_govern_and_are_told() {
         let paraxial_mm = focused["back_focus_from_last_vertex_mm"].as_f64().expect("a number");
         let sensor_mm = focused["sensor_from_last_vertex_mm"].as_f64().expect("a number");
         assert!(
-            (sensor_mm - paraxial_mm).abs() < 1e-9
-                && remarks(&focused).contains("the file's image stands at 18.0000 mm")
+            (sensor_mm - paraxial_mm).abs() < 1e-9 && remarks(&focused).contains("the file's image is at 18.0000 mm")
         );
     }
     // The entrance pupil opens the stop beyond the radius for drawing, and closes it.
@@ -263,7 +262,7 @@ fn only_a_file_says_what_is_in_focus() {
     let spoilt = with_lens(&prescription("file = \"lens.zmx\"").replace("focus_distance_m = 2\n", ""));
     spoilt.write("lens.zmx", ZMX);
     let plan = etendue(["plan", &spoilt.job()]).ok().out;
-    assert!(plan.contains("lens.zmx: the sensor stands 18.0000 mm behind the last vertex, as the file says"), "{plan}");
+    assert!(plan.contains("lens.zmx: the sensor is 18.0000 mm behind the last vertex, as the file states"), "{plan}");
     refused(
         &prescription(SURFACES).replace("focus_distance_m = 2\n", ""),
         "[cameras.lens]",

@@ -205,17 +205,17 @@ fn files_that_make_no_table_are_told() {
     refused(
         &[axis.clone(), off.clone(), round(0.0, "0.4800")],
         "",
-        &["effects.psf.files", "no file is of 480 nm at the field (0°, 3.5763°) of psf-1.txt"],
+        &["effects.psf.files", "no file is for 480 nm at the field (0°, 3.5763°) of psf-1.txt"],
     );
     refused(
         &[axis.clone(), polychromatic],
         "",
-        &["effects.psf.files", "486.1 to 656.3 nm", "polychromatic ones of the same range"],
+        &["effects.psf.files", "486.1 to 656.3 nm", "polychromatic files of the same range"],
     );
     refused(
         &[axis.clone(), off.clone(), round(-0.5, "0.5500")],
         "",
-        &["psf-2.txt is at the distance", "psf-1.txt", "remove one"],
+        &["psf-2.txt has the same distance", "psf-1.txt", "remove one"],
     );
     refused(&[axis.replace("2.000 µm", "5.100 µm")], "", &["effects.psf.files", "5.100 µm apart", "smaller spacing"]);
     refused(&[axis.replace("Data spacing is 2.000 µm", "")], "", &["psf-0.txt", "how far its samples are apart"]);
@@ -223,7 +223,7 @@ fn files_that_make_no_table_are_told() {
     refused(
         &[axis.clone(), off.replace("Center coordinates", "X").replace("3.5763 (deg)", "95.0 (deg)")],
         "",
-        &["effects.psf.files", "images nothing at the field (0°, 95°)"],
+        &["effects.psf.files", "forms no image at the field (0°, 95°)"],
     );
     refused(std::slice::from_ref(&axis), ", blades = 6", &["\"blades\" contradicts \"files\""]);
     refused(std::slice::from_ref(&axis), ", reach_mm = 1", &["\"reach_mm\" contradicts \"files\""]);

@@ -193,7 +193,7 @@ fn what_cannot_be_done_is_refused() {
     refused(&["--progressive", "--shard", "0/2"], &["--progressive", "cannot be used with"]);
     refused(&["--progressive", "--set", "render.noise_threshold=0.5"], &["noise_threshold", "--progressive", "--spp"]);
     refused(&["--set", "render.passes=[8, 6]", "--set", "render.replicates=4"], &["6 samples", "4 replicates"]);
-    refused(&["--set", "render.passes=[1.5]"], &["no pass takes all pixels"]);
+    refused(&["--set", "render.passes=[1.5]"], &["no pass samples all pixels"]);
     refused(&["--set", "render.passes=[]"], &["render.passes", "a list of 1 or more"]);
     refused(&["--set", "render.passes=[8]", "--set", "render.spp=8"], &["spp", "passes", "exclude each other"]);
     refused(&["--spp", "8", "--noise", "0.5"], &["cannot be used with"]);

@@ -118,13 +118,13 @@ fn what_needs_more_than_is_there_is_refused() {
         let arguments = ["render", &job(), "-o", &text(&place.path().join("out")), "--set", set].map(str::to_owned);
         etendue(arguments).refused(phrases);
     };
-    told("cameras.left.output.boxes=false", &["\"tracks\" is asked for", "boxes", "add boxes = true"]);
-    told("cameras.right.output={ video = \"y4m\" }", &["\"video\" is asked for", "no [isp]"]);
-    told("cameras.left.output.picture=false", &["\"video\" is asked for", "ask for \"picture\""]);
-    told("cameras.left.isp={ picture_format = \"jpeg\" }", &["\"video\" is asked for", "JPEG"]);
-    let late = ["cameras.right.sensor.shutter.exposure_s", "a row takes 0.2", "every 0.05 s"];
+    told("cameras.left.output.boxes=false", &["\"tracks\" is requested", "boxes", "add boxes = true"]);
+    told("cameras.right.output={ video = \"y4m\" }", &["\"video\" is requested", "no [isp]"]);
+    told("cameras.left.output.picture=false", &["\"video\" is requested", "request \"picture\""]);
+    told("cameras.left.isp={ picture_format = \"jpeg\" }", &["\"video\" is requested", "JPEG"]);
+    let late = ["cameras.right.sensor.shutter.exposure_s", "a row takes 0.2", "frame period is 0.05 s"];
     told("cameras.right.sensor.shutter.exposure_s=0.2", &late);
-    let slow = ["cameras.left.sensor.shutter.row_time_us", "to read all rows takes", "read rows faster"];
+    let slow = ["cameras.left.sensor.shutter.row_time_us", "reading all rows takes", "read rows faster"];
     told("cameras.left.sensor.shutter.row_time_us=20000", &slow);
 }
 

@@ -68,18 +68,18 @@ fn block<'a>(plan: &'a str, name: &str) -> &'a str {
 fn the_plan_says_whose_light_a_camera_sees_and_why_not() {
     let (_place, job) = all();
     let plan = etendue(["plan", &job]).ok().out;
-    assert!(block(&plan, "first").contains("for twin, long, other-look and longer too"), "{plan}");
+    assert!(block(&plan, "first").contains("shared with twin, long, other-look and longer"), "{plan}");
     for name in ["twin", "long", "other-look", "longer"] {
         let told = block(&plan, name);
         assert!(told.contains("light          that of camera first"), "{told}");
-        assert!(told.contains("cost           no paths of its own: those of camera first"), "{told}");
+        assert!(told.contains("cost           no separate paths: shares those of camera first"), "{told}");
     }
     let apart = |name: &str, why: &str| {
         let told = block(&plan, name);
         assert!(told.contains("its own: camera") && told.contains(why) && told.contains("million paths"), "{told}");
     };
-    apart("half", "differs in the response that pixels fold");
-    apart("spectral", "differs in what is kept of the spectrum");
+    apart("half", "differs in the spectral response of the pixels");
+    apart("spectral", "differs in the stored spectrum");
     assert!(!block(&plan, "wide").contains("light      "), "another lens is another light, which nobody wonders at");
     let alone = etendue(["plan", &job, "--camera", "long"]).ok().out;
     let told = block(&alone, "long");

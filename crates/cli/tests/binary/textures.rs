@@ -102,7 +102,7 @@ fn the_result_does_not_depend_on_the_memory_of_textures() {
     let some = rendered(&job, &["--texture-memory", "11", "--cache", &cache]);
     assert_same(&held, &some, "one picture in memory");
     let plan = etendue(["plan", &job, "--texture-memory", "1", "--cache", &cache]).ok().out;
-    let told = "textures 3 in tiles on the disk, 23 MB; at most 1 MB of them in memory";
+    let told = "textures 3 in tiles on disk, 23 MB; at most 1 MB of them in memory";
     assert!(plan.split_whitespace().collect::<Vec<_>>().join(" ").contains(told), "{plan}");
 }
 
@@ -145,7 +145,7 @@ fn a_sandboxed_job_without_an_output_folder_has_its_textures_in_memory() {
     assert!(!summary.contains("in tiles"), "{summary}");
     let out = place.path("out");
     let summary = request.into_output(&out).open().unwrap_or_else(|error| panic!("{error}")).summary();
-    assert!(summary.split_whitespace().collect::<Vec<_>>().join(" ").contains("3 in tiles on the disk"), "{summary}");
+    assert!(summary.split_whitespace().collect::<Vec<_>>().join(" ").contains("3 in tiles on disk"), "{summary}");
     assert!(out.join(".texture-cache").is_dir());
 }
 
@@ -185,7 +185,7 @@ fn without_a_folder_for_tiles_pictures_are_held_with_a_warning() {
     let ran = etendue(["render", &job, "-o", &output, "--texture-memory", "1", "--cache", &cache]).ok();
     ran.says(&[
         "a.png",
-        "6 MB are held in memory, above its limit, because the cache folder ",
+        "6 MB are stored in memory, above its limit, because the cache folder ",
         "file/cache cannot be written: ",
     ]);
     assert_same(&rendered(&job, &[]), &crate::support::contents(Path::new(&output)), "held after all");

@@ -86,7 +86,7 @@ fn what_cannot_be_is_refused_with_its_remedy() {
     let refused = |left: &str, sequence: &str| opened(&job(left, sequence)).map(|_| ()).expect_err("refused");
     let message = refused("output = { optical_flow = \"exr\" }\n", "");
     assert!(
-        message.contains("\"optical_flow\" looks at the frames before and after") && message.contains("[sequence]"),
+        message.contains("\"optical_flow\" requires the previous and the next frame") && message.contains("[sequence]"),
         "{message}"
     );
     let message = refused("output = { disparity_to = \"top\" }\n", SEQUENCE);
@@ -99,7 +99,7 @@ fn what_cannot_be_is_refused_with_its_remedy() {
         2,
     );
     let message = opened(&turned).map(|_| ()).expect_err("refused");
-    assert!(message.contains("are not rectified") && message.contains("one lens without distortion"), "{message}");
+    assert!(message.contains("are not rectified") && message.contains("the same lens without distortion"), "{message}");
     let swapped =
         job("", SEQUENCE).replace("name = \"right\"", "name = \"right\"\noutput = { disparity_to = \"left\" }");
     let message = opened(&swapped).map(|_| ()).expect_err("refused");

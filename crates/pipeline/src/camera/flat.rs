@@ -51,7 +51,7 @@ pub fn bare(body: &CameraBody) -> Option<CameraBody> {
     let mut parameters = body.sensor.as_ref()?.parameters().clone();
     parameters.light.angle_response = None;
     parameters.exposure.control = None;
-    let sensor = Sensor::new(parameters).expect("what can be can be without a part");
+    let sensor = Sensor::new(parameters).expect("a valid sensor remains valid without a part");
     Some(CameraBody { sensor: Some(sensor), ..body.clone() })
 }
 
@@ -80,20 +80,19 @@ pub fn photons(sensor: &Sensor, light: FlatLight, exposure_s: f64) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FlatError {
     /// No channel responds to the light.
-    #[error(
-        "the sensor does not respond to light of that wavelength: give one at which its quantum efficiency is above 0"
-    )]
+    #[error("the sensor does not respond to this wavelength; give one at which its quantum efficiency is above 0")]
     Blind,
     /// Photons are requested for an exposure of zero.
-    #[error("no photons fall on a pixel in the camera's \"exposure_s\", which is 0: give a longer one, or 0 photons")]
+    #[error("no photons reach a pixel in the camera's \"exposure_s\", which is 0; give a longer one, or 0 photons")]
     NoExposure,
     /// The longest exposure of the series is zero.
-    #[error("photon transfer takes exposures up to the camera's \"exposure_s\", which is 0: give a longer one")]
+    #[error("photon transfer uses exposures up to the camera's \"exposure_s\", which is 0; give a longer one")]
     NoTime,
     /// Digital numbers are not proportional to the charge of single pixels.
     #[error(
-        "photon transfer needs numbers proportional to the charge of single pixels: take \"hdr\", \"companding\", \"response\" and \
-         \"binning\" out of the camera's [sensor] (a file with \"base\" and \"without\" does)"
+        "photon transfer requires digital numbers proportional to the charge of single pixels; remove \"hdr\", \
+         \"companding\", \"response\" and \"binning\" from the camera's [sensor] (a file with \"base\" and \"without\" \
+         does)"
     )]
     NotLinear,
 }

@@ -30,7 +30,7 @@ pub(super) fn layers(
     for setup in &description.cameras {
         let Some(key) = setup.output.weather.as_ref().filter(|key| key.value) else { continue };
         if !has_media {
-            let problem = "\"weather\" is asked for, but the scene has neither [[media]] nor [precipitation]";
+            let problem = "\"weather\" is requested, but the scene has neither [[media]] nor [precipitation]";
             context.fault(
                 ErrorCode::UnavailableOutput,
                 &key.place,
@@ -52,7 +52,7 @@ pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Con
         if camera.settings.blocks != Blocks::SINGLE {
             context.remark_on(
                 about(),
-                "\"path_reuse_px\" is passed over: where media scatter light, pixels trace paths of their own",
+                "\"path_reuse_px\" is ignored: with scattering media, each pixel traces its own paths",
             );
         }
         let depth = depth_above(camera, media);
@@ -60,8 +60,8 @@ pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Con
         // In an unbounded medium no number is reported: light of its lamps comes from nearby.
         if depth > 0.0 && depth.is_finite() && f64::from(camera.settings.paths.max_bounces) < wanted {
             context.remark_on(about(), format!(
-                "it stands in a medium of optical depth {depth:.1} below the sky; light that is scattered more than max_bounces = {} times is left out, \
-                 and the medium looks too dark; some {:.0} find nearly all of it",
+                "it is in a medium of optical depth {depth:.1} towards the sky; light scattered more than max_bounces \
+                 = {} times is missing, so the medium is too dark; about {:.0} bounces include nearly all of it",
                 camera.settings.paths.max_bounces, wanted.min(MAX_BOUNCES).ceil()
             ));
         }

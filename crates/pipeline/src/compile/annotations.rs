@@ -49,7 +49,7 @@ fn check_frames(output: &Output, camera: &CameraPlan, context: &mut Context<'_>)
         output.scene_flow.as_ref().filter(|key| key.value).map(|key| ("scene_flow", &key.place)),
     ];
     for (name, place) in keys.into_iter().flatten() {
-        let problem = format!("\"{name}\" looks at the frames before and after, and nothing says when they are");
+        let problem = format!("\"{name}\" requires the previous and the next frame, but no frame rate is stated");
         context.fault(
             ErrorCode::UnavailableOutput,
             place,
@@ -96,8 +96,8 @@ fn disparity(
     };
     if let Some(problem) = not_rectified(left, right) {
         let remedy = format!(
-            "give both cameras one lens without distortion, the same rotation, and \"{}\" a place straight to the right (+x of \
-             the camera), or remove the key",
+            "give both cameras the same lens without distortion and the same rotation, and place \"{}\" exactly to the \
+             right (+x of the camera), or remove the key",
             right.name
         );
         context.fault(ErrorCode::UnavailableOutput, &key.place, problem, remedy);
@@ -133,7 +133,7 @@ fn not_rectified_at(left: &CameraPlan, right: &CameraPlan, time_s: f64) -> Optio
     });
     if let Some(camera) = bent {
         return Some(format!(
-            "the rays of camera \"{}\" do not meet in one point, so that no row is another's",
+            "the rays of camera \"{}\" do not meet in one point, so rows do not correspond",
             camera.name
         ));
     }
@@ -156,9 +156,10 @@ fn not_rectified_at(left: &CameraPlan, right: &CameraPlan, time_s: f64) -> Optio
 }
 
 fn told(left: &CameraPlan, right: &CameraPlan, at_px: DVec2, point_m: DVec3, seen: Option<DVec2>) -> String {
-    let there = seen.map_or_else(|| "nowhere".to_owned(), |seen| format!("at the height {:.3} px", seen.y));
+    let there = seen.map_or_else(|| "not imaged".to_owned(), |seen| format!("at y = {:.3} px", seen.y));
     format!(
-        "the views of \"{}\" and \"{}\" are not rectified: the point {point_m:.3} m is seen at the height {:.3} px in the one, {there} in the other",
+        "the views of \"{}\" and \"{}\" are not rectified: the point {point_m:.3} m is at y = {:.3} px in the first, \
+         {there} in the second",
         left.name, right.name, at_px.y
     )
 }

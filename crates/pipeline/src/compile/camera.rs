@@ -38,7 +38,7 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
 /// Warns of light from outside the image that the lens does not transmit.
 pub(super) fn remark_margin(body: &CameraBody, context: &mut Context<'_>) {
     if let (Ok(()), Err(error)) = (body.lens.check(&body.raster), body.lens.check(&body.film())) {
-        context.warn(format!("beyond the picture, where the effects take light from, some is missing: {error}"));
+        context.warn(format!("part of the light from outside the image, which the effects use, is missing: {error}"));
     }
 }
 
@@ -46,8 +46,10 @@ pub(super) fn remark_margin(body: &CameraBody, context: &mut Context<'_>) {
 pub(super) fn remark_reach(camera: &str, depth_of_field: &DepthOfField, body: &CameraBody, context: &mut Context<'_>) {
     if let Some([reach, kept]) = body.short_blur_margin_px(depth_of_field) {
         let text = format!(
-            "camera \"{camera}\": things at 1 m and beyond blur over radii of up to {reach} px, and {kept} px are kept around the picture: what lies farther out counts as the \
-             mean of what is kept, so that even light is right and a lone lamp out of focus may be far too bright; route = \"lens\" has no such limit"
+            "camera \"{camera}\": objects at 1 m and beyond have blur radii of up to {reach} px, but only {kept} px \
+             are stored around the image; light from farther out is replaced by the mean of the stored light, so a \
+             single light out of focus may be far too bright (uniform illumination is correct); route = \"lens\" has \
+             no such limit"
         );
         context.warn(text);
     }
@@ -63,9 +65,9 @@ pub(super) fn remark_positions(cameras: &[CameraPlan], context: &mut Context<'_>
         let rounding = f64::from(f32::EPSILON) * 0.5 * farthest;
         if rounding > NOTICED_M {
             context.remark_on(format!("camera \"{}\"", camera.name), format!(
-                "positions of the ground truth are 32-bit floats, {farthest:.0} m from the world's origin \
-                 rounded by up to {rounding:.1e} m; depth, distance and normals are not: ask for \"camera_space_position\" and add the \
-                 side-car's pose"
+                "positions of the ground truth are 32-bit floats, which {farthest:.0} m from the world's origin are \
+                 rounded by up to {rounding:.1e} m; depth, distance and normals are not affected; request \
+                 \"camera_space_position\" and add the side-car's pose"
             ));
         }
     }
@@ -75,31 +77,25 @@ pub(super) fn remark_positions(cameras: &[CameraPlan], context: &mut Context<'_>
 pub(super) fn check_video(output: &Output, camera: &CameraPlan, context: &mut Context<'_>) {
     let Some(key) = &output.video else { return };
     let mut refuse = |lack: String, remedy: &str| {
-        let problem = format!("\"video\" is asked for, but {lack}");
+        let problem = format!("\"video\" is requested, but {lack}");
         context.fault(ErrorCode::UnavailableOutput, &key.place, problem, format!("{remedy}, or remove the key"));
     };
     if camera.body.development.is_none() {
-        return refuse("the camera has no [isp], which makes pictures".to_owned(), "add it");
+        return refuse("the camera has no [isp], which produces images".to_owned(), "add it");
     }
     if !camera.products.picture {
-        return refuse("no pictures are, of which it is made".to_owned(), "ask for \"picture\"");
+        return refuse("\"picture\", from which it is encoded, is not".to_owned(), "request \"picture\"");
     }
     match camera.body.picture_format() {
         PictureFormat::Png { bits: 8 } => {}
         PictureFormat::Png { bits } => {
-            refuse(format!("the pictures have {bits} bits, and its samples have 8"), "write pictures of 8 bits");
+            refuse(format!("the images have {bits} bits, and a video has 8"), "write images of 8 bits");
         }
         PictureFormat::Jpeg { .. } => {
-            refuse(
-                "the pictures are JPEG, which has lost what it would repeat".to_owned(),
-                "write the pictures as PNG",
-            );
+            refuse("the images are JPEG, which is lossy".to_owned(), "write the images as PNG");
         }
     }
     if camera.timing.period_s.is_none() {
-        refuse(
-            "nothing says how fast frames follow each other".to_owned(),
-            "add [sequence] with \"frame_rate_hz\" to the job",
-        );
+        refuse("no frame rate is stated".to_owned(), "add [sequence] with \"frame_rate_hz\" to the job");
     }
 }

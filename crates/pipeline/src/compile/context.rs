@@ -37,7 +37,8 @@ impl<'a> Context<'a> {
         let is_exact = (1024.0 * time.value.fraction_s()).fract() == 0.0;
         if time.value.is_number() && !is_exact && step_s > 1e-9 {
             let text = format!(
-                "a number this far from zero is rounded to a multiple of {:.1} ns; write it as text, in quotes, to keep all its digits",
+                "a number this far from zero is rounded to a multiple of {:.1} ns; write it as a string, in quotes, to \
+                 preserve all its digits",
                 1e9 * step_s
             );
             self.warn_on(&time.place, text);

@@ -54,8 +54,8 @@ pub(super) fn turning(hub: &Motion, rolls: &Rolls, context: &mut Context<'_>) ->
             context.fault(
                 ErrorCode::NoEffect,
                 &rolls.place,
-                "\"rolls\" has no effect here, as nothing moves the wheel",
-                "give it keys, a trajectory or a frame that moves, or remove it",
+                "\"rolls\" has no effect: the wheel does not move",
+                "give the wheel keys, a trajectory or a moving frame, or remove \"rolls\"",
             );
             None
         }

@@ -44,7 +44,7 @@ impl Coverage {
         };
         let WavelengthRange { low_nm, high_nm } = rendered;
         (!told.is_empty())
-            .then(|| format!("{low_nm} to {high_nm} nm are rendered, and tables end before: {}{more}", told.join("; ")))
+            .then(|| format!("{low_nm} to {high_nm} nm are rendered, but tables cover less: {}{more}", told.join("; ")))
     }
 }
 
@@ -52,9 +52,9 @@ fn words(file: &Path, table: &CoveredRange) -> String {
     let WavelengthRange { low_nm, high_nm } = table.range;
     let beyond = match table.outside {
         Outside::Zero => "zero",
-        Outside::Hold => "its end values",
+        Outside::Hold => "end values",
     };
-    format!("{} ({low_nm} to {high_nm} nm, beyond that {beyond})", file.display())
+    format!("{} ({low_nm} to {high_nm} nm, outside: {beyond})", file.display())
 }
 
 #[cfg(test)]
@@ -69,10 +69,10 @@ mod tests {
         });
         assert_eq!(coverage.remark(WavelengthRange::new(390.0, 710.0)), None);
         coverage.add(Path::new("led.csv"), WavelengthRange::new(400.0, 700.0), Outside::Zero);
-        let told = "390 to 710 nm are rendered, and tables end before: led.csv (400 to 700 nm, beyond that zero)";
+        let told = "390 to 710 nm are rendered, but tables cover less: led.csv (400 to 700 nm, outside: zero)";
         assert_eq!(coverage.remark(WavelengthRange::new(390.0, 710.0)).as_deref(), Some(told));
         let all = coverage.remark(WavelengthRange::new(300.0, 1100.0)).expect("all are short");
-        assert!(all.ends_with("03.csv (380 to 780 nm, beyond that its end values); and 25 more"), "{all}");
+        assert!(all.ends_with("03.csv (380 to 780 nm, outside: end values); and 25 more"), "{all}");
         assert_eq!(
             around(WavelengthRange::new(400.0, 700.0), WavelengthRange::new(390.0, 650.0)),
             WavelengthRange::new(390.0, 700.0)

@@ -60,7 +60,7 @@ pub(super) fn check_spread_by(record: Option<&record::Effects>, route: &Route, c
     if let (Some(asked), Route::Pupil(_)) = (asked, route)
         && asked.value == description::SpreadBy::Samples
     {
-        let problem = "samples are displaced on the sensor, and on the route at the pupil none come there";
+        let problem = "samples are displaced on the sensor, but route = \"pupil\" has no samples there";
         context.fault(ErrorCode::NotModelled, &asked.place, problem, "remove the key, or render with route = \"lens\"");
     }
 }
@@ -72,7 +72,8 @@ fn ghosts(
     context: &mut Context<'_>,
 ) -> Option<GhostSettings> {
     if !matches!(lens, Lens::Prescription(_)) {
-        let problem = format!("ghosts are light between the surfaces of a prescription; the lens is a {}", lens.kind());
+        let problem =
+            format!("ghosts are reflections between the surfaces of a prescription; the lens is a {}", lens.kind());
         context.fault(
             ErrorCode::NotModelled,
             &asked.place,

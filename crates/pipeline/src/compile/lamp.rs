@@ -109,7 +109,7 @@ fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>)
         PhotometryAxes::C => (PhotometricAxes::C, MainAxis::Downward),
     };
     if let (Some(mask), MainAxis::Downward) = (&lamp.mask, main) {
-        let problem = "a mask shapes light along +x, and this lamp (photometry of type C) shines down";
+        let problem = "a mask shapes light along +x, but this light (photometry of type C) emits downwards";
         context.fault(ErrorCode::UnsuitableFile, &mask.place, problem, "remove it, or give a file of type A or B");
         return None;
     }
@@ -159,12 +159,7 @@ fn head_lamp(lamp: &HeadLamp, frames: &Frames<'_>, context: &mut Context<'_>) ->
 fn masked(profile: Profile, mask: Option<&Mask>, context: &mut Context<'_>) -> Option<Profile> {
     let Some(mask) = mask else { return Some(profile) };
     let Some(picture) = context.assets.images.get(&mask.file.value) else {
-        context.fault(
-            ErrorCode::UnreadableFile,
-            &mask.file.place,
-            "the picture was not loaded",
-            "give a readable file",
-        );
+        context.fault(ErrorCode::UnreadableFile, &mask.file.place, "the image was not loaded", "give a readable file");
         return None;
     };
     let (width, height) = (picture.width as usize, picture.height as usize);
@@ -213,7 +208,7 @@ fn of_candela(
             context.fault(
                 ErrorCode::UnsuitableFile,
                 &lm.place,
-                "the distribution is dark everywhere, so no scale gives it a flux",
+                "the distribution is zero everywhere, so it cannot be scaled to a flux",
                 "remove it",
             );
             return None;

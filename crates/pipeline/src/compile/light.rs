@@ -57,7 +57,7 @@ fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {
         }
     };
     if record.elevation_deg.value < 0.0 {
-        context.warn(format!("the sun \"{}\" stands below the horizon", record.name.value));
+        context.warn(format!("the sun \"{}\" is below the horizon", record.name.value));
     }
     let direction = sky::direction(elevation_rad, record.azimuth_deg.value.to_radians());
     let diameter_deg = record.angular_diameter_deg.as_ref().map_or(SUN_ANGULAR_DIAMETER_DEG, |d| d.value);
@@ -72,10 +72,8 @@ fn uniform(emission: &record::Emission, context: &mut Context<'_>) -> Option<Spe
     let radiance = emitted(emission, context)?;
     let brightest = radiance.max_value();
     if brightest > BRIGHTEST || brightest.is_nan() {
-        let problem = format!(
-            "the surroundings would have a radiance of {brightest:e} W·m⁻²·sr⁻¹·nm⁻¹, at most 1e30 can be traced"
-        );
-        context.fault(ErrorCode::OutOfRange, emission.level.place(), problem, "give less light");
+        let problem = format!("the environment has a radiance of {brightest:e} W·m⁻²·sr⁻¹·nm⁻¹; the maximum is 1e30");
+        context.fault(ErrorCode::OutOfRange, emission.level.place(), problem, "reduce the level");
     }
     Some(radiance)
 }
@@ -85,7 +83,7 @@ fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEn
         context.fault(
             ErrorCode::UnreadableFile,
             &record.file.place,
-            "the picture was not loaded",
+            "the image was not loaded",
             "give a readable file",
         );
         return None;
@@ -104,15 +102,15 @@ fn light_only(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mu
     match (negative, &record.negative_texels) {
         (0, _) => return texels,
         (_, Some(_)) => {
-            context.remark_on(file, format!("{negative} texels with a component below 0 made 0, as asked"));
+            context.remark_on(file, format!("{negative} texels with a component below 0 set to 0, as requested"));
         }
         (_, None) => {
-            let problem = format!("{negative} texels of {file} have a component below 0, which no light has");
+            let problem = format!("{negative} texels of {file} have a component below 0; light cannot be negative");
             context.fault(
                 ErrorCode::UnsuitableFile,
                 &record.file.place,
                 problem,
-                "correct the picture, or say negative_texels = \"zero\"",
+                "correct the image, or set negative_texels = \"zero\"",
             );
         }
     }

@@ -125,8 +125,8 @@ fn remark_darkness(scene: &Scene, context: &mut Context<'_>) {
     if let (Some(medium), true) = (endless, shines) {
         context.warn_on(
             format!("medium \"{}\"", medium.name.value),
-            "it has no end, and light of sky and sun comes from infinity: none of it comes through; give the medium a \"shape\" with bounds, \
-             such as a layer",
+            "it is unbounded and blocks all light of sky and sun, which comes from infinity; give the medium a \
+             \"shape\" with bounds, such as a layer",
         );
     }
 }

@@ -187,7 +187,7 @@ fn what_cannot_move_is_refused() {
     let fault = |scene: &str| plan(STILL, scene, &rows()).expect_err("a fault");
     let parked = fault(&ball("position_m = [5, 0, 1]\nrolls = { radius_m = 0.3 }"));
     assert!(
-        parked.contains("scene.objects.ball.rolls: \"rolls\" has no effect here, as nothing moves the wheel; give it")
+        parked.contains("scene.objects.ball.rolls: \"rolls\" has no effect: the wheel does not move; give the wheel")
     );
     let missing = fault(&ball("trajectory = { file = \"other.csv\" }"));
     assert!(missing.contains("the trajectory was not loaded"), "{missing}");
@@ -196,7 +196,7 @@ fn what_cannot_move_is_refused() {
         let keys = format!("keys = [{{ time_s = 0 }}, {{ time_s = 1, position_m = [5, 0, 0], scale = {scale} }}]");
         format!("{lamp}{}", ball(&keys)).replace("\"paint\"\nshape", "\"glow\"\nshape")
     };
-    assert!(fault(&growing(2.0)).contains("a surface whose scale changes over time has no area"));
+    assert!(fault(&growing(2.0)).contains("the scale of this surface changes over time"));
     assert!(plan(STILL, &growing(1.0), &[]).is_ok(), "rigid motion keeps the area");
     let flat = "keys = [{ time_s = 0, scale = [1, 1, 1] }, { time_s = 1, scale = [0.1, 1, 1] }, { time_s = 2, scale = [3, 1, 1] }]";
     let smooth = fault(&ball(&format!("interpolation = \"smooth\"\n{flat}")));

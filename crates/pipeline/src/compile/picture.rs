@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// Width and numbers, row by row, of an image: bytes and words over their maximum, floating-point numbers unchanged; the mean of the channels.
 pub(super) fn grey(file: &Placed<PathBuf>, context: &mut Context<'_>) -> Option<(usize, Vec<f32>)> {
     let Some(image) = context.assets.images.get(&file.value) else {
-        let problem = format!("the picture {} was not loaded", file.value.display());
+        let problem = format!("the image {} was not loaded", file.value.display());
         context.fault(ErrorCode::UnreadableFile, &file.place, problem, "give a readable file");
         return None;
     };

@@ -61,12 +61,12 @@ fn listed<'a, 'c: 'a>(
     };
     asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
     let Some(place_mm) = place_mm(asset, lens) else {
-        let problem = format!("the lens images nothing at the field {}, which the file states", field(asset.field));
+        let problem = format!("the lens forms no image at the field {} of the file", field(asset.field));
         context.fault(
             ErrorCode::UnsuitableFile,
             &file.place,
             problem,
-            "give files of its field, or such as state their coordinates on the sensor",
+            "give files within the lens's field, or files that state their coordinates on the sensor",
         );
         return None;
     };
@@ -112,12 +112,12 @@ fn wavelengths(listed: &[Listed<'_>], context: &mut Context<'_>) -> Option<Vec<T
     let other = |one: &&Listed<'_>| one.asset.wavelengths_nm != first.asset.wavelengths_nm;
     if let Some(other) = listed.iter().find(other).filter(|_| listed.iter().any(is_broad)) {
         let nm = |one: &Listed<'_>| format!("{} to {} nm", one.asset.wavelengths_nm[0], one.asset.wavelengths_nm[1]);
-        let problem = format!("{} is of {}, and {} of {}", name(other), nm(other), name(first), nm(first));
+        let problem = format!("{} is for {}, but {} for {}", name(other), nm(other), name(first), nm(first));
         context.fault(
             ErrorCode::UnsuitableFile,
             &other.file.place,
             problem,
-            "give files of one wavelength each, or polychromatic ones of the same range",
+            "give files of one wavelength each, or polychromatic files of the same range",
         );
         return None;
     }
@@ -149,12 +149,12 @@ fn check_twice(grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> O
     });
     let Some(pair) = alike else { return Some(()) };
     let problem =
-        format!("{} is at the distance from the axis of {}, and of its wavelength", name(pair[1]), name(pair[0]));
+        format!("{} has the same distance from the axis and the same wavelength as {}", name(pair[1]), name(pair[0]));
     context.fault(
         ErrorCode::Duplicate,
         &pair[1].file.place,
         problem,
-        "remove one of them: the function turns with the place in the picture",
+        "remove one of them; the point spread is rotated with the position in the image",
     );
     None
 }
@@ -164,12 +164,12 @@ fn check_complete(listed: &[Listed<'_>], grid: &[(f64, Vec<&Listed<'_>>)], conte
     let has = |fields: &[&Listed<'_>], wanted: FieldPoint| fields.iter().any(|one| one.asset.field == wanted);
     for one in listed {
         if let Some((nm, _)) = grid.iter().find(|(_, fields)| !has(fields, one.asset.field)) {
-            let problem = format!("no file is of {nm} nm at the field {} of {}", field(one.asset.field), name(one));
+            let problem = format!("no file is for {nm} nm at the field {} of {}", field(one.asset.field), name(one));
             context.fault(
                 ErrorCode::UnsuitableFile,
                 &one.file.place,
                 problem,
-                "give a file of every field at every wavelength",
+                "give a file for every field at every wavelength",
             );
             return None;
         }
@@ -182,25 +182,28 @@ fn remark_on(table: &SpreadTable, picture: &Raster, context: &mut Context<'_>) {
     let last_mm = radii[radii.len() - 1];
     if corner_mm > BEYOND * last_mm && last_mm > 0.0 {
         context.remark(format!(
-            "point spreads are known to {last_mm:.4} mm from the axis and held beyond; the picture's corner is at {corner_mm:.4} mm"
+            "point spreads are given up to {last_mm:.4} mm from the axis and constant beyond; the corner of the image \
+             is at {corner_mm:.4} mm"
         ));
     }
     if radii[0] > 0.0 {
         context.remark(format!(
-            "no point spread is of the axis: that at {:.4} mm is held inwards, where it turns with the place as there; give a file of the axis",
+            "no point spread is given for the axis: the one at {:.4} mm is used further inside, rotated with the \
+             position; give a file for the axis",
             radii[0]
         ));
     }
     if !table.keeps_shapes() {
         let [across, down] = table.patches();
         context.remark(format!(
-            "point spreads change too fast for {across} × {down} patches: between them centroids are off by more than a hundredth of the width or second moments by more than half a per cent; \"patches\" takes more"
+            "point spreads change too fast for {across} × {down} patches: between them, centroids are off by more than \
+             1 % of the width or second moments by more than 0.5 %; increase \"patches\""
         ));
     }
     let error = table.light_error();
     if error > LIGHT_ERROR {
         context.remark(format!(
-            "point spreads keep the light of a point to {:.1} %: their centroids shift over the field",
+            "point spreads conserve the light of a point only to {:.1} %: their centroids shift over the field",
             100.0 * error
         ));
     }

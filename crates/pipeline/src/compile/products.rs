@@ -19,20 +19,20 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         need(key, electronics, name, "the sensor has no electronics", "add them to [sensor]", context);
     }
     let ghosts = body.effects.ghosts().is_some();
-    need(&output.ghosts, ghosts, "ghosts", "the camera makes none", "add ghosts = true to its [effects]", context);
+    need(&output.ghosts, ghosts, "ghosts", "the camera models none", "add ghosts = true to its [effects]", context);
     let truth = said(&output.ground_truth, true);
     need(
         &output.camera_space_position,
         truth,
         "camera_space_position",
-        "it is a layer of the ground truth",
-        "ask for it",
+        "\"ground_truth\", to which it belongs, is not",
+        "request \"ground_truth\"",
         context,
     );
     let development = body.development.is_some();
     need(&output.picture, development, "picture", "the camera has no [isp]", "add it", context);
     let boxes = said(&output.boxes, false);
-    need(&output.tracks, boxes, "tracks", "they are made of boxes", "add boxes = true", context);
+    need(&output.tracks, boxes, "tracks", "\"boxes\", from which they are made, is not", "add boxes = true", context);
     let depth_png = said(&output.depth_png, false);
     if let (Some(scale), false) = (&output.depth_png_scale, depth_png) {
         let place = match scale {
@@ -72,7 +72,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
             ErrorCode::Empty,
             &output.place,
             "the camera delivers nothing",
-            "ask for at least one product in [output]",
+            "request at least one product in [output]",
         );
     }
     products
@@ -83,8 +83,8 @@ fn remark_depth(products: &Products, body: &CameraBody, context: &mut Context<'_
     let asked = products.ground_truth && !products.camera_space_position || products.depth_png_per_m.is_some();
     if asked && body.depth_has_gaps() {
         context.remark(
-            "depth along the axis is NaN (0 in depth.png) where the camera looks sideways, back or at a mirror: take distance.Z along the \
-             directions of rays = true, or the signed z of camera_space_position = true"
+            "depth along the axis is NaN (0 in depth.png) where the camera looks sideways, backwards or at a mirror; \
+             use distance.Z along the directions of rays = true, or the signed z of camera_space_position = true"
                 .to_owned(),
         );
     }
@@ -109,14 +109,13 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
         return None;
     };
     if !(products.ground_truth || products.rays || products.picture) {
-        let problem =
-            "\"undistorted\" has no effect without \"ground_truth\", \"rays\" or \"picture\", of which it makes twins";
-        context.fault(ErrorCode::NoEffect, &key.place, problem, "ask for one of them, or remove the key");
+        let problem = "\"undistorted\" has no effect without \"ground_truth\", \"rays\" or \"picture\", to which it \
+                       adds undistorted twins";
+        context.fault(ErrorCode::NoEffect, &key.place, problem, "request one of them, or remove the key");
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
     if products.picture && layout.is_some_and(|l| !l.is_whole()) {
-        let problem =
-            "pictures of a region, of binned pixels or without some that are skipped have no undistorted twins";
+        let problem = "images of a region, or with binned or skipped pixels, have no undistorted twins";
         context.fault(
             ErrorCode::NotModelled,
             &key.place,
@@ -135,14 +134,14 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
     if body.sensor.is_none() || output.raw.as_ref().is_some_and(|raw| !raw.value) {
         let cause = output.raw.as_ref().map(|raw| &raw.place);
         let problem = "\"raw_format\" has no effect without raw";
-        context.idle(ErrorCode::NoEffect, "raw_format", &key.place, cause, problem, "ask for \"raw\", or remove it");
+        context.idle(ErrorCode::NoEffect, "raw_format", &key.place, cause, problem, "request \"raw\", or remove it");
     }
     let format = key.value;
     if format == RawFormat::Png && usual != RawFormat::Png {
         context.fault(
             ErrorCode::UnsupportedOutput,
             &key.place,
-            "the digital numbers have more than 16 bits, which PNG does not hold",
+            "the digital numbers have more than 16 bits, which PNG cannot store",
             "give \"tiff\"",
         );
     }
@@ -150,11 +149,12 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
         && let Some(sensor) = body.sensor.as_ref().filter(|s| RawColour::of(s).is_none())
     {
         let names: Vec<&str> = sensor.parameters().channels.iter().map(|c| c.name.as_str()).collect();
-        let problem = format!("a DNG holds one channel, or red, green and blue, and a sensor has {}", names.join(", "));
+        let problem =
+            format!("a DNG contains one channel, or red, green and blue, but a sensor has {}", names.join(", "));
         context.fault(ErrorCode::UnsupportedOutput, &key.place, problem, "give \"png\" or \"tiff\"");
     }
     if format == RawFormat::Dng && body.sensor.as_ref().is_some_and(|s| s.parameters().hdr.companding.is_some()) {
-        let problem = "the numbers are companded, and raw readers would take a DNG's for linear";
+        let problem = "the digital numbers are companded, but raw readers interpret those of a DNG as linear";
         context.fault(
             ErrorCode::UnsupportedOutput,
             &key.place,
@@ -173,7 +173,7 @@ fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, lack: &str, reme
         context.fault(
             ErrorCode::UnavailableOutput,
             &key.place,
-            format!("\"{name}\" is asked for, but {lack}"),
+            format!("\"{name}\" is requested, but {lack}"),
             format!("{remedy}, or remove the key"),
         );
     }

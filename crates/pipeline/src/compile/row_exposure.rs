@@ -87,10 +87,11 @@ fn captures(
         let end = ends.iter().rev().find(|(s, _)| *s == sensitivity).map_or(0.0, |(_, end)| *end);
         if let Some(start) = capture.start_s.as_ref().filter(|start| start.value < end * (1.0 - 1e-9)) {
             let problem = format!(
-                "the exposure would begin {} s after the first, and the one before it of the same photodiode ends {end} s after it",
+                "the exposure begins {} s after the first, but the previous one of the same photodiode ends {end} s \
+                 after it",
                 start.value
             );
-            context.fault(ErrorCode::ImpossibleTiming, &start.place, problem, "begin later, or leave \"start_s\" out");
+            context.fault(ErrorCode::ImpossibleTiming, &start.place, problem, "increase \"start_s\", or remove it");
         }
         let start_s = capture.start_s.as_ref().map_or(end, |start| start.value);
         ends.push((sensitivity, start_s + length_s(exposure_s * exposure_ratio)));
@@ -103,7 +104,7 @@ fn captures(
 fn refuse_idle_starts(further: &[Capture], context: &mut Context<'_>) {
     let again = |capture: &&Capture| capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value);
     for start in further.iter().filter(again).filter_map(|capture| capture.start_s.as_ref()) {
-        let problem = "\"start_s\" has no effect on charge that is read again: it has been collected before";
+        let problem = "\"start_s\" has no effect on charge that is read again: it is already collected";
         context.fault(ErrorCode::NoEffect, &start.place, problem, "remove it");
     }
 }

@@ -34,7 +34,8 @@ pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<
     }
     if let Some(threshold) = render.samples.threshold_in_force() {
         if choices.refinement == Refinement::Progressive {
-            let problem = "\"noise_threshold\" decides the samples pixel by pixel, and `progressive` refines all pixels pass by pass";
+            let problem =
+                "\"noise_threshold\" sets the samples of each pixel, but `progressive` refines all pixels in passes";
             context.fault(
                 ErrorCode::Contradiction,
                 &threshold.place,
@@ -74,9 +75,10 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
         match Pass::of_number(number.value, replicates) {
             Some(pass) => list.push(pass),
             None => {
-                let problem = format!("{} samples cannot be shared evenly among {replicates} replicates", number.value);
-                let remedy =
-                    "give each pass a multiple of the replicates, or less than their number: so many on average";
+                let problem =
+                    format!("{} samples cannot be divided equally among {replicates} replicates", number.value);
+                let remedy = "give each pass a multiple of the replicates, or fewer samples than replicates (an \
+                              average per pixel)";
                 context.fault(ErrorCode::NotAMultiple, &number.place, problem, remedy);
             }
         }
@@ -89,10 +91,10 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
             ErrorCode::OutOfRange,
             &numbers[0].place,
             problem,
-            format!("give at most {MAX_PASSES} passes of at most {most} samples together"),
+            format!("give at most {MAX_PASSES} passes of at most {most} samples in total"),
         );
     } else if passes.list().len() == numbers.len() && passes.spp() == 0 {
-        let problem = format!("no pass takes all pixels: each has fewer samples than the {replicates} replicates");
+        let problem = format!("no pass samples all pixels: each has fewer samples than the {replicates} replicates");
         context.fault(
             ErrorCode::NotAMultiple,
             &numbers[0].place,
@@ -113,7 +115,7 @@ fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     let keys = [("min_spp", &render.samples.min_spp), ("max_spp", &render.samples.max_spp)];
     for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
         if given.value % replicates != 0 {
-            let problem = format!("{} samples cannot be shared evenly among {replicates} replicates", given.value);
+            let problem = format!("{} samples cannot be divided equally among {replicates} replicates", given.value);
             context.fault(
                 ErrorCode::NotAMultiple,
                 &given.place,
@@ -126,7 +128,7 @@ fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     let min = said(&render.samples.min_spp, MIN_SPP.next_multiple_of(replicates));
     let max = said(&render.samples.max_spp, MAX_SPP.max(min).next_multiple_of(replicates));
     if let Some(given) = render.samples.max_spp.as_ref().or(render.samples.min_spp.as_ref()).filter(|_| max < min) {
-        let problem = format!("at most {max} samples are fewer than the {min} that every pixel gets");
+        let problem = format!("the maximum of {max} samples is below the minimum of {min}");
         context.fault(
             ErrorCode::WrongOrder,
             &given.place,
@@ -144,8 +146,9 @@ fn deciding(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     if given.value >= LEAST_DECIDING {
         return given.value;
     }
-    let problem = format!("\"noise_threshold\" needs replicates that decide of each other, and found {}", given.value);
-    let remedy = format!("give {LEAST_DECIDING} or more, or none: {DECIDING_REPLICATES}");
+    let problem =
+        format!("\"noise_threshold\" requires replicates that determine each other's samples; found {}", given.value);
+    let remedy = format!("give {LEAST_DECIDING} or more, or remove the key for {DECIDING_REPLICATES}");
     context.idle(ErrorCode::OutOfRange, "replicates", &given.place, Some(&threshold.place), problem, &remedy);
     DECIDING_REPLICATES
 }
@@ -159,7 +162,7 @@ fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, 
         return (spp, replicates.value as u32);
     }
     if let Some(replicates) = given {
-        let problem = format!("{spp} samples cannot be shared evenly among {} replicates", replicates.value);
+        let problem = format!("{spp} samples cannot be divided equally among {} replicates", replicates.value);
         let remedy = "give samples that are a multiple of the replicates";
         let by_quality = render.samples.spp.is_none() && choices.quality.is_some();
         if by_quality && !replicates.place.is_command_line() {
@@ -171,7 +174,7 @@ fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, 
     }
     let most = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0).unwrap_or(1);
     if most == 1 {
-        context.remark(format!("{spp} samples are one replicate, which knows no variance: an even number gives two"));
+        context.remark(format!("{spp} samples form one replicate, which gives no variance; an even number gives two"));
     }
     (spp, most as u32)
 }
@@ -184,17 +187,17 @@ pub(super) fn has_variance(output: &Output, replicates: u32, render: &Render, co
     let by_flag = render.samples.spp.as_ref().map(|spp| &spp.place).filter(|place| place.is_command_line());
     if let Some(by) = by_flag.filter(|_| !variance.place.is_command_line()) {
         context.notice(format!(
-            "{by} supersedes {}: one replicate knows no variance",
+            "{by} supersedes {}: one replicate gives no variance",
             stated("variance", &variance.place)
         ));
         return false;
     }
     let place = render.samples.replicates.as_ref().map_or(&render.place, |r| &r.place);
-    let remedy = "give \"replicates\" = 2 or more (16 for a golden image) and samples that are a multiple";
+    let remedy = "give \"replicates\" = 2 or more (16 for a reference image) and samples that are a multiple";
     context.fault(
         ErrorCode::UnavailableOutput,
         place,
-        "one replicate knows no variance, and variance is asked for",
+        "one replicate gives no variance, but variance is requested",
         remedy,
     );
     true

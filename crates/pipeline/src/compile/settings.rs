@@ -72,8 +72,7 @@ fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut 
         return Some(asked.map_or(4, |n| n.value as u32));
     }
     if let Some(asked) = asked.filter(|n| n.value != 1) {
-        let problem =
-            format!("a path cannot carry {} wavelengths through a lens that treats each differently", asked.value);
+        let problem = format!("a path cannot carry {} wavelengths through dispersive optics", asked.value);
         context.fault(ErrorCode::NotModelled, &asked.place, problem, "remove the key, or give 1");
         return None;
     }
@@ -107,7 +106,7 @@ fn guiding(paths: &PathSettings, render: &Render, context: &mut Context<'_>) -> 
     let asked = paths.integrator == Integrator::Path && render.paths.guiding.as_ref().is_some_and(|g| g.value);
     let is_of_use = paths.max_bounces > 1;
     if asked && !is_of_use {
-        context.remark("\"guiding\" is passed over: with \"max_bounces\" = 1 no light is indirect");
+        context.remark("\"guiding\" is ignored: with \"max_bounces\" = 1 there is no indirect light");
     }
     asked && is_of_use
 }
@@ -141,7 +140,7 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
         ErrorCode::TooLarge,
         &body.place,
         problem,
-        "make the picture smaller, the bands wider, or the field of view narrower",
+        "make the image smaller, the bands wider, or the field of view narrower",
     );
     None
 }
@@ -149,22 +148,22 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
 /// Notes requests that cannot be fulfilled, and data that is computed but not stored.
 fn remark_losses(products: &Products, route: &Route, folded: bool, body: &CameraBody, context: &mut Context<'_>) {
     if products.variance && products.electrons && !folded {
-        let remedy = if body.effects.is_idle() { "accumulate = \"auto\" through the lens" } else { "the irradiance" };
-        context.remark(format!("electrons come from band means and bring no variance; {remedy} does"));
+        let remedy =
+            if body.effects.is_idle() { "accumulate = \"auto\" with route = \"lens\"" } else { "the irradiance" };
+        context.remark(format!("electrons are computed from band means and have no variance; use {remedy}"));
     }
     if matches!(route, Route::Pupil(_)) && !products.radiance {
-        context.remark("route = \"pupil\" without radiance = true: nothing is kept for expose");
+        context.remark("route = \"pupil\" without radiance = true: nothing is stored for expose");
     }
     if products.variance && products.irradiance && *route != Route::Lens {
-        context
-            .remark("irradiance behind a lens put on stored radiance brings no variance; the radiance does".to_owned());
+        context.remark("irradiance computed from stored radiance has no variance; the radiance has".to_owned());
     }
 }
 
 /// Notes a stated band width without requested bands. Not an error: `--set output.radiance=false` must not require another change of the job.
 fn remark_bands(render: &Render, cube: bool, context: &mut Context<'_>) {
     if let (Some(width), false) = (&render.band_width_nm, cube) {
-        context.remark_on(&width.place, "no spectrum is kept, so the width of bands does not matter");
+        context.remark_on(&width.place, "no spectrum is stored, so the width of bands has no effect");
     }
 }
 
@@ -178,12 +177,7 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
         None => Some(if blurs { DepthOfField::Physical } else { DepthOfField::None }),
         Some(render::DepthOfField::Fast(blend)) => {
             if blend.near_m.is_none() && blend.far_m.is_none() {
-                context.fault(
-                    ErrorCode::NoEffect,
-                    &blend.place,
-                    "nothing is blurred by this",
-                    "add \"near_m\" or \"far_m\"",
-                );
+                context.fault(ErrorCode::NoEffect, &blend.place, "this blurs nothing", "add \"near_m\" or \"far_m\"");
                 return None;
             }
             context.accept(&blend.place, FastBlend::new(parameters(blend, body.scale))).map(DepthOfField::Fast)
@@ -191,7 +185,7 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
         Some(render::DepthOfField::Named(method)) => match method.value {
             DepthMethod::Physical if blurs => Some(DepthOfField::Physical),
             DepthMethod::Physical => {
-                let remark = "to this lens everything is sharp, so depth_of_field blurs nothing";
+                let remark = "everything is in focus for this lens, so \"depth_of_field\" has no effect";
                 context.remark_on(&method.place, remark);
                 Some(DepthOfField::None)
             }
@@ -252,15 +246,15 @@ fn accumulation(
                 let problem = "\"electrons\" needs a sensor with electronics and route = \"lens\"";
                 context.fault(ErrorCode::Contradiction, place, problem, "use \"auto\" or \"cube\"");
             } else if spectral {
-                let problem = "\"electrons\" keeps no spectrum, and radiance or irradiance is asked for";
+                let problem = "\"electrons\" stores no spectrum, but radiance or irradiance is requested";
                 context.fault(
                     ErrorCode::Contradiction,
                     place,
                     problem,
-                    "use \"auto\", which keeps both, or do not ask for them",
+                    "use \"auto\", which stores both, or do not request them",
                 );
             } else if effects {
-                let problem = "\"electrons\" keeps no spectrum, and the camera's [effects] act on one";
+                let problem = "\"electrons\" stores no spectrum, but the camera's [effects] require one";
                 context.fault(
                     ErrorCode::Contradiction,
                     place,

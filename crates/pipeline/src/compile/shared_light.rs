@@ -108,15 +108,15 @@ impl<'a> LightKey<'a> {
         let same_kept = Settings { adaptive: b.adaptive, bands: b.bands, folded: b.folded, range: b.range, ..*a };
         let unlike = [
             (samples(self) != samples(other), "samples or seed"),
-            (self.timing != other.timing, "the times of exposure"),
-            (kept(a) != kept(b), "what is kept of the spectrum"),
+            (self.timing != other.timing, "the exposure times"),
+            (kept(a) != kept(b), "the stored spectrum"),
             (
                 a.bands == b.bands && self.sampling.spread != other.sampling.spread,
-                "variance, for which replicates are independent",
+                "variance, which requires independent replicates",
             ),
-            (self.tolerance != other.tolerance, "the noise that decides the samples"),
-            (same_kept != *b, "how light is followed"),
-            (self.response != other.response && a.folded && b.folded, "the response that pixels fold"),
+            (self.tolerance != other.tolerance, "the noise that determines the samples"),
+            (same_kept != *b, "the simulated light paths"),
+            (self.response != other.response && a.folded && b.folded, "the spectral response of the pixels"),
         ];
         Some(unlike.iter().filter(|(unlike, _)| *unlike).map(|(_, name)| *name).collect())
     }

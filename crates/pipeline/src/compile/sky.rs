@@ -46,8 +46,8 @@ pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<MadeSky> {
         context.fault(
             ErrorCode::OutOfRange,
             place,
-            "the sky is black with the sun so low",
-            "remove the sky, or give a higher sun",
+            "the sky is black at this elevation of the sun",
+            "remove the sky, or raise the sun",
         );
         return None;
     };

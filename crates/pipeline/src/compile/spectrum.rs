@@ -77,7 +77,7 @@ pub(super) fn emitted(emission: &Emission, context: &mut Context<'_>) -> Option<
 pub(super) fn bright(relative: &Spectrum, level: f64, place: &Place, context: &mut Context<'_>) -> Option<Spectrum> {
     let scaled = observer::with_luminance(relative, level);
     if scaled.is_none() {
-        let problem = "the spectrum of this light has no visible part, so no scale gives it a luminance";
+        let problem = "the spectrum of this light has no visible part, so it cannot be scaled to a luminance";
         context.fault(ErrorCode::Degenerate, place, problem, "state its strength in W (radiance or irradiance)");
     }
     scaled

@@ -33,19 +33,23 @@ pub(super) fn remark(
             material_table,
         );
         if let Some(solid) = around.solid {
-            context.remark_on(format!("camera \"{}\"", camera.name), format!(
-                "stands inside \"{}\": its entrance pupil lies in that medium, which absorbs from there on, and radiance is n² times \
-                 that of the same light in air, and so are irradiance and electrons; a hollow about the camera is a port",
-                name(solid)
-            ));
+            context.remark_on(
+                format!("camera \"{}\"", camera.name),
+                format!(
+                    "is inside \"{}\": its entrance pupil is in that medium, which absorbs from there on; radiance, \
+                 irradiance and electrons are n² times those of the same light in air; to model a port, leave a hollow \
+                 around the camera",
+                    name(solid)
+                ),
+            );
         }
         if let Some(open) = around.open {
             let taken = if around.solid == Some(open) { "inside" } else { "outside" };
             context.remark_on(
                 format!("camera \"{}\"", camera.name),
                 format!(
-                    "whether it stands inside \"{}\" depends on the direction looked in, as its surface is not \
-                 closed; it is taken to be {taken}; close the mesh",
+                    "whether it is inside \"{}\" depends on the viewing direction, as the surface is not closed; it is \
+                     assumed to be {taken}; close the mesh",
                     name(open)
                 ),
             );
@@ -71,8 +75,8 @@ pub(super) fn warn_of_enclosed(
     for medium in &scene.media {
         let points = inner_points(medium, frames, context);
         if !points.is_empty() && points.into_iter().all(is_enclosed) {
-            let text = "is inside a transparent solid, which displaces media, and has no effect; absorption in a solid is set by the \
-                        transmittance of its material, and scattering inside it is not modelled";
+            let text = "it has no effect: it is inside a transparent solid, which displaces media; absorption in a \
+                        solid is set by the transmittance of its material, and scattering inside it is not modelled";
             context.warn_on(format!("medium \"{}\"", medium.name.value), text);
         }
     }

@@ -51,8 +51,8 @@ fn a_camera_in_water_is_told() {
         let scene = format!("{water}[[scene.objects]]\n{body}position_m = [{x}, 0, 1]\n");
         plan(&scene).expect("no fault").remarks
     };
-    assert!(ball(0.0).iter().any(|r| r.text.starts_with("stands inside \"water\"")), "{:?}", ball(0.0));
-    assert!(!ball(5.0).iter().any(|r| r.text.contains("stands inside")));
+    assert!(ball(0.0).iter().any(|r| r.text.starts_with("is inside \"water\"")), "{:?}", ball(0.0));
+    assert!(!ball(5.0).iter().any(|r| r.text.contains("is inside")));
 }
 
 /// Solids displace media: without a warning milk in a glass would be rendered as clear glass.
@@ -229,7 +229,7 @@ fn effects_keep_a_spectrum_and_a_margin() {
 fn effects_that_cannot_be_are_refused_where_they_stand() {
     let fault = |effects: &str, render: &str| scattering(effects, render).expect_err("a fault");
     let said = fault(GLARE, "accumulate = \"electrons\"");
-    assert!(said.starts_with("job.toml:22:14: render.accumulate") && said.contains("[effects] act on one"), "{said}");
+    assert!(said.starts_with("job.toml:22:14: render.accumulate") && said.contains("[effects] require one"), "{said}");
     let said = fault("glare = { scatter = 0.02, core_um = 10, exponent = 2 }", "");
     assert!(said.contains("effects.glare") && said.contains("no finite sum"), "{said}");
     let said = fault("margin = 0.5, glare = { scatter = 0, core_um = 10, exponent = 3 }", "");
@@ -239,7 +239,7 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     assert!(fault("", "").contains("describes no effect"));
     // The distortion folds outside the image, within a margin of its own width.
     let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
-    assert!(plan.remarks.iter().any(|r| r.text.contains("some is missing")), "{:?}", plan.remarks);
+    assert!(plan.remarks.iter().any(|r| r.text.contains("which the effects use, is missing")), "{:?}", plan.remarks);
 }
 
 const PINHOLE: &str = "type = \"pinhole\", focal_length_mm = 6, f_number = 2";
@@ -261,7 +261,7 @@ fn a_point_spread_function_from_a_picture() {
     assert_eq!(image.parameters().light, [0.0, 0.2, 0.0, 0.2, 1.0, 0.2]);
     assert!(camera.settings.bands.is_some() && camera.film_size() == (82, 62), "{:?}", camera.film_size());
     let said = of("20", &Assets::default()).expect_err("no file");
-    assert!(said.starts_with("job.toml:7:") && said.contains("effects.psf.image: the picture k.png was not"), "{said}");
+    assert!(said.starts_with("job.toml:7:") && said.contains("effects.psf.image: the image k.png was not"), "{said}");
     let said = of("20", &pixels(ImagePixels::Gray16(vec![0; 6]))).expect_err("dark");
     assert!(
         said.starts_with("job.toml:7:") && said.contains("effects.psf.image: ") && said.contains("0 everywhere"),
@@ -290,7 +290,7 @@ fn ghosts_are_of_a_lens_of_surfaces() {
     let said = fault("type = \"pinhole\", focal_length_mm = 6, f_number = 2", "ghosts = true", "");
     assert!(said.contains("effects.ghosts") && said.contains("the lens is a pinhole"), "{said}");
     let said = fault(DOUBLE_GAUSS, GLARE, "[output]\nghosts = true");
-    assert!(said.contains("output.ghosts") && said.contains("makes none"), "{said}");
+    assert!(said.contains("output.ghosts") && said.contains("models none"), "{said}");
     let said = fault(DOUBLE_GAUSS, &format!("{GLARE}, sensor_reflectance = 0.1"), "");
     assert!(said.contains("effects.sensor_reflectance") && said.contains("no effect without ghosts"), "{said}");
 }

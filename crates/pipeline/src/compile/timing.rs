@@ -67,8 +67,8 @@ pub(super) fn depend(
         };
         let at_pupil = matches!(camera.settings.route, Route::Pupil(_));
         if camera.time != TimeDependence::None && at_pupil && !camera.timing.exposure.is_global() {
-            let problem = "rows that are read in turn see different moments, and route = \"pupil\" stores the light of one exposure for \
-                           all of them";
+            let problem = "rows that are read in turn are exposed at different times, but route = \"pupil\" stores the \
+                           light of one exposure for all of them";
             context.fault(
                 ErrorCode::NotModelled,
                 &camera.body.place,
@@ -80,7 +80,8 @@ pub(super) fn depend(
             && camera.products.undistorted.is_some()
             && !camera.timing.exposure.is_global()
         {
-            let problem = "rows that are read in turn see different moments, and a row of the undistorted twin is of several of them";
+            let problem = "rows that are read in turn are exposed at different times, but a row of the undistorted \
+                           twin combines several of them";
             context.fault(
                 ErrorCode::NotModelled,
                 &camera.body.place,
@@ -117,7 +118,7 @@ fn period_s(sequence: Option<&Sequence>, sensor: &record::Sensor, context: &mut 
     let Some(rate) = sequence.map(|s| &s.frame_rate_hz) else { return stated.map(|s| s.value) };
     if let Some(stated) = stated.filter(|s| (s.value * rate.value - 1.0).abs() > RATE_TOLERANCE) {
         let problem = format!(
-            "\"frame_period_s\" is {} s, and the job's sequence has {} frames a second, one every {} s",
+            "\"frame_period_s\" is {} s, but the job's sequence has {} frames per second, one every {} s",
             stated.value,
             rate.value,
             1.0 / rate.value
@@ -126,7 +127,7 @@ fn period_s(sequence: Option<&Sequence>, sensor: &record::Sensor, context: &mut 
             ErrorCode::Contradiction,
             &stated.place,
             problem,
-            "make the two agree, or leave \"frame_period_s\" out where nothing needs it",
+            "make the two agree, or remove \"frame_period_s\" if nothing requires it",
         );
     }
     Some(1.0 / rate.value)
@@ -141,25 +142,24 @@ fn check(timing: &Timing, sensor: &record::Sensor, sequence: Option<&Sequence>, 
     let most_s = period_s * (1.0 + RATE_TOLERANCE);
     if exposed_s > most_s {
         let problem = format!(
-            "a row takes {exposed_s} s from the beginning of its first exposure to the end of its last, jitter included, and frames \
-             follow each other every {period_s} s"
+            "a row takes {exposed_s} s from the start of its first exposure to the end of its last, including jitter, \
+             but the frame period is {period_s} s"
         );
         context.fault(
             ErrorCode::ImpossibleTiming,
             place(sensor, sequence),
             problem,
-            "expose shorter, or take fewer frames a second",
+            "reduce the exposure or the frame rate",
         );
     } else if read_s > most_s {
-        let problem = format!(
-            "to read all rows takes {read_s} s, jitter included, and frames follow each other every {period_s} s"
-        );
+        let problem =
+            format!("reading all rows takes {read_s} s, including jitter, but the frame period is {period_s} s");
         let rows = sensor.shutter.as_ref().and_then(|shutter| shutter.row_time_us());
         context.fault(
             ErrorCode::ImpossibleTiming,
             rows.map_or(&sensor.place, |time| &time.place),
             problem,
-            "read rows faster, or take fewer frames a second",
+            "read rows faster, or reduce the frame rate",
         );
     }
 }

@@ -33,12 +33,12 @@ pub(super) fn mesh(
     let before = context.faults.len();
     for (file, frame) in files.iter().zip(&found).skip(1) {
         if let Some([own, first]) = frame.difference(found[0]) {
-            let problem = format!("{} has {own}, and {} has {first}", file.display(), files[0].display());
+            let problem = format!("{} has {own}, but {} has {first}", file.display(), files[0].display());
             context.fault(
                 ErrorCode::UnsuitableFile,
                 &record.files.place,
                 problem,
-                "export all files from one mesh, its faces unchanged",
+                "export all files from one mesh with unchanged faces",
             );
         }
     }

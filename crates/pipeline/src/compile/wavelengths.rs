@@ -34,8 +34,10 @@ pub(super) fn choose(
         let settings = &camera.settings;
         let Some(sensor) = camera.summing_sensor() else {
             if let Some(asked) = asked.filter(|asked| asked.value != render::WavelengthDensity::Auto) {
-                context
-                    .remark_on(&asked.place, "no pixels sum electrons, so wavelengths lie evenly whatever this says");
+                context.remark_on(
+                    &asked.place,
+                    "this has no effect: no pixels sum electrons, so wavelengths are sampled uniformly",
+                );
             }
             continue;
         };

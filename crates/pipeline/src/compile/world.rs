@@ -97,7 +97,7 @@ impl Assembly {
         let mesh = mesh.with_origin(DVec3::from_array(asset.origin));
         if dropped != DroppedTriangles::default() {
             let DroppedTriangles { zero_area, duplicate, .. } = dropped;
-            let message = format!("{zero_area} triangles of no area and {duplicate} duplicates dropped");
+            let message = format!("{zero_area} triangles of zero area and {duplicate} duplicates are removed");
             context.warn_on(file.value.display(), message);
         }
         let id = self.builder.add_mesh(mesh);
@@ -159,14 +159,14 @@ impl Assembly {
                 None if !instance.to_world.keeps_areas() => context.fault(
                     ErrorCode::NotModelled,
                     &object.place,
-                    "a surface whose scale changes over time has no area from which its light's flux would follow",
+                    "the flux of a light requires a constant area, but the scale of this surface changes over time",
                     "give its keys one scale, or give the light's luminance or radiance",
                 ),
                 None => context.fault(
                     ErrorCode::NotModelled,
                     &object.place,
-                    "a sphere that is stretched unevenly has no area from which its light's flux would follow",
-                    "scale it evenly, or give the light's luminance or radiance",
+                    "the flux of a light requires a known area, but this sphere is scaled non-uniformly",
+                    "scale it uniformly, or give the light's luminance or radiance",
                 ),
             }
         }
@@ -186,7 +186,8 @@ impl Assembly {
         let materials = slot_materials(object, record, asset, material_table, context)?;
         check_coordinates(record, asset, &materials, material_table, object, context);
         if record.animation().is_some() && materials.iter().any(|id| material_table.glows(*id)) {
-            let problem = format!("the vertices of \"{name}\" move, and a surface that glows must keep its shape");
+            let problem =
+                format!("the vertices of \"{name}\" move, but an emissive surface must have a constant shape");
             context.fault(
                 ErrorCode::NotModelled,
                 &object.place,
@@ -316,7 +317,7 @@ fn known<'a>(
     }
     let about = format!("{}, material \"{}\"", mesh.file().value.display(), slot.name);
     let missing = asset.missing_libraries.join("; ");
-    context.warn_on(about, format!("{missing}: grey of reflectance {MISSING_GREY} in its place"));
+    context.warn_on(about, format!("{missing}: grey of reflectance {MISSING_GREY} is used instead"));
     let reflectance = SlotReflectance::LinearSrgb([MISSING_GREY; 3]);
     Cow::Owned(SlotMaterial { name: slot.name.clone(), surface: Some(SlotSurface::Diffuse { reflectance }) })
 }
@@ -334,10 +335,8 @@ fn check_coordinates(
         (asset.uvs.is_empty(), materials.iter().find_map(|id| material_table.needs_coordinates(*id)))
     {
         let file = mesh.file();
-        let problem = format!(
-            "{} has no texture coordinates, but its material \"{name}\" lays something by them",
-            file.value.display()
-        );
+        let problem =
+            format!("{} has no texture coordinates, but its material \"{name}\" requires them", file.value.display());
         context.fault(
             ErrorCode::UnsuitableFile,
             &object.place,
@@ -352,7 +351,7 @@ fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: 
         let known: Vec<&str> = asset.slot_materials.iter().map(|s| s.name.as_str()).filter(|n| !n.is_empty()).collect();
         let problem = format!("{} has no material \"{}\"", mesh.file().value.display(), slot.value);
         let remedy = match known.is_empty() {
-            true => "it names no materials: give \"material\" in place of \"materials\"".to_owned(),
+            true => "the file names no materials; give \"material\" instead of \"materials\"".to_owned(),
             false => format!("give one of {}", known.join(", ")),
         };
         context.fault(ErrorCode::UnknownName, &slot.place, problem, remedy);

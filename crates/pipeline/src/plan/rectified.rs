@@ -22,13 +22,13 @@ const WIDEST_DEG: f64 = 85.0;
 pub enum RectifiedCameraError {
     /// Rays that do not meet.
     #[error(
-        "a telecentric camera has no undistorted twin: its rays do not meet, and are straight as they are; remove the key"
+        "a telecentric camera has no undistorted twin: its rays are parallel and already undistorted; remove the key"
     )]
     Telecentric,
     /// A field too wide for a plane.
     #[error(
-        "the camera sees as far as {angle_deg:.1}° from its axis, and a rectilinear picture ends before 90°: an undistorted twin is \
-         made of cameras that see less than {WIDEST_DEG}°; remove the key, or narrow the field (greatest_angle_deg, a crop)"
+        "the camera sees up to {angle_deg:.1}° from its axis, but a rectilinear image ends before 90°; an undistorted \
+         twin requires less than {WIDEST_DEG}°; remove the key, or narrow the field (greatest_angle_deg, a crop)"
     )]
     Field {
         /// Largest angle in the field, degrees.
@@ -36,13 +36,11 @@ pub enum RectifiedCameraError {
     },
     /// A camera without light at its principal point.
     #[error(
-        "the camera sees nothing at its principal point, so that its undistorted twin has no focal length; remove the key"
+        "the camera sees nothing at its principal point, so its undistorted twin has no focal length; remove the key"
     )]
     Blind,
     /// Rays that an element before the lens bends.
-    #[error(
-        "behind a {what} no camera matrix gives the rays: a camera with one has no undistorted twin; remove the key"
-    )]
+    #[error("a camera with a {what} has no undistorted twin: no camera matrix describes its rays; remove the key")]
     Front {
         /// The element before the lens.
         what: &'static str,

@@ -174,7 +174,7 @@ impl RenderJob<'_> {
         match (disk.transpose()?, before) {
             // A copy would share the file, and write into it.
             (None, Some(before)) if before.disk().is_some() => {
-                Err("a film on the disk goes on in a scratch file of its own, and there is none".to_owned())
+                Err("a film on disk requires its own scratch file, but none is available".to_owned())
             }
             (None, Some(before)) => Ok(before.clone()),
             (None, None) => Ok(self.empty_film()),

@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn cameras_inside_objects_are_warned_of() {
-        let inside = "camera eye: it stands inside the object it";
+        let inside = "camera eye: it is inside the object it";
         assert!(
             warnings(PINHOLE, &object("type = \"box\", size_m = [4, 2, 2]", "position_m = [1, 0, 0]")).contains(inside)
         );
@@ -76,7 +76,7 @@ mod tests {
         let far = object("type = \"sphere\", radius_m = 1", "position_m = [9, 0, 0]");
         for lens in ["focal_length_mm = 0.05", "focal_length_mm = 6000"] {
             let found = warnings(&format!("type = \"pinhole\", {lens}, f_number = 2"), &far);
-            assert!(found.contains("a field of view of"), "{lens}: {found}");
+            assert!(found.contains("the field of view is"), "{lens}: {found}");
         }
     }
 }

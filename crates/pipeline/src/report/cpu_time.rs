@@ -136,9 +136,9 @@ fn ghosts(plan: &Plan, camera: &CameraPlan) -> (f64, &'static str) {
     };
     let sky = plan.sources.environment.is_some();
     let (sources, holds_for) = match plan.sources.suns.iter().any(|sun| is_seen(camera, sun)) {
-        true => (SOURCES_OUTSHONE, "for a sun that outshines the picture; twice as long for even light"),
-        false if sky => (SOURCES_EVEN, "for even light; half of it where a few lamps outshine the picture"),
-        false => (SOURCES_OUTSHONE, "for a few lamps that outshine the picture; twice as long for even light"),
+        true => (SOURCES_OUTSHONE, "for an image dominated by a sun; twice as long for uniform illumination"),
+        false if sky => (SOURCES_EVEN, "for uniform illumination; half as long for an image dominated by a few lights"),
+        false => (SOURCES_OUTSHONE, "for an image dominated by a few lights; twice as long for uniform illumination"),
     };
     let work = ghosts::operation_counts(lens, settings, [bands.low_nm(), bands.high_nm()], sources);
     (work.met * GHOST_SURFACE_S + work.laid * GHOST_BEAM_S, holds_for)

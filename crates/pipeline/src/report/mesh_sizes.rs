@@ -102,10 +102,9 @@ fn fault(class: &str, size_m: DVec3) -> Option<String> {
     let DVec3 { x: length, y: width, z: height } = size_m;
     let measures = format!("{length:.4} × {width:.4} × {height:.4} m (length, width, height)");
     if !(ROAD_USER_M[0]..=ROAD_USER_M[1]).contains(&size_m.max_element()) {
-        return Some(format!(
-            "a {class} of {measures}: check the scale of its mesh, which is metres per unit of the file"
-        ));
+        return Some(format!("a {class} of {measures}: check the scale of its mesh (metres per unit of the file)"));
     }
     let is_on_end = LONG.contains(&class) && height > ON_END * length.max(width);
-    is_on_end.then(|| format!("a {class} that stands on end, {measures}: check up_axis and forward_axis of its mesh"))
+    is_on_end
+        .then(|| format!("a {class} higher than long and wide, {measures}: check up_axis and forward_axis of its mesh"))
 }

@@ -22,7 +22,7 @@ impl Plan {
     fn inside(&self, camera: &CameraPlan) -> Option<String> {
         let object = surrounding_object(self, camera)?;
         Some(format!(
-            "camera {}: it stands inside the object {object} and sees only the inside of its surface",
+            "camera {}: it is inside the object {object} and sees only the inside of its surface",
             camera.name
         ))
     }
@@ -30,7 +30,7 @@ impl Plan {
     fn dark_cameras(&self) -> Option<String> {
         let dark = self.cameras.iter().filter(|camera| light_counts(self, camera).is_dark());
         let names: Vec<&str> = dark.map(|camera| camera.name.as_str()).collect();
-        let message = format!("camera {}: nothing gives light, so that the picture will be black", names.join(", "));
+        let message = format!("camera {}: there is no light, so the image will be black", names.join(", "));
         (!names.is_empty()).then_some(message)
     }
 }
@@ -48,7 +48,7 @@ fn extreme_field(camera: &CameraPlan) -> Option<String> {
     (angle_deg < least || angle_deg > most).then(|| {
         let name = &camera.name;
         format!(
-            "camera {name}: a field of view of {angle_deg:.4}°: check the focal length (mm) and the pixel pitch (µm)"
+            "camera {name}: the field of view is {angle_deg:.4}°; check the focal length (mm) and the pixel pitch (µm)"
         )
     })
 }

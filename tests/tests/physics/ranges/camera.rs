@@ -161,7 +161,7 @@ fn lamp_at_pupil() -> Row {
         (electrons(&lamp) / electrons(&wall) / share - 1.0).abs(),
         2e-2,
     );
-    let told = lamp.plan().remarks.iter().any(|remark| remark.text.contains("16 px are kept around the picture"));
+    let told = lamp.plan().remarks.iter().any(|remark| remark.text.contains("16 px are stored around the image"));
     Row { holds: row.holds && told, ..row }
 }
 

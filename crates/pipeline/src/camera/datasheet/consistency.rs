@@ -59,7 +59,7 @@ impl Found {
         let off = scale.ratio(stated.value) / follows.printed - 1.0;
         let unit = scale.unit();
         let computed = four_digits(scale.of(follows.printed));
-        let problem = format!("found {}{unit}, and {computed}{unit} follows from {from}", stated.value);
+        let problem = format!("found {}{unit}, but {computed}{unit} follows from {from}", stated.value);
         if off.abs() <= LOOSE {
             self.warnings.push(format!("{}: {problem}", stated.place));
         } else {
@@ -127,13 +127,14 @@ fn photons(sheet: &DataSheet, capacity: Span, threshold: Span, found: &mut Found
     let figures = [(&sheet.saturation_capacity_p, capacity), (&sheet.sensitivity_threshold_p, threshold)];
     let Some(first) = figures.iter().find_map(|(stated, _)| stated.as_ref()) else { return };
     let Some(efficiency) = efficiency(sheet) else {
-        let problem = "photons need the efficiency at their wavelength, and there are several or none";
-        let remedy = "add \"measured_at_nm\", within one curve of \"quantum_efficiency_percent\"; or leave photons out";
+        let problem = "figures in photons require the quantum efficiency at their wavelength; found several or none";
+        let remedy = "add \"measured_at_nm\" within one curve of \"quantum_efficiency_percent\", or remove the figures \
+                      in photons";
         found.faults.push(Fault::new(ErrorCode::MissingKey, &first.place, problem, remedy));
         return;
     };
     for (stated, electrons) in figures {
-        let from = "electrons over the quantum efficiency";
+        let from = "electrons divided by the quantum efficiency";
         found.compare(stated.as_ref(), Scale::Plain(" photons"), electrons.over(efficiency), from);
     }
 }
@@ -170,7 +171,7 @@ fn converter(sheet: &DataSheet, capacity_dn: Span, found: &mut Found) {
     let place = &sheet.saturation_capacity_e.place;
     let middle = black + capacity_dn.printed;
     let problem = format!(
-        "{} e⁻ would be {middle:.1} DN, and {bits} bits end at {largest} DN",
+        "{} e⁻ correspond to {middle:.1} DN, but the largest number of {bits} bits is {largest} DN",
         sheet.saturation_capacity_e.value
     );
     if middle <= (1.0 + LOOSE) * largest {

@@ -58,12 +58,12 @@ fn noise(sheet: &DataSheet, gain_dn_e: f64) -> Result<f64, Fault> {
     }
     let dn = sheet.temporal_dark_noise_dn.as_ref().expect("a record that was read has one");
     dark_noise_e(dn.value, gain_dn_e).ok_or_else(|| {
-        let problem = format!("a dark noise of {} DN is less than rounding alone makes, 0.289 DN", dn.value);
+        let problem = format!("a dark noise of {} DN is below the quantisation noise of 0.289 DN", dn.value);
         Fault::new(
             ErrorCode::OutOfRange,
             &dn.place,
             problem,
-            "give the figure in DN with quantisation, or \"temporal_dark_noise_e\"",
+            "give the figure in DN including quantisation, or \"temporal_dark_noise_e\"",
         )
     })
 }
@@ -86,30 +86,29 @@ fn remarks(sheet: &DataSheet) -> Vec<String> {
         (sheet.dark_current_e_s.is_none(), "dark_current_e_s"),
     ];
     remarks
-        .extend(missing.iter().filter(|m| m.0).map(|m| format!("{}: no \"{}\": it is taken as 0", sheet.place, m.1)));
+        .extend(missing.iter().filter(|m| m.0).map(|m| format!("{}: \"{}\" is missing; 0 is used", sheet.place, m.1)));
     let photons = sheet.saturation_capacity_p.is_some() || sheet.sensitivity_threshold_p.is_some();
     if let (Some(key), false) = (&sheet.measured_at_nm, photons) {
         remarks.push(format!(
-            "{}: \"measured_at_nm\" is not used: there is no \"saturation_capacity_p\" or \"sensitivity_threshold_p\" to compare",
+            "{}: \"measured_at_nm\" is not used: \"saturation_capacity_p\" and \"sensitivity_threshold_p\" are missing",
             key.place
         ));
     }
     if let Some(error) = &sheet.linearity_error_percent {
         remarks.push(format!(
-            "{}: a linearity error of {} % is not modelled: the response is straight",
+            "{}: a linearity error of {} % is not modelled: the response is linear",
             error.place, error.value
         ));
     }
     if let Some(dn) = sheet.temporal_dark_noise_dn.as_ref().filter(|dn| dn.value * dn.value <= MIN_DARK_DN2) {
         remarks.push(format!(
-            "{}: {} DN is the least that the standard states: the noise may be smaller",
+            "{}: {} DN is the minimum that the standard reports: the noise may be smaller",
             dn.place, dn.value
         ));
     }
     for (channel, points) in sheet.quantum_efficiency_percent.curves() {
         if let [only] = points.as_slice() {
-            let message =
-                format!("the efficiency of \"{channel}\" at {} nm is taken at all wavelengths", only.value[0]);
+            let message = format!("the efficiency of \"{channel}\" at {} nm is used at all wavelengths", only.value[0]);
             remarks.push(format!("{}: {message}", only.place));
         }
     }

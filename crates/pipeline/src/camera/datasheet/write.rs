@@ -16,7 +16,7 @@ pub(super) fn camera(sheet: &DataSheet, figures: Figures, stem: &str) -> String 
     let sensor = Sensor { electronics: Some(electronics(sheet, figures, stem)), ..Sensor::new(width, height, pitch) };
     let name = &sheet.camera.value;
     let head =
-        format!("{name}, from its EMVA 1288 data sheet by `etendue datasheet`. \"Stated\" is what the sheet says.");
+        format!("{name}, from its EMVA 1288 data sheet by `etendue datasheet`. \"Stated\": given on the data sheet.");
     // A comment of several lines would not belong to the name.
     let file = File::new(Camera::new(lens, sensor).to_table()).head(head.replace('\n', " "));
     let file = origins(sheet).into_iter().fold(file, |file, (key, about)| file.above(key, about));
@@ -52,27 +52,29 @@ fn origins(sheet: &DataSheet) -> [(&'static str, &'static str); 10] {
         Some(_) => "Stated temporal dark noise, without quantisation.",
         None => "From the stated dark noise in DN: √(σ² − 1/12)/K, so that rounding is not counted twice.",
     };
-    let black = "Not on the sheet: five deviations of the dark noise, as far as the converter leaves room.";
+    let black =
+        "Not on the sheet: five standard deviations of the dark noise, or less if the range of the ADC requires it.";
     [
         (
             "lens.type",
-            "Not on the sheet: put the lens here. This one sees 53° across and gives light of f/8, as the standard measures.",
+            "Not on the sheet: set the lens here. This one has a horizontal field of view of 53° and the standard's \
+             f/8.",
         ),
-        ("sensor.exposure_s", "Not on the sheet: put the exposure here."),
+        ("sensor.exposure_s", "Not on the sheet: set the exposure here."),
         (
             "sensor.quantum_efficiency",
-            "Stated; the standard's efficiency has the fill factor in it, so \"fill_factor\" stays 1.",
+            "Stated; the standard's efficiency includes the fill factor, so \"fill_factor\" is 1.",
         ),
         (
             "sensor.full_well_e",
-            "Stated saturation capacity: where the temporal variance is largest, a little below the well itself.",
+            "Stated saturation capacity: where the temporal variance is largest, slightly below the full well.",
         ),
         ("sensor.read_noise_e", noise),
         ("sensor.dark_current_e_s", stated(sheet.dark_current_e_s.is_some(), "Not on the sheet.")),
         ("sensor.gain_dn_per_e", stated(sheet.gain_dn_per_e.is_some(), "The inverse of the stated 1/K.")),
         ("sensor.black_level_dn", stated(sheet.black_level_dn.is_some(), black)),
         ("sensor.non_uniformity", "Stated."),
-        ("sensor.dark", "The temperature of the stated dark current; put the sensor's own in the first line."),
+        ("sensor.dark", "The temperature of the stated dark current; set that of the sensor in the first line."),
     ]
 }
 

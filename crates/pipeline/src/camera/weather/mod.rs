@@ -44,7 +44,7 @@ pub struct Weathered {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WeatherError {
     /// The image has no distances.
-    #[error("it has no distances (channel distance.Z), by which weather is laid over it; render it anew")]
+    #[error("it has no distances (channel distance.Z), which weather requires; render it again")]
     Distance,
     /// The image has no sky.
     #[error(

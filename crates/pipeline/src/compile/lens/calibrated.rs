@@ -136,9 +136,10 @@ fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut C
     if off <= FAR_SHARE {
         return;
     }
-    let place = if off > 0.5 { "outside the image" } else { "far from the middle of the image" };
+    let place = if off > 0.5 { "outside the image" } else { "far from the centre of the image" };
     let text = format!(
-        "the principal point ({:.1}, {:.1}) px lies {place} of {} × {} px: check whether the calibration is for another image size",
+        "the principal point ({:.1}, {:.1}) px is {place} of {} × {} px; check whether the calibration is for another \
+         image size",
         principal.x, principal.y, size.x, size.y
     );
     match &record.view {

@@ -21,10 +21,11 @@ pub(super) struct Found {
 /// # Errors
 /// They cannot be found: the reason, to follow "the file gives none, and".
 pub(super) fn found(asset: &PrescriptionAsset) -> Result<Found, String> {
-    let fields = asset.fields.as_ref().ok_or("no fields (YAN, YOB, YIM) from which they could be found")?;
+    let fields = asset.fields.as_ref().ok_or("no fields (YAN, YOB, YIM) from which they could be computed")?;
     let own_mm = asset.surfaces.iter().find(|s| s.stop).and_then(|s| s.semi_aperture_mm);
     let lens = provisional(asset).map_err(|error| of_line(asset, &error))?;
-    let stop_mm = lens.stated.stop_mm.or(own_mm).ok_or("no aperture (EPD, FNO, NA) from which they could be found")?;
+    let stop_mm =
+        lens.stated.stop_mm.or(own_mm).ok_or("no aperture (EPD, FNO, NA) from which they could be computed")?;
     let bundles = bundles(asset, fields, lens.stated.distance_m)?;
     let wavelengths_nm = if asset.wavelengths_nm.is_empty() { vec![LINE_D_NM] } else { asset.wavelengths_nm.clone() };
     let needed = clear_apertures_mm(&lens.prescription, stop_mm, &bundles, &wavelengths_nm).map_err(lost)?;
@@ -41,7 +42,8 @@ fn told(asset: &PrescriptionAsset, semi_apertures_mm: &[f64]) -> String {
     let vignetted =
         if asset.vignetting.iter().flatten().any(|v| *v != 0.0) { " and its vignetting factors" } else { "" };
     format!(
-        "it states no semi-aperture of some surfaces; as far open as the chief and marginal rays of its fields{vignetted} need: {}",
+        "it states no semi-aperture for some surfaces; computed from the chief and marginal rays of its \
+         fields{vignetted}: {}",
         list.join(", ")
     )
 }
@@ -57,10 +59,8 @@ fn of_line(asset: &PrescriptionAsset, error: &Fault) -> String {
 
 fn lost(bundle: usize) -> String {
     match bundle {
-        0 => "its marginal ray on the axis does not come through, from which they could be found".to_owned(),
-        i => format!(
-            "the chief or a marginal ray of its field {i} does not come through, from which they could be found"
-        ),
+        0 => "they cannot be computed: its marginal ray on the axis does not pass the lens".to_owned(),
+        i => format!("they cannot be computed: the chief or a marginal ray of its field {i} does not pass the lens"),
     }
 }
 

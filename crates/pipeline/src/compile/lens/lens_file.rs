@@ -112,7 +112,8 @@ pub(super) fn remarks(
             || format!("its aperture opens the stop to {stop_mm:.4} mm, not to the {own_stop_mm:.4} mm of the stop's surface"),
             |stop| {
                 let line = stop.line;
-                format!("the aperture of the stop's surface (line {line}) clips at {own_stop_mm:.4} mm the {stop_mm:.4} mm to which the lens would open")
+                format!("the aperture of the stop's surface (line {line}) limits the stop to {own_stop_mm:.4} mm; the \
+                         lens would open it to {stop_mm:.4} mm")
             },
         ));
     }
@@ -125,7 +126,7 @@ pub(super) fn remarks(
         ));
     }
     if let Some(n) = record.f_number.as_ref().filter(|_| asset.opening.is_some()) {
-        tell(format!("f/{} of the description takes the place of the file's aperture", n.value));
+        tell(format!("f/{} of the description replaces the file's aperture", n.value));
     }
     tell_image(record, asset, stated, lens, &mut tell);
 }
@@ -146,18 +147,20 @@ fn tell_image(
     });
     match (stated.defocus_mm, &record.defocus_mm) {
         (None, None) => tell(format!(
-            "it states no image distance: the sensor stands {at_mm:.4} mm behind the last vertex, at the paraxial image"
+            "it states no image distance: the sensor is {at_mm:.4} mm behind the last vertex, at the paraxial image"
         )),
         (None, Some(_)) => {}
         (Some(_), Some(_)) => tell(format!(
-            "\"defocus_mm\" puts the sensor {at_mm:.4} mm behind the last vertex; the file's image stands at {file_mm:.4} mm"
+            "\"defocus_mm\" places the sensor {at_mm:.4} mm behind the last vertex; the file's image is at \
+             {file_mm:.4} mm"
         )),
         (Some(own), None) if other_focus => tell(format!(
-            "focused elsewhere than in the file: the sensor stands {at_mm:.4} mm behind the last vertex, {own:+.4} mm from the paraxial image as \
-             in the file; the file's image stands at {file_mm:.4} mm"
+            "the focus differs from the file's: the sensor is {at_mm:.4} mm behind the last vertex, {own:+.4} mm from \
+             the paraxial image as in the file; the file's image is at {file_mm:.4} mm"
         )),
         (Some(own), None) if own.abs() > 1e-6 => tell(format!(
-            "the sensor stands {at_mm:.4} mm behind the last vertex, as the file says: {own:+.4} mm from the paraxial image"
+            "the sensor is {at_mm:.4} mm behind the last vertex, as the file states: {own:+.4} mm from the paraxial \
+             image"
         )),
         _ => {}
     }

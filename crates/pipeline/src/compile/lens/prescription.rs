@@ -42,7 +42,7 @@ pub(super) fn lens(
     let lens = context.accept(&record.place, lens)?;
     if lens.lit_radius_mm() < raster.max_radius_mm() * (1.0 - 1e-9) {
         let (lit, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
-        let told = format!("the lens lights {lit:.3} mm about the axis, the picture reaches {needed:.3} mm");
+        let told = format!("the lens illuminates {lit:.3} mm around the axis, but the image extends to {needed:.3} mm");
         context.warn_on(&record.place, told);
     }
     Some(Lens::prescription(lens))
@@ -98,7 +98,7 @@ fn apertures(
             return Some(list.iter().map(|semi| semi.value).collect());
         }
         let place = list.first().map_or(place, |first| &first.place);
-        let problem = format!("{} semi-apertures for the {count} surfaces of the file", list.len());
+        let problem = format!("found {} semi-apertures for the {count} surfaces of the file", list.len());
         context.fault(ErrorCode::WrongCount, place, problem, format!("give {count}"));
         return None;
     }
@@ -114,8 +114,9 @@ fn apertures(
             let without = asset.surfaces.iter().enumerate().filter(|(_, s)| s.semi_aperture_mm.is_none());
             let names: Vec<String> = without.map(|(i, s)| format!("{} (line {})", i + 1, s.line)).collect();
             let names = names.join(", ");
-            let problem = format!("the file gives no semi-aperture of its surfaces {names}, and {reason}");
-            let remedy = format!("add them to the file (DIAM, CIR), or give \"semi_apertures_mm\", {count} numbers");
+            let problem = format!("the file states no semi-aperture for its surfaces {names}, and {reason}");
+            let remedy =
+                format!("add them to the file (DIAM, CIR), or give \"semi_apertures_mm\" with {count} numbers");
             context.fault(ErrorCode::UnsuitableFile, place, problem, remedy);
             None
         }

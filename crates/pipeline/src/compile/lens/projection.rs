@@ -58,12 +58,7 @@ fn camera_matrix(record: &Matrix, model: &Model, raster: &Raster, context: &mut 
         Scale::FieldOfView(angle) => of_field(angle, model, raster, context)?,
     };
     if let (Some(fy), false) = (&record.fy_px, matches!(record.scale, Scale::Columns(_))) {
-        context.fault(
-            ErrorCode::NoEffect,
-            &fy.place,
-            "\"fy_px\" has no effect here, it belongs to \"fx_px\"",
-            "remove it",
-        );
+        context.fault(ErrorCode::NoEffect, &fy.place, "\"fy_px\" has no effect without \"fx_px\"", "remove it");
         return None;
     }
     let fy = record.fy_px.as_ref().map_or(fx, |fy| fy.value);
@@ -88,7 +83,7 @@ fn of_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut C
             ErrorCode::OutOfRange,
             &angle.place,
             problem,
-            format!("give less than {edge:.3}°, near which its picture has no end"),
+            format!("give less than {edge:.3}°, near which its image is infinite"),
         );
     }
     Some(0.5 * raster.width() as f64 / reach?)
@@ -109,7 +104,7 @@ pub(super) fn points(table: &Table, context: &mut Context<'_>) -> Option<Vec<(f6
     let LensNumbers::Distortion { beside, focal_length_mm: own } = asset.numbers else { return None };
     let stated = table.focal_length_mm.as_ref().map(|mm| mm.value);
     let Some(f) = stated.or(own) else {
-        let problem = "does not say for which focal length its distortion is stated";
+        let problem = "the file does not state the focal length of its distortion";
         context.fault(ErrorCode::MissingKey, &file.place, problem, "add \"focal_length_mm\"");
         return None;
     };

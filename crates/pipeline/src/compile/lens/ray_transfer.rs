@@ -35,7 +35,8 @@ pub(super) fn lens(
     let (lit, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
     if lit < needed * (1.0 - 1e-9) {
         let message = format!(
-            "the functions know light to {lit:.3} mm from the axis of the sensor, the picture reaches {needed:.3} mm"
+            "the ray transfer functions cover the sensor to {lit:.3} mm from the axis, but the image extends to \
+             {needed:.3} mm"
         );
         context.warn_on(&record.place, message);
     }
@@ -53,9 +54,9 @@ fn sensor<'a>(stated: &'a Stated, whole: &'a Place) -> (SensorPlace, &'a Place) 
 fn known(lens: &Transferred) -> String {
     let transfers = lens.transfer().transfers();
     let wavelengths = match transfers {
-        [only] => format!("{} nm, taken for all wavelengths", only.wavelength_nm),
+        [only] => format!("{} nm, used for all wavelengths", only.wavelength_nm),
         [first, .., last] => format!(
-            "{} wavelengths from {} to {} nm, linear between them and held beyond",
+            "{} wavelengths from {} to {} nm, linear between them and constant beyond",
             transfers.len(),
             first.wavelength_nm,
             last.wavelength_nm
@@ -65,10 +66,10 @@ fn known(lens: &Transferred) -> String {
     let height_mm = transfers.iter().map(|t| t.pass.greatest_height_mm()).fold(0.0, f64::max);
     let reach = match height_mm.is_finite() {
         true => format!("rays that cross its input plane within {height_mm} mm of the axis"),
-        false => "rays at any height, as circles limit none".to_owned(),
+        false => "rays at any height, as circles set no limit".to_owned(),
     };
     let sensor_mm = lens.sensor_distance_mm();
-    format!("fitted to {wavelengths}; knows {reach}; the sensor stands {sensor_mm:.4} mm behind its last surface")
+    format!("fitted to {wavelengths}; valid for {reach}; the sensor is {sensor_mm:.4} mm behind its last surface")
 }
 
 fn functions(asset: &RayTransferAsset) -> Result<RayTransfer, RayTransferError> {

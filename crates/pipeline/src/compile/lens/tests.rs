@@ -205,7 +205,7 @@ fn a_file_that_says_too_little_of_its_light_is_refused() {
     let angles = |deg: f64| Some(LensFields::AnglesDeg(vec![deg]));
     assert!(message(pupil, None).contains("1 (line 12)") && message(pupil, None).contains("no fields"));
     assert!(message(None, angles(5.0)).contains("no aperture (EPD, FNO, NA)"));
-    assert!(message(pupil, angles(85.0)).contains("field 1 does not come through"));
+    assert!(message(pupil, angles(85.0)).contains("field 1 does not pass the lens"));
     assert!(message(pupil, Some(LensFields::ObjectMm(vec![5.0]))).contains("an object at infinity"));
 }
 
@@ -239,7 +239,7 @@ fn principal_points_far_from_the_middle_are_warned_of() {
         plan_with(&lens, "", &Assets::default()).unwrap_or_else(|faults| panic!("{faults}")).warnings().join("\n")
     };
     assert!(warnings(70.0, 24.0).contains("outside the image"));
-    assert!(warnings(11.0, 8.0).contains("far from the middle of the image of 64 × 48 px"));
+    assert!(warnings(11.0, 8.0).contains("far from the centre of the image of 64 × 48 px"));
     assert!(!warnings(38.0, 20.0).contains("principal point"));
 }
 

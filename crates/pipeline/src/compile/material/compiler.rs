@@ -68,17 +68,17 @@ impl MaterialCompiler<'_, '_> {
     /// Refuses colours as plain numbers, and encoded plain numbers.
     fn check_encoding(&mut self, record: &Texture, name: &Placed<String>, usage: Use) -> Option<()> {
         let (problem, remedy) = match (usage, record.encoding.value) {
-            (Use::Colour, Encoding::Data) => ("plain numbers, and colours are needed here", "\"srgb\" or \"linear\""),
-            (Use::Number, Encoding::Srgb) => ("sRGB-encoded colours, and plain numbers are needed here", "\"data\""),
-            (Use::Normal, Encoding::Srgb | Encoding::Linear) => ("colours, and normals are needed here", "\"data\""),
+            (Use::Colour, Encoding::Data) => ("plain numbers, but colours are required here", "\"srgb\" or \"linear\""),
+            (Use::Number, Encoding::Srgb) => ("sRGB-encoded colours, but plain numbers are required here", "\"data\""),
+            (Use::Normal, Encoding::Srgb | Encoding::Linear) => ("colours, but normals are required here", "\"data\""),
             _ => return Some(()),
         };
-        let problem = format!("the texture \"{}\" holds {problem} (it is defined at {})", name.value, record.place);
+        let problem = format!("the texture \"{}\" contains {problem} (it is defined at {})", name.value, record.place);
         self.context.fault(
             ErrorCode::UnsuitableFile,
             &name.place,
             problem,
-            format!("say encoding = {remedy} if that is what the file holds"),
+            format!("set encoding = {remedy} if the file contains these"),
         );
         None
     }

@@ -114,7 +114,7 @@ fn refusal(error: TiledError) -> Refusal {
 }
 
 fn no_opacity() -> String {
-    "the picture has no opacity to read".to_owned()
+    "the image has no opacity".to_owned()
 }
 
 impl std::fmt::Display for Refusal {

@@ -70,7 +70,7 @@ impl Pictures {
             context.fault(
                 ErrorCode::UnreadableFile,
                 place,
-                format!("the picture {} was not loaded", file.display()),
+                format!("the image {} was not loaded", file.display()),
                 "give a readable file",
             );
             return None;
@@ -99,7 +99,7 @@ impl Pictures {
                 let texture = held(image, usage);
                 let megabytes = texture.as_ref().map_or(0, |texture| texture.texel_bytes().div_ceil(1_000_000));
                 let problem = format!(
-                    "{megabytes} MB are held in memory, above its limit, because {error}; give a `cache` folder"
+                    "{megabytes} MB are stored in memory, above its limit, because {error}; give a `cache` folder"
                 );
                 context.warn_on(file.display(), problem);
                 texture
@@ -110,7 +110,7 @@ impl Pictures {
 }
 
 fn no_opacity<T>(file: &Path, place: &Place, context: &mut Context<'_>) -> Option<T> {
-    let problem = format!("the picture {} has no opacity to read", file.display());
+    let problem = format!("the image {} has no opacity", file.display());
     context.fault(
         ErrorCode::UnsuitableFile,
         place,

@@ -17,10 +17,10 @@ pub(super) fn surface(
     context: &mut Context<'_>,
 ) -> Option<Surface> {
     let Some(surface) = &slot.surface else {
-        let problem = format!("{} says no reflectance for its material \"{}\"", file.display(), slot.name);
+        let problem = format!("{} states no reflectance for its material \"{}\"", file.display(), slot.name);
         let remedy = match slot.name.is_empty() {
-            true => "name one of the scene's: material = …".to_owned(),
-            false => format!("name one of the scene's: material = …, or materials = {{ \"{}\" = … }}", slot.name),
+            true => "name a material of the scene: material = …".to_owned(),
+            false => format!("name a material of the scene: material = …, or materials = {{ \"{}\" = … }}", slot.name),
         };
         context.fault(ErrorCode::UnsuitableFile, place, problem, remedy);
         return None;

@@ -38,7 +38,7 @@ fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'
     };
     let channels = &sensor.parameters().channels;
     if let Some(strange) = channels.iter().find(|channel| filter(&channel.name).is_none()) {
-        let problem = format!("the sensor's channel \"{}\" has no place in a picture", strange.name);
+        let problem = format!("the sensor's channel \"{}\" cannot be used in an image", strange.name);
         context.fault(
             ErrorCode::NotModelled,
             &record.place,
@@ -107,7 +107,7 @@ pub(super) fn demosaic(
             context.fault(
                 ErrorCode::NotModelled,
                 &named.place,
-                "this demosaic is made for Bayer filter arrays",
+                "this demosaic requires a Bayer filter array",
                 "give \"bilinear\"",
             );
             None
@@ -153,8 +153,8 @@ fn check_count(name: &str, found: usize, channels: usize, place: &Place, context
     if found == channels {
         return Some(());
     }
-    let problem = format!("{name} has {found} numbers, and the sensor {channels} channels");
-    let order = "one a channel, in the order red, green, blue, clear, infrared, cyan, magenta, yellow";
+    let problem = format!("{name} has {found} numbers, but the sensor has {channels} channels");
+    let order = "one per channel, in the order red, green, blue, clear, infrared, cyan, magenta, yellow";
     context.fault(ErrorCode::WrongCount, place, problem, format!("give {order}"));
     None
 }
@@ -168,8 +168,7 @@ fn colour_matrix(
     match &record.colour_matrix {
         None if is_rgb(mosaic) => Some(ColourMatrix::identity()),
         None => {
-            let problem =
-                "the sensor's channels are not red, green and blue, and no \"colour_matrix\" says what they are";
+            let problem = "the sensor's channels are not red, green and blue, and no \"colour_matrix\" is given";
             context.fault(
                 ErrorCode::MissingKey,
                 &record.place,

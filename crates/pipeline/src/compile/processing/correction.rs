@@ -22,7 +22,7 @@ pub(super) fn black_level(
         }
         Some(description::BlackLevel::Dn(dn)) => {
             let white = sensor.least_white_level_dn();
-            let problem = format!("found {}, and the sensor is saturated at {white} DN", dn.value);
+            let problem = format!("found {}, but the sensor saturates at {white} DN", dn.value);
             context.fault(ErrorCode::OutOfRange, &dn.place, problem, "give a number below that");
             None
         }
@@ -67,7 +67,7 @@ fn defect_map(file: &Placed<PathBuf>, picture: &Delivered, context: &mut Context
     };
     let pixels: Option<Vec<_>> = table.rows().map(inside).collect();
     if pixels.is_none() {
-        let problem = format!("the map of defects names a pixel outside the picture of {width} × {height}");
+        let problem = format!("the defect map has a pixel outside the image of {width} × {height}");
         context.fault(
             ErrorCode::UnsuitableFile,
             &file.place,

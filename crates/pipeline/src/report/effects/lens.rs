@@ -31,13 +31,13 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
 fn distortion(camera: &CameraPlan) -> PlannedEffect {
     let lens = &camera.body.lens;
     let status = match lens {
-        Lens::Prescription(_) => EffectStatus::Modelled("rays are bent by the lens's surfaces".to_owned()),
-        Lens::RayTransfer(_) => EffectStatus::Modelled("rays leave as the functions say".to_owned()),
-        Lens::Calibrated(_) => EffectStatus::Modelled("each pixel looks where the projection says".to_owned()),
+        Lens::Prescription(_) => EffectStatus::Modelled("rays are refracted at the lens surfaces".to_owned()),
+        Lens::RayTransfer(_) => EffectStatus::Modelled("the ray transfer functions map each ray".to_owned()),
+        Lens::Calibrated(_) => EffectStatus::Modelled("ray directions follow the calibrated projection".to_owned()),
         _ => where_there(
             lens.distortion().is_some(),
-            "each sample's point on the sensor is moved before its ray is made",
-            "the lens has none",
+            "each sample's position on the sensor is displaced before its ray is generated",
+            "the lens has no distortion",
         ),
     };
     let effect = PlannedEffect::new(GROUP, "distortion", status).described_by("lens.distortion");
@@ -50,8 +50,8 @@ fn distortion(camera: &CameraPlan) -> PlannedEffect {
 fn vignetting(camera: &CameraPlan) -> PlannedEffect {
     let status = where_there(
         !matches!(camera.body.lens, Lens::Telecentric(_)),
-        "each ray's weight is the solid angle of the pupil as its pixel sees it",
-        "every pixel of a telecentric camera sees the same",
+        "each ray is weighted by the solid angle of the pupil seen from its pixel",
+        "all pixels of a telecentric camera see the pupil under the same solid angle",
     );
     let effect = PlannedEffect::new(GROUP, "vignetting", status).described_by("lens.type");
     match vignetting_percent(&camera.body) {
@@ -68,14 +68,17 @@ fn rims(camera: &CameraPlan) -> PlannedEffect {
             return PlannedEffect::new(GROUP, name, status).described_by(key);
         }
         Lens::RayTransfer(_) => {
-            let status = EffectStatus::Modelled("the functions tell which rays pass".to_owned());
+            let status = EffectStatus::Modelled("the ray transfer functions determine which rays pass".to_owned());
             return PlannedEffect::new(GROUP, name, status).described_by(key);
         }
         Lens::Thick(lens) => [lens.parameters().front_aperture.is_some(), lens.parameters().rear_aperture.is_some()],
         _ => [false, false],
     };
-    let status =
-        where_there(rims != [false, false], "rims before and behind the pupil stop rays", "no rim is described");
+    let status = where_there(
+        rims != [false, false],
+        "clear apertures in front of and behind the pupil stop rays",
+        "no clear aperture is described",
+    );
     let keys = ["lens.front_aperture", "lens.rear_aperture"].into_iter().zip(rims).filter(|(_, is_there)| *is_there);
     let effect = PlannedEffect::new(GROUP, name, status).described_by(key);
     effect.dropped_by(keys.map(|(key, _)| without(camera, key)))
@@ -86,11 +89,11 @@ fn defocus(camera: &CameraPlan) -> PlannedEffect {
     let blurs = body.lens.entrance_pupil_radius_m() > 0.0;
     let is_modelled = blurs && (camera.settings.route == Route::Lens || camera.depth_of_field != DepthOfField::None);
     let (text, key) = match camera.settings.route {
-        Route::Lens => ("each sample has a point of the pupil", "lens.focus_distance_m"),
-        Route::Pupil(_) => ("the stored radiance is spread in the order of depth", "render.depth_of_field"),
+        Route::Lens => ("each sample passes through its own point of the pupil", "lens.focus_distance_m"),
+        Route::Pupil(_) => ("the stored radiance is blurred in order of depth", "render.depth_of_field"),
     };
     let status =
-        where_there(is_modelled, text, if blurs { "depth_of_field = \"none\"" } else { "everything is sharp" });
+        where_there(is_modelled, text, if blurs { "depth_of_field = \"none\"" } else { "everything is in focus" });
     let set = match (&camera.settings.route, &body.lens) {
         (Route::Pupil(_), _) => vec![of_camera(camera, "render.depth_of_field", "none")],
         (Route::Lens, Lens::Thin(_) | Lens::Thick(_)) => pinhole(camera),
@@ -122,34 +125,37 @@ fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
     let lens = &camera.body.lens;
     let status = match lens {
         Lens::RayTransfer(lens) if lens.disperses() => {
-            EffectStatus::Modelled("the functions bend each wavelength differently".to_owned())
+            EffectStatus::Modelled("the ray transfer functions depend on wavelength".to_owned())
         }
-        Lens::Prescription(_) => EffectStatus::Modelled("glasses bend each wavelength differently".to_owned()),
+        Lens::Prescription(_) => EffectStatus::Modelled("refraction in the glasses depends on wavelength".to_owned()),
         _ => where_there(
             lens.lateral_colour().is_some(),
-            "the image's size differs by wavelength",
-            "all colours have one image size",
+            "image size depends on wavelength",
+            "image size is the same for all wavelengths",
         ),
     };
     let effect = PlannedEffect::new(GROUP, "lateral colour", status).described_by("lens.lateral_colour");
     match lateral_colour_px(&camera.body, camera.settings.range) {
-        Some(px) => effect.dropped_by([without(camera, "lens.lateral_colour")]).erring("colours apart up to", px, "px"),
+        Some(px) => {
+            effect.dropped_by([without(camera, "lens.lateral_colour")]).erring("colour separation up to", px, "px")
+        }
         None => effect,
     }
 }
 
 fn dispersion(camera: &CameraPlan) -> PlannedEffect {
     let is_there = camera.body.disperses() && camera.settings.route == Route::Lens;
-    let lack = format!("{} wavelengths share each path, as the lens treats them alike", camera.settings.wavelengths);
-    let text = "each path carries one wavelength, as its ray through the lens is of that one alone";
+    let lack =
+        format!("{} wavelengths share each path: the lens treats all wavelengths equally", camera.settings.wavelengths);
+    let text = "each path carries one wavelength: rays through the lens depend on wavelength";
     PlannedEffect::new(GROUP, "one wavelength a path", where_there(is_there, text, lack))
         .described_by("render.wavelengths_per_path")
 }
 
 fn route(camera: &CameraPlan, cost: &FrameCost) -> PlannedEffect {
     let is_there = matches!(camera.settings.route, Route::Pupil(_));
-    let text = "light is found at the centre of the entrance pupil, and the lens acts on the picture";
-    let status = where_there(is_there, text, "each sample goes through the lens");
+    let text = "radiance is rendered at the centre of the entrance pupil, and the lens is applied to the image";
+    let status = where_there(is_there, text, "each sample is traced through the lens");
     let effect = PlannedEffect::new(GROUP, "lens on the picture", status).described_by("render.route");
     PlannedEffect { cpu_s: is_there.then(|| part_s(cost, "the lens on the picture")), ..effect }
         .dropped_by([of_camera(camera, "render.route", "lens")])
@@ -173,13 +179,13 @@ fn before_the_lens(camera: &CameraPlan, name: &'static str, key: &'static str, s
 
 fn mirror(camera: &CameraPlan) -> PlannedEffect {
     let is_there = matches!(optic(camera), Some(Optic::Mirror(_)));
-    let status = where_there(is_there, "each ray is reflected at it", "none is described");
+    let status = where_there(is_there, "each ray is reflected at the mirror", "none is described");
     before_the_lens(camera, "mirror before the lens", "external_optics.mirror", status)
 }
 
 fn windscreen(camera: &CameraPlan) -> PlannedEffect {
     let is_there = matches!(optic(camera), Some(Optic::Windscreen(_)));
-    let status = where_there(is_there, "each ray is traced through its layers", "none is described");
+    let status = where_there(is_there, "each ray is traced through the windscreen's layers", "none is described");
     before_the_lens(camera, "wind-screen", "external_optics.windscreen", status)
 }
 
@@ -191,7 +197,7 @@ fn drops(camera: &CameraPlan) -> PlannedEffect {
     let status = match drops {
         Some(drops) => {
             let count = drops.droplets().len();
-            EffectStatus::WhereNeeded(format!("{count} drops, found by a grid where a ray crosses the glass"))
+            EffectStatus::WhereNeeded(format!("{count} drops, looked up in a grid where a ray crosses the glass"))
         }
         None => EffectStatus::LeftOut("none is described".to_owned()),
     };
@@ -257,8 +263,10 @@ fn spread_by(camera: &CameraPlan) -> String {
     let error = width.film_error;
     match by {
         SpreadBy::Samples => {
-            format!(", by displaced samples (by the film contrast would be wrong by up to {error:.2})")
+            format!(
+                ", applied by displacing samples (applied to the film, the contrast error would be up to {error:.2})"
+            )
         }
-        SpreadBy::Film => format!(", by the film (contrast wrong by up to {error:.3})"),
+        SpreadBy::Film => format!(", applied to the film (contrast error up to {error:.3})"),
     }
 }

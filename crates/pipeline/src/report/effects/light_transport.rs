@@ -33,7 +33,7 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
 }
 
 fn first_surfaces(paths: f64) -> PlannedEffect {
-    let status = EffectStatus::Modelled("the first surface of each sample, lit by what it sees".to_owned());
+    let status = EffectStatus::Modelled("the first surface that each sample hits is shaded".to_owned());
     let cpu_s = paths * FLAT_PATH_CPU_S;
     PlannedEffect { cpu_s: Some(cpu_s), ..PlannedEffect::new(GROUP, "first surfaces", status) }
 }
@@ -42,8 +42,8 @@ fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let integrator = camera.settings.paths.integrator;
     let status = where_there(
         integrator != Integrator::Flat,
-        "a ray to each light that is drawn finds what stands before it",
-        "integrator = \"flat\" sends no ray to a light",
+        "a shadow ray to each sampled light finds occluders",
+        "integrator = \"flat\" traces no shadow rays",
     );
     let cpu_s = paths * (DIRECT_PATH_CPU_S - FLAT_PATH_CPU_S);
     let effect = PlannedEffect::new(GROUP, "shadows", status).described_by("render.integrator").taking(cpu_s);
@@ -54,10 +54,10 @@ fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let settings = &camera.settings;
     let status = where_there(
         settings.paths.integrator == Integrator::Path && settings.paths.max_bounces > 1,
-        format!("paths go on from surface to surface, {} of them at most", settings.paths.max_bounces),
+        format!("paths continue from surface to surface, over at most {} surfaces", settings.paths.max_bounces),
         match settings.paths.integrator {
-            Integrator::Path => "a path of one bounce meets one surface",
-            Integrator::Flat | Integrator::Direct => "integrator = \"path\" would follow it",
+            Integrator::Path => "a path of one bounce ends at the first surface",
+            Integrator::Flat | Integrator::Direct => "requires integrator = \"path\"",
         },
     );
     PlannedEffect::new(GROUP, "indirect light", status)
@@ -78,10 +78,10 @@ const FEW_BOUNCES: u32 = 2;
 fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let PathSettings { integrator, max_bounces, .. } = camera.settings.paths;
     let status = if integrator == Integrator::Path && max_bounces > FEW_BOUNCES {
-        let text = format!("surfaces 3 to {max_bounces} of a path, as far as Russian roulette lets it go on");
+        let text = format!("surfaces 3 to {max_bounces} of a path, unless Russian roulette ends it");
         EffectStatus::WhereNeeded(text)
     } else {
-        EffectStatus::LeftOut("a path meets two surfaces at most".to_owned())
+        EffectStatus::LeftOut("a path hits at most two surfaces".to_owned())
     };
     let of_path_s = path_cpu_s(camera) - TWO_BOUNCES_CPU_S;
     PlannedEffect::new(GROUP, "bounces beyond the second", status)
@@ -92,7 +92,7 @@ fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
 }
 
 fn beyond_the_limit(settings: &Settings) -> PlannedEffect {
-    let lack = format!("light that more than {} surfaces scatter is missing", settings.paths.max_bounces);
+    let lack = format!("light scattered by more than {} surfaces is missing", settings.paths.max_bounces);
     let effect = PlannedEffect::new(GROUP, "bounces beyond the limit", EffectStatus::LeftOut(lack));
     effect.described_by("render.max_bounces")
 }
@@ -100,12 +100,15 @@ fn beyond_the_limit(settings: &Settings) -> PlannedEffect {
 fn caustics(camera: &CameraPlan) -> PlannedEffect {
     let settings = &camera.settings;
     let status = if settings.paths.integrator == Integrator::Path && settings.paths.caustics {
-        let text = "light of lamps by way of smooth surfaces, for paths that leave a matt one and meet a smooth one";
+        let text = "light that reaches diffuse surfaces via smooth ones, for paths that leave a diffuse surface and \
+                    hit a smooth one";
         EffectStatus::WhereNeeded(text.to_owned())
     } else {
         EffectStatus::LeftOut(match settings.paths.integrator {
-            Integrator::Path => "caustics = false leaves out light thrown by smooth surfaces on matt ones, by mirrors on much less glossy ones".to_owned(),
-            Integrator::Flat | Integrator::Direct => "they need paths: integrator = \"path\"".to_owned(),
+            Integrator::Path => "caustics = false omits light that smooth surfaces cast on diffuse ones, and mirrors \
+                                 on much less glossy ones"
+                .to_owned(),
+            Integrator::Flat | Integrator::Direct => "requires integrator = \"path\"".to_owned(),
         })
     };
     let effect = PlannedEffect::new(GROUP, "caustics", status).described_by("render.caustics");
@@ -115,9 +118,8 @@ fn caustics(camera: &CameraPlan) -> PlannedEffect {
 fn regularization(camera: &CameraPlan) -> PlannedEffect {
     let status = where_there(
         camera.settings.paths.regularize,
-        "metals, coats, glass and paint that a path meets behind wider lobes are rougher than they are: a bias"
-            .to_owned(),
-        "lobes are as narrow as models say",
+        "metals, coats, glass and paint that a path hits after a wider lobe are roughened (biased)".to_owned(),
+        "lobes have the width of their models",
     );
     let effect = PlannedEffect::new(GROUP, "regularisation", status).described_by("render.regularize");
     effect.dropped_by([of_camera(camera, "render.regularize", "false")])
@@ -127,8 +129,8 @@ fn guiding(camera: &CameraPlan) -> PlannedEffect {
     let paths = if camera.settings.guiding { training::paths_of(camera) } else { 0 };
     let status = where_there(
         paths > 0,
-        format!("directions at matt surfaces follow what {paths} paths before the picture find"),
-        "directions at matt surfaces are drawn by the cosine alone",
+        format!("directions at diffuse surfaces are sampled from a distribution learned by {paths} training paths"),
+        "directions at diffuse surfaces are sampled by the cosine only",
     );
     let effect = PlannedEffect::new(GROUP, "path guiding", status).described_by("render.guiding");
     effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(paths as f64 * path_cpu_s(camera))
@@ -149,8 +151,8 @@ fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let branches = camera.settings.paths.branches;
     let status = where_there(
         branches > 1,
-        format!("{branches} lights are drawn and {branches} paths go on at the first surface of a sample"),
-        "one light is drawn and one path goes on at the first surface of a sample",
+        format!("{branches} lights are sampled and {branches} paths continue at the first surface of each sample"),
+        "one light is sampled and one path continues at the first surface of each sample",
     );
     let effect = PlannedEffect::new(GROUP, "branched paths", status).described_by("render.branches");
     effect.dropped_by([of_camera(camera, "render.branches", "1")]).taking(branches_cpu_s(camera, paths))
@@ -159,11 +161,11 @@ fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {
     let status = match camera.settings.paths.light_sampling {
         LightSampling::Gloss => {
-            let text = "at glossy surfaces, lights are drawn by what the surface sends back of them, too";
+            let text = "at glossy surfaces, lights are also sampled by their reflected radiance";
             EffectStatus::WhereNeeded(text.to_owned())
         }
         LightSampling::Irradiance => EffectStatus::LeftOut(
-            "lights are drawn by their irradiance alone: mirror images of lamps are noisier".to_owned(),
+            "lights are sampled by their irradiance only: mirror images of lights are noisier".to_owned(),
         ),
     };
     let effect = PlannedEffect::new(GROUP, "lights drawn by gloss", status).described_by("render.light_sampling");
@@ -174,8 +176,8 @@ fn path_reuse(camera: &CameraPlan) -> PlannedEffect {
     let blocks = camera.settings.blocks;
     let status = where_there(
         blocks != Blocks::SINGLE,
-        format!("{} pixels share the tails of their paths, and errors", blocks.len_px()),
-        "each pixel has paths of its own",
+        format!("{} pixels share the tails of their paths, so their errors are correlated", blocks.len_px()),
+        "each pixel has its own paths",
     );
     let effect = PlannedEffect::new(GROUP, "path reuse", status).described_by("render.path_reuse_px");
     effect.dropped_by([of_camera(camera, "render.path_reuse_px", "1")])
@@ -184,7 +186,7 @@ fn path_reuse(camera: &CameraPlan) -> PlannedEffect {
 fn adaptive_sampling(camera: &CameraPlan) -> PlannedEffect {
     let (name, key) = ("adaptive sampling", "render.noise_threshold");
     let Some(limit) = camera.settings.adaptive else {
-        let status = EffectStatus::LeftOut(format!("every pixel gets {} samples", camera.settings.spp));
+        let status = EffectStatus::LeftOut(format!("every pixel receives {} samples", camera.settings.spp));
         return PlannedEffect::new(GROUP, name, status).described_by(key);
     };
     let text = format!("pixels whose error is small enough stop at {} samples", limit.min_spp);

@@ -29,7 +29,7 @@ fn cube(camera: &CameraPlan) -> PlannedEffect {
 fn effect(plan: &Plan, camera: &CameraPlan, product: ListedProduct) -> PlannedEffect {
     let ListedProduct { key, name, is_delivered, is_flag, .. } = product;
     let effect =
-        PlannedEffect::new(GROUP, name, where_there(is_delivered, "delivered", "not asked for")).described_by(key);
+        PlannedEffect::new(GROUP, name, where_there(is_delivered, "delivered", "not requested")).described_by(key);
     let effect = match cpu_s(plan, camera, key) {
         Some(cpu_s) => effect.taking(cpu_s),
         None => effect,

@@ -36,53 +36,53 @@ fn instances(plan: &Plan) -> PlannedEffect {
     let status = where_there(
         instances > meshes && meshes > 0,
         format!("{instances} instances share {meshes} meshes, each stored once"),
-        "each mesh stands once",
+        "no mesh is used more than once",
     );
     PlannedEffect::new(GROUP, "instances", status).described_by("scene.objects")
 }
 
 fn textures(plan: &Plan) -> PlannedEffect {
     let count = plan.material_table.textures().len();
-    let text = format!("{count} pictures, looked up where the surface that is met has one");
+    let text = format!("{count} images, evaluated only where the surface hit has one");
     let memory = TextureUse::of(&plan.material_table);
     let text = memory.tiles().map_or(text.clone(), |tiles| format!("{text}; {tiles}"));
-    let status = where_needed(count > 0, text, "no surface has one");
+    let status = where_needed(count > 0, text, "no surface has a texture");
     let bytes = memory.memory_bytes() as f64;
     PlannedEffect::new(GROUP, "textures", status).described_by("scene.textures").holding(bytes)
 }
 
 fn normal_maps(plan: &Plan) -> PlannedEffect {
     let count = plan.material_table.materials().iter().filter(|material| material.normal_map.is_some()).count();
-    let text = format!("of {count} materials; tangents are looked at for these alone");
-    let status = where_needed(count > 0, text, "no material has one");
+    let text = format!("of {count} materials; tangents are evaluated only for these");
+    let status = where_needed(count > 0, text, "no material has a normal map");
     PlannedEffect::new(GROUP, "normal maps", status).described_by("scene.materials.normal_map")
 }
 
 fn transparency(plan: &Plan) -> PlannedEffect {
-    let text = "rays to lights ask of materials that let light pass straight, by an opacity or as thin sheets; others stop them";
-    let status = where_needed(plan.material_table.has_passages(), text, "no material lets light pass straight");
+    let text = "shadow rays evaluate materials with an opacity and thin sheets, which transmit light undeviated; other \
+                materials block them";
+    let status = where_needed(plan.material_table.has_passages(), text, "no material transmits light undeviated");
     PlannedEffect::new(GROUP, "transparency", status).described_by("scene.materials.opacity")
 }
 
 fn motion(camera: &CameraPlan) -> PlannedEffect {
     let status = where_there(
         camera.time == TimeDependence::Motion,
-        "something moves within the exposure: each sample has a moment of its row's",
-        "nothing moves that the camera could see moving",
+        "motion during the exposure: each sample has a time within the exposure of its row",
+        "no motion is visible to the camera",
     );
     PlannedEffect::new(GROUP, "motion", status).described_by("scene.frames")
 }
 
 fn modulation(plan: &Plan) -> PlannedEffect {
-    let text = "rows see the mean of a light over their exposure, asked of lights that change alone";
-    let status = where_needed(plan.is_modulated(), text, "all lights are steady");
+    let text = "each row receives the mean of a light over its exposure, evaluated only for lights that change";
+    let status = where_needed(plan.is_modulated(), text, "all lights are constant");
     PlannedEffect::new(GROUP, "lights that change", status).described_by("scene.lights.modulation")
 }
 
 /// The sun of a sky, or suns among the lights. One key leaves out a sky's; those among the lights are named in their list.
 fn sun(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
-    let status =
-        where_there(lights.suns > 0, format!("{} drawn for each surface", discs(lights.suns)), "there is none");
+    let status = where_there(lights.suns > 0, format!("{} sampled at each surface", discs(lights.suns)), "none");
     let is_of_sky = plan.sky.is_some_and(|sky| sky.sun_lx > 0.0) && plan.sources.suns.len() == 1;
     let effect = PlannedEffect::new(GROUP, "sun", status).described_by("scene.environment.sun");
     effect.dropped_by(is_of_sky.then(|| "scene.environment.sun=false".to_owned()))
@@ -94,11 +94,11 @@ fn discs(count: usize) -> String {
 
 fn environment(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
     let (text, is_there) = match lights {
-        LightCounts { sky: true, .. } => ("a clear sky, drawn for each surface", true),
-        LightCounts { image_environment: true, .. } => ("a picture of the surroundings, drawn for each surface", true),
-        _ => ("light that is the same from everywhere", lights.uniform_environment),
+        LightCounts { sky: true, .. } => ("a clear sky, sampled at each surface", true),
+        LightCounts { image_environment: true, .. } => ("an environment map, sampled at each surface", true),
+        _ => ("uniform radiance from all directions", lights.uniform_environment),
     };
-    let status = where_there(is_there, text, "nothing shines from infinitely far");
+    let status = where_there(is_there, text, "no light comes from infinity");
     let effect = PlannedEffect::new(GROUP, "sky and surroundings", status).described_by("scene.environment");
     effect.dropped_by(plan.sources.environment.is_some().then(|| "scene.environment=null".to_owned()))
 }
@@ -106,8 +106,8 @@ fn environment(plan: &Plan, lights: &LightCounts) -> PlannedEffect {
 /// The list of lights is removed as a whole, including its suns and its luminous openings.
 fn lamps(lights: &LightCounts) -> PlannedEffect {
     let count = lights.lamps + lights.openings;
-    let text = format!("{count} of them, drawn by what they give to each surface");
-    let status = where_there(count > 0, text, "there is none");
+    let text = format!("{count} lights, sampled by their contribution at each surface");
+    let status = where_there(count > 0, text, "none");
     let effect = PlannedEffect::new(GROUP, "lamps", status).described_by("scene.lights");
     effect.dropped_by(["scene.lights=null".to_owned()])
 }
@@ -116,13 +116,13 @@ fn measured_lamps(plan: &Plan) -> PlannedEffect {
     let is_measured =
         |profile: &Profile| matches!(profile, Profile::PhotometricGrid(_) | Profile::Masked(_) | Profile::MaskImage(_));
     let count = plan.sources.lamps.iter().filter(|lamp| is_measured(lamp.profile())).count();
-    let text = format!("{count} lamps; intensities by direction are looked up for these alone");
-    let status = where_needed(count > 0, text, "no lamp has one");
+    let text = format!("{count} lights; intensity distributions are evaluated only for these");
+    let status = where_needed(count > 0, text, "no light has a measured distribution");
     PlannedEffect::new(GROUP, "measured lamp distributions", status).described_by("scene.lights.file")
 }
 
 fn glowing_surfaces(lights: &LightCounts) -> PlannedEffect {
     let count = lights.triangles + lights.spheres;
-    let status = where_there(count > 0, format!("{count} triangles and spheres shine"), "no surface shines");
+    let status = where_there(count > 0, format!("{count} triangles and spheres emit light"), "no surface emits light");
     PlannedEffect::new(GROUP, "glowing surfaces", status).described_by("scene.materials.emission")
 }

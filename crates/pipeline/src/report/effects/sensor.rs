@@ -9,7 +9,7 @@ const GROUP: EffectGroup = EffectGroup::Sensor;
 
 pub(super) fn effects(camera: &CameraPlan) -> Vec<PlannedEffect> {
     let Some(sensor) = &camera.body.sensor else {
-        let lack = "no electronics are described, so that no electrons are made".to_owned();
+        let lack = "no electronics are described, so no electrons are computed".to_owned();
         let none = PlannedEffect::new(GROUP, "electronics", EffectStatus::LeftOut(lack));
         return vec![rolling_shutter(camera), none.described_by("sensor.full_well_e")];
     };
@@ -22,10 +22,12 @@ fn rolling_shutter(camera: &CameraPlan) -> PlannedEffect {
     let rows = &camera.body.exposure;
     let depends = camera.time != TimeDependence::None;
     let status = match &rows.shutter {
-        Shutter::Global => EffectStatus::LeftOut("all rows are exposed together".to_owned()),
-        Shutter::Rolling(_) if !depends => EffectStatus::LeftOut("nothing of the scene depends on time".to_owned()),
-        Shutter::Rolling(_) => EffectStatus::Modelled("each row's samples have moments of its own exposure".to_owned()),
-        Shutter::GlobalReset(_) => EffectStatus::Modelled("rows that are read later get more light".to_owned()),
+        Shutter::Global => EffectStatus::LeftOut("all rows are exposed simultaneously".to_owned()),
+        Shutter::Rolling(_) if !depends => EffectStatus::LeftOut("nothing in the scene depends on time".to_owned()),
+        Shutter::Rolling(_) => {
+            EffectStatus::Modelled("each row's samples have times within its own exposure".to_owned())
+        }
+        Shutter::GlobalReset(_) => EffectStatus::Modelled("rows that are read later receive more light".to_owned()),
     };
     let global = match &camera.body.sensor {
         Some(_) => without(camera, "sensor.shutter"),

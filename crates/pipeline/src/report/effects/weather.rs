@@ -19,7 +19,7 @@ fn layers(plan: &Plan, is_last: bool) -> impl Iterator<Item = String> {
 
 fn media(plan: &Plan) -> PlannedEffect {
     let count = plan.media.len() - usize::from(plan.precipitation.is_some());
-    let text = format!("{count} between the surfaces: rays draw where they are scattered");
+    let text = format!("{count} between the surfaces: scattering distances are sampled along rays");
     let status = where_there(count > 0, text, "the air is clear");
     let set = std::iter::once("scene.media=null".to_owned()).chain(layers(plan, plan.precipitation.is_none()));
     PlannedEffect::new(GROUP, "fog and other media", status).described_by("scene.media").dropped_by(set)
@@ -27,10 +27,10 @@ fn media(plan: &Plan) -> PlannedEffect {
 
 fn falling(plan: &Plan) -> PlannedEffect {
     let text = match &plan.precipitation {
-        Some(precipitation) if precipitation.field.law().is_snow() => "snow is a medium to all rays",
-        _ => "rain is a medium to all rays",
+        Some(precipitation) if precipitation.field.law().is_snow() => "snow is a participating medium for all rays",
+        _ => "rain is a participating medium for all rays",
     };
-    let status = where_there(plan.precipitation.is_some(), text, "nothing falls");
+    let status = where_there(plan.precipitation.is_some(), text, "no precipitation");
     let set = std::iter::once("scene.precipitation=null".to_owned()).chain(layers(plan, plan.media.len() == 1));
     PlannedEffect::new(GROUP, "rain and snow", status).described_by("scene.precipitation").dropped_by(set)
 }
@@ -39,9 +39,11 @@ fn falling(plan: &Plan) -> PlannedEffect {
 fn near(plan: &Plan, camera: &CameraPlan) -> PlannedEffect {
     let expected = change_over(plan, camera).map_or(0.0, |change_over| change_over.expected);
     let status = if expected >= 0.5 {
-        EffectStatus::WhereNeeded(format!("about {expected:.0} one by one, met by rays from the camera alone"))
+        EffectStatus::WhereNeeded(format!(
+            "about {expected:.0} resolved individually, hit only by rays from the camera"
+        ))
     } else {
-        EffectStatus::LeftOut("no drop or flake is wide enough in the picture".to_owned())
+        EffectStatus::LeftOut("no drop or flake is large enough in the image".to_owned())
     };
     PlannedEffect::new(GROUP, "near drops and flakes", status)
         .described_by("scene.precipitation.most")

@@ -47,15 +47,15 @@ impl CameraMemory {
         let light = sizes.light() + remembered_frame + sizes.shared_films();
         let distances = if sizes.is_at_pupil { light + view.stage_bytes(PUPIL_PLANES * sizes.film_plane) } else { 0.0 };
         let stages = [
-            ("its light is gathered", view.stage_bytes(sizes.films())),
-            ("its film becomes light on the sensor", sizes.conversion(threads)),
-            ("distances at its pupil are found", distances),
-            ("the spectra of its light are written", light + sizes.spectra_files()),
-            ("its frames are made and written", light + frame.peak),
-            ("its ground truth is made and written", light + view.stage_bytes(sizes.ground_truth())),
-            ("the weather before it is made and written", light + view.stage_bytes(sizes.weather())),
-            ("its motion is made and written", light + view.stage_bytes(sizes.motion())),
-            ("its Cryptomatte is made and written", light + view.stage_bytes(sizes.cryptomatte())),
+            ("its light is rendered", view.stage_bytes(sizes.films())),
+            ("its film is converted to light on the sensor", sizes.conversion(threads)),
+            ("distances at its pupil are computed", distances),
+            ("its spectral files are written", light + sizes.spectra_files()),
+            ("its frames are computed and written", light + frame.peak),
+            ("its ground truth is computed and written", light + view.stage_bytes(sizes.ground_truth())),
+            ("its weather layers are computed and written", light + view.stage_bytes(sizes.weather())),
+            ("its motion and disparity are computed and written", light + view.stage_bytes(sizes.motion())),
+            ("its Cryptomatte is computed and written", light + view.stage_bytes(sizes.cryptomatte())),
         ];
         let stages = stages.map(|(stage, bytes)| StageMemory { stage, bytes }).to_vec();
         Self { film: sizes.film, stages }

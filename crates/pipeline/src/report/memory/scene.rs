@@ -78,6 +78,6 @@ impl TextureUse {
     pub(in crate::report) fn tiles(&self) -> Option<String> {
         let [tiled, limit] = [self.tiled_bytes, self.limit_bytes].map(|bytes| bytes.div_ceil(1_000_000));
         let count = self.tiled;
-        (count > 0).then(|| format!("{count} in tiles on the disk, {tiled} MB; at most {limit} MB of them in memory"))
+        (count > 0).then(|| format!("{count} in tiles on disk, {tiled} MB; at most {limit} MB of them in memory"))
     }
 }

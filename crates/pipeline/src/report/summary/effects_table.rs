@@ -27,8 +27,8 @@ pub(super) fn effects_table(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<
         let of = rest.iter().filter(move |effect| is_there(effect));
         of.map(|effect| effect.name).collect::<Vec<_>>()
     };
-    list("required too", &named(|effect| matches!(effect.status, EffectStatus::Modelled(_))), f)?;
-    list("guarded too", &named(|effect| matches!(effect.status, EffectStatus::WhereNeeded(_))), f)?;
+    list("also required", &named(|effect| matches!(effect.status, EffectStatus::Modelled(_))), f)?;
+    list("also guarded", &named(|effect| matches!(effect.status, EffectStatus::WhereNeeded(_))), f)?;
     list("skipped", &named(|effect| !effect.status.is_modelled() && !is_said_above(effect)), f)
 }
 

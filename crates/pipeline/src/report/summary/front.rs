@@ -9,7 +9,10 @@ pub(super) fn front(front: &Front) -> Vec<String> {
     let dirt = front.dirt().map(|dirt| {
         let p = dirt.parameters();
         let distance = figure(p.placement.origin_mm.z);
-        format!("dirt, {distance} mm before the pupil: each ray by the mask; light that it scatters is left out")
+        format!(
+            "dirt, {distance} mm in front of the pupil: rays are weighted by the mask; light that it scatters is \
+                 left out"
+        )
     });
     dirt.into_iter().chain(optic(front)).collect()
 }
@@ -17,13 +20,13 @@ pub(super) fn front(front: &Front) -> Vec<String> {
 fn optic(front: &Front) -> Vec<String> {
     match front.optic() {
         Some(Optic::Mirror(mirror)) => vec![
-            format!("a mirror, traced: {}; {}", shape(mirror), reflectance(mirror)),
-            "left out: second reflections at the mirror, its roughness, the body of the camera in it".to_owned(),
+            format!("mirror, traced: {}; {}", shape(mirror), reflectance(mirror)),
+            "left out: second reflections at the mirror, its roughness, the reflection of the camera body".to_owned(),
         ],
         Some(Optic::Windscreen(glass)) => {
-            let traced = format!("a wind-screen, traced: {}", self::glass(glass));
-            let left_out =
-                "left out: further reflections in the glass, polarisation, its edges; the route at the pupil";
+            let traced = format!("windscreen, traced: {}", self::glass(glass));
+            let left_out = "left out: further reflections in the glass, polarisation, glass edges; route = \"pupil\" \
+                            is not available";
             [traced, left_out.to_owned()].into_iter().chain(glass.drops().into_iter().flat_map(drops)).collect()
         }
         None => Vec::new(),
@@ -36,16 +39,16 @@ fn glass(glass: &Windscreen) -> String {
     let tilt = acos(normal.z.clamp(-1.0, 1.0)).to_degrees();
     let thick = figure(glass.thickness_mm());
     let light = match glass.axial_transmittances() {
-        None => "not met by the axis".to_owned(),
-        Some([straight, 0.0]) => format!("lets through {straight:.3} on the axis, no double image"),
+        None => "not crossed by the axis".to_owned(),
+        Some([straight, 0.0]) => format!("transmits {straight:.3} on the axis, no double image"),
         Some([straight, doubled]) => format!(
-            "lets through {straight:.3} on the axis, and {doubled:.5} as a double image ({:.2} % of samples)",
+            "transmits {straight:.3} on the axis, and {doubled:.5} as a double image ({:.2} % of samples)",
             100.0 * glass.double_image_fraction()
         ),
     };
     let distance = figure(p.placement.origin_mm.z);
     format!(
-        "{} of {thick} mm, {distance} mm before the pupil, {tilt:.1}° from the axis; {light}",
+        "{} of {thick} mm in total, {distance} mm in front of the pupil, {tilt:.1}° from the axis; {light}",
         super::count(p.layers.len(), "layer")
     )
 }
@@ -55,7 +58,7 @@ fn shape(mirror: &Mirror) -> String {
     let distance = figure(parameters.placement.origin_mm.z);
     match &parameters.shape {
         MirrorShape::Mesh(mesh) => {
-            format!("{} with smooth normals, {distance} mm before the pupil", super::count(mesh.len(), "triangle"))
+            format!("{} with smooth normals, {distance} mm in front of the pupil", super::count(mesh.len(), "triangle"))
         }
         MirrorShape::Quadric(quadric) => {
             let reach = figure(quadric.rim_mm());
@@ -66,7 +69,7 @@ fn shape(mirror: &Mirror) -> String {
                 _ => "",
             };
             format!(
-                "{}, its vertex {distance} mm before the pupil, its rim {reach} mm from its axis{single}",
+                "{}, vertex {distance} mm in front of the pupil, edge {reach} mm from its axis{single}",
                 quadric.name()
             )
         }
@@ -78,11 +81,11 @@ fn reflectance(mirror: &Mirror) -> String {
         Reflectance::Share(curve) => {
             let (low, high) = curve.range();
             match low == high {
-                true => format!("reflects {low}"),
-                false => format!("reflects {low:.3} to {high:.3} by wavelength"),
+                true => format!("reflectance {low}"),
+                false => format!("reflectance {low:.3} to {high:.3}, depending on wavelength"),
             }
         }
-        Reflectance::Metal(_) => "reflects as a clean metal".to_owned(),
+        Reflectance::Metal(_) => "reflectance of a clean metal".to_owned(),
     }
 }
 
@@ -94,8 +97,8 @@ pub(super) fn drops(drops: &Drops) -> Vec<String> {
     let largest = drops.droplets().iter().map(|d| d.radius_mm).fold(0.0, f64::max);
     let there = vec![
         format!(
-            "drops of water on it, traced: {} of {least} to {greatest} mm radius fell on {} × {} mm, joined to {} of at most {} mm; \
-             contact angle {}°; they cover {:.2} % of it and hold {:.1} µl",
+            "water drops on the windscreen, traced: {} of {least} to {greatest} mm radius fell on {} × {} mm and \
+             merged to {} of at most {} mm; contact angle {}°; they cover {:.2} % of this area and contain {:.1} µl",
             p.count,
             figure(p.size_mm.x),
             figure(p.size_mm.y),
@@ -105,8 +108,8 @@ pub(super) fn drops(drops: &Drops) -> Vec<String> {
             100.0 * drops.cover(),
             volume
         ),
-        "left out: reflections in part at the drops, what shines from inside through them, their wet trails, their weight's effect on \
-         their shape; ground truth does not see them"
+        "left out: partial reflections at the drops, light through them from inside, wet trails, the effect of gravity \
+         on their shape; ground truth excludes them"
             .to_owned(),
     ];
     there.into_iter().chain(p.course.as_ref().map(course)).collect()
@@ -118,11 +121,12 @@ fn course(course: &Course) -> String {
     let slide = sliding
         .map(|s| format!("slide at up to {} mm/s from {} mm radius", figure(s.speed_mm_s), figure(s.still_radius_mm)));
     let dry = drying_s.map(|s| format!("dry in {} s", figure(s)));
-    let arrive = (*arrivals_hz > 0.0).then(|| format!("arrive at {} a second", figure(*arrivals_hz)));
+    let arrive = (*arrivals_hz > 0.0).then(|| format!("arrive at {} per second", figure(*arrivals_hz)));
     let wiped = wiper.map(|w| format!("are wiped every {} s from {} s", figure(w.period_s), figure(w.start_s)));
     let changes: Vec<String> = [slide, dry, arrive, wiped].into_iter().flatten().collect();
     format!(
-        "drops change from {} s on, those above are of then: they {}; each exposure sees them as they are in its middle",
+        "drops change from {} s on (figures above: at that time): they {}; each exposure uses their state at its \
+         middle",
         figure(*start_s),
         changes.join(", ")
     )

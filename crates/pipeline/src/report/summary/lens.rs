@@ -26,7 +26,7 @@ pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     if let Some(colour) = lens.lateral_colour() {
         let size = |nm: f64| format!("{:.5} at {nm} nm", colour.at(nm));
         let text = format!(
-            "image size {}, {}, {}: each path carries one wavelength through the lens",
+            "relative image size {}, {}, {}: each path carries one wavelength through the lens",
             size(450.0),
             size(550.0),
             size(650.0)
@@ -37,16 +37,16 @@ pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         line(f, if i == 0 { "in front" } else { "" }, text)?;
     }
     match &camera.settings.route {
-        Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),
+        Route::Lens => line(f, "route", "through the lens: each sample's ray gives vignetting, defocus and distortion"),
         Route::Pupil(p) => {
             let views = match p {
                 PupilProjection::Rectilinear(_) => String::new(),
                 PupilProjection::Cube(cube) => {
-                    format!(" in {} of a cube's faces of {} px", p.views().count(), cube.face_px())
+                    format!(" in {} cube faces of {} px", p.views().count(), cube.face_px())
                 }
             };
             let size = format!(
-                "at the pupil: radiance of {} × {} px{views}, then the lens on the picture",
+                "at the pupil: radiance of {} × {} px{views}, then the lens is applied to the image",
                 p.width(),
                 p.height()
             );
@@ -70,7 +70,10 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
     };
     match lens {
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Calibrated(_) if lens.lateral_colour().is_some() => {
-            format!("{}: not modelled", missing(&["aberrations but lateral colour", "diffraction", "glare", "ghosts"]))
+            format!(
+                "{}: not modelled",
+                missing(&["aberrations except lateral colour", "diffraction", "glare", "ghosts"])
+            )
         }
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Telecentric(_) => {
             let missing = missing(&["aberrations", "diffraction", "glare", "ghosts"]);
@@ -87,14 +90,15 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
                 "absorption and reflection by wavelength",
                 "errors of the fit",
             ]);
-            let colours = if lens.disperses() { "" } else { "; dispersion: the functions know one wavelength" };
+            let colours =
+                if lens.disperses() { "" } else { "; dispersion: the ray transfer functions cover one wavelength" };
             format!("{missing}: not modelled{colours}")
         }
         Lens::Calibrated(lens) => {
             let pupil = match (lens.parameters().relative_illumination.is_some(), lens.pupil()) {
                 (true, _) => "illumination as measured",
                 (false, PupilStance::Flat) => "illumination of a flat pupil, cos θ dΩ/dA",
-                (false, PupilStance::Turning) => "illumination of a pupil turned to the light, dΩ/dA",
+                (false, PupilStance::Turning) => "illumination of a pupil that faces the light, dΩ/dA",
             };
             let missing = missing(&["aberrations", "dispersion", "diffraction", "glare", "ghosts"]);
             format!("{missing}: not modelled; {pupil}")
@@ -108,7 +112,7 @@ fn field_of_view(camera: &CameraPlan) -> String {
     }
     match field_of_view_rad(camera) {
         Some(angle) => format!("{:.2}° wide", angle.to_degrees()),
-        None => "wider than the lens sees".to_owned(),
+        None => "wider than the lens covers".to_owned(),
     }
 }
 
@@ -130,10 +134,10 @@ pub(in crate::report) fn field_of_view_rad(camera: &CameraPlan) -> Option<f64> {
 
 fn distortion(lens: &Lens) -> String {
     match (lens.distortion(), lens) {
-        (None, Lens::Prescription(_)) => "that of its surfaces".to_owned(),
-        (None, Lens::RayTransfer(_)) => "that of its functions".to_owned(),
+        (None, Lens::Prescription(_)) => "that of the lens surfaces".to_owned(),
+        (None, Lens::RayTransfer(_)) => "that of the ray transfer functions".to_owned(),
         (None, Lens::Calibrated(_)) => {
-            "that of its projection; outside of it pixels are dark and without a ray".to_owned()
+            "that of the calibrated projection; pixels outside it are dark and have no ray".to_owned()
         }
         (None, _) => "none".to_owned(),
         (Some(d), _) => {
@@ -154,16 +158,16 @@ pub(super) fn depth_of_field(camera: &CameraPlan) -> String {
         DepthOfField::Physical => {
             let margin = camera.body.blur_margin_px(&camera.depth_of_field);
             format!(
-                "defocus by the pupil's outline, spread in the order of depth ({}; {margin} px around the picture); what lies \
-                 behind edges is guessed from beside them",
+                "defocus by the pupil's outline, applied in order of depth ({}; {margin} px around the image); content \
+                 hidden behind edges is estimated from its surroundings",
                 blur(camera)
             )
         }
         DepthOfField::Fast(blend) => {
             let p = blend.parameters();
             format!(
-                "a look of defocus: sharp from {} to {} m, blended with a copy blurred by {} px, wholly before {} m and beyond \
-                 {} m (the lens's own blur: {})",
+                "approximate defocus: sharp from {} to {} m, blended with a copy blurred by {} px, fully before {} m \
+                 and beyond {} m (blur of the lens itself: {})",
                 p.sharp_near_m,
                 p.sharp_far_m,
                 p.blur_px,
@@ -178,5 +182,5 @@ pub(super) fn depth_of_field(camera: &CameraPlan) -> String {
 /// The blur of the lens.
 pub(super) fn blur(camera: &CameraPlan) -> String {
     let pixels = |depth_m: f64| camera.body.lens.circle_of_confusion_mm(depth_m) / camera.body.raster.pitch_mm().x;
-    format!("{:.2} px across at 1 m, {:.2} px at infinity", pixels(1.0), pixels(f64::INFINITY))
+    format!("{:.2} px diameter at 1 m, {:.2} px at infinity", pixels(1.0), pixels(f64::INFINITY))
 }

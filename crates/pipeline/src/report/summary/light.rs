@@ -20,12 +20,12 @@ pub(super) fn light(plan: &Plan, camera: &CameraPlan) -> Option<String> {
     if !camera.owns_light() {
         let owner = &camera.light.camera;
         return Some(match server(plan, camera) {
-            Some(_) => format!("that of camera {owner}, with its errors: light is equal and rendered once"),
-            None => format!("equal to that of camera {owner} of the job, whose random numbers it has"),
+            Some(_) => format!("that of camera {owner}, with the same errors: the light is equal and is rendered once"),
+            None => format!("equal to that of camera {owner} of the job, with the same random numbers"),
         });
     }
     why_apart(plan, camera)
-        .map(|(other, unlike)| format!("its own: camera {other} looks the same way, but differs in {}", list(&unlike)))
+        .map(|(other, unlike)| format!("its own: camera {other} has the same view, but differs in {}", list(&unlike)))
 }
 
 /// Further cameras that a film serves, as a part of a sentence.
@@ -38,8 +38,8 @@ pub(super) fn served(plan: &Plan, camera: &CameraPlan) -> String {
         .collect();
     match others.len() {
         0 => String::new(),
-        1..=4 => format!(", for {} too", list(&others)),
-        n => format!(", for {n} more cameras too: {} to {}", others[0], others[n - 1]),
+        1..=4 => format!(", shared with {}", list(&others)),
+        n => format!(", shared with {n} more cameras: {} to {}", others[0], others[n - 1]),
     }
 }
 
@@ -49,19 +49,19 @@ pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
     camera.summing_sensor()?;
     let gain = camera.settings.spectral_gain.as_ref();
     Some(match (camera.settings.wavelength_sampling, gain) {
-        (WavelengthSampling::Uniform, _) => "evenly over the range, as asked".to_owned(),
-        (_, None) => "by the pixel's response".to_owned(),
+        (WavelengthSampling::Uniform, _) => "uniform over the range, as requested".to_owned(),
+        (_, None) => "sampled by the pixel's response".to_owned(),
         (WavelengthSampling::ResponseAndSource, Some(gain)) => {
-            format!("by the pixel's response and the light's spectrum, which divides {}", saves(gain))
+            format!("sampled by the pixel's response and the light's spectrum, which divides {}", saves(gain))
         }
         (WavelengthSampling::Response, Some(gain)) => {
             let why = match (gain.pays(), camera.settings.bands) {
                 (false, _) if gain.is_felt() => "which may cost more than it saves",
-                (false, _) => "too little",
-                (true, Some(_)) => "but bands are kept, too",
-                (true, None) => "but it is left out as asked",
+                (false, _) => "which saves too little",
+                (true, Some(_)) => "but bands are stored, too",
+                (true, None) => "but it is left out as requested",
             };
-            format!("by the pixel's response; the light's spectrum would divide {}, {why}", saves(gain))
+            format!("sampled by the pixel's response; the light's spectrum would divide {}, {why}", saves(gain))
         }
     })
 }
@@ -83,7 +83,7 @@ pub(super) fn band_noise(camera: &CameraPlan, bands: Bands) -> String {
     let noise = of(camera.spectrum_spread(), s.spp, s.replicates, s.wavelengths, band_share(s, bands));
     let Some(noise) = noise else { return String::new() };
     let most = if s.folded { "up to " } else { "" };
-    format!(", each with {most}{:.1} % of noise in even light by the choice of wavelengths", 100.0 * noise)
+    format!(", each with {most}{:.1} % of noise from wavelength sampling under uniform illumination", 100.0 * noise)
 }
 
 /// Minimum fraction of the density of wavelengths in a band: if electrons are accumulated in addition to bands, half of the density follows the pixel's

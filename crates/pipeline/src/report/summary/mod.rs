@@ -47,7 +47,7 @@ impl Display for Summary<'_> {
         writeln!(f, "\n{LEGEND}")?;
         section(f, "warnings", &plan.warnings())?;
         let notes = grouped(&plan.remarks).into_iter().filter(|remark| remark.weight == Weight::Note);
-        section(f, "remarks", &notes.map(|remark| remark.to_string()).collect::<Vec<_>>())
+        section(f, "notes", &notes.map(|remark| remark.to_string()).collect::<Vec<_>>())
     }
 }
 
@@ -65,8 +65,8 @@ fn section(f: &mut Formatter<'_>, heading: &str, sentences: &[String]) -> fmt::R
 }
 
 /// Explanation of the tables.
-const LEGEND: &str = "no key: nothing leaves it out. error ?: etendue tradeoff JOB --ablate renders with and without it.\n\
-                      Keys, reasons, and all that is skipped: etendue plan JOB --json";
+const LEGEND: &str = "no key: no key leaves it out. error ?: unknown; etendue tradeoff JOB --ablate renders with and \
+                      without it.\nKeys, reasons and all skipped effects: etendue plan JOB --json";
 
 fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(f, "\nscene")?;
@@ -81,9 +81,9 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     let instances = plan.world.instances().len();
     let triangles = format!("{} ({stored} stored)", count(seen, "triangle"));
     let trees = match plan.world.tree_quality() {
-        Accelerator::Fast => "; trees built fast: rays take longer",
+        Accelerator::Fast => "; acceleration structure built fast: rays take longer",
         Accelerator::Default => "",
-        Accelerator::Best => "; trees built with care",
+        Accelerator::Best => "; acceleration structure built for fast rays",
     };
     let (instances, spheres) = (count(instances, "instance"), count(spheres, "sphere"));
     line(f, "geometry", format!("{instances}, {triangles}, {spheres}{trees}"))?;
@@ -100,15 +100,13 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
         line(f, "weather", precipitation::field(precipitation))?;
     }
     let left_out = if plan.media.is_empty() {
-        "air: it is clear; polarisation and fluorescence: not modelled"
+        "air: clear; polarisation and fluorescence: not modelled"
     } else {
         "polarisation and fluorescence: not modelled"
     };
     match time::motion(plan) {
-        None if plan.precipitation.is_some() => {
-            line(f, "left out", format!("motion of objects: none moves; {left_out}"))
-        }
-        None => line(f, "left out", format!("motion: nothing moves; {left_out}")),
+        None if plan.precipitation.is_some() => line(f, "left out", format!("motion of objects: none; {left_out}")),
+        None => line(f, "left out", format!("motion: none; {left_out}")),
         Some(motion) => {
             line(f, "motion", motion)?;
             line(f, "left out", left_out)
@@ -140,13 +138,13 @@ fn sky(sky: &SkyFacts) -> String {
     let SkyFacts { turbidity, sun_elevation_deg, sun_azimuth_deg, sky_lx, sun_lx } = sky;
     let lux = |lx: &f64| if *lx >= 100.0 { format!("{lx:.0} lx") } else { format!("{lx:.3} lx") };
     let sun = match (*sun_lx > 0.0, *sun_elevation_deg <= 0.0) {
-        (true, _) => format!("and {} of the sun", lux(sun_lx)),
-        (false, true) => "and none of the sun, which is down".to_owned(),
-        (false, false) => "and none of the sun, which is left out".to_owned(),
+        (true, _) => format!("and {} from the sun", lux(sun_lx)),
+        (false, true) => "and none from the sun, which is below the horizon".to_owned(),
+        (false, false) => "and none from the sun, which is left out".to_owned(),
     };
     format!(
-        "turbidity {turbidity}, sun at elevation {sun_elevation_deg:.2}° and azimuth {sun_azimuth_deg:.2}°; level ground \
-         gets {} of the sky {sun}",
+        "turbidity {turbidity}, sun at elevation {sun_elevation_deg:.2}° and azimuth {sun_azimuth_deg:.2}°; level \
+         ground receives {} from the sky {sun}",
         lux(sky_lx)
     )
 }
@@ -182,15 +180,15 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
         (counts.suns, "sun disc"),
         (counts.lamps, "lamp"),
         (counts.openings, "lamp opening"),
-        (counts.triangles, "glowing triangle"),
-        (counts.spheres, "glowing sphere"),
-        (usize::from(counts.image_environment), "surrounding picture"),
+        (counts.triangles, "emissive triangle"),
+        (counts.spheres, "emissive sphere"),
+        (usize::from(counts.image_environment), "environment map"),
         (usize::from(counts.sky), "clear sky"),
-        (usize::from(counts.uniform_environment), "uniform surrounding"),
+        (usize::from(counts.uniform_environment), "uniform environment"),
     ];
     let list: Vec<String> = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| count(*n, name)).collect();
     let over_time = if plan.is_modulated() { "; strengths change over time" } else { "" };
-    let none = "none: the picture will be black".to_owned();
+    let none = "none: the image will be black".to_owned();
     line(f, "lights", if list.is_empty() { none } else { list.join(", ") + over_time })
 }
 
@@ -199,18 +197,22 @@ fn samples(camera: &CameraPlan) -> String {
     let replicates = count(s.replicates as usize, "replicate");
     match s.adaptive {
         None => match camera.passes.as_ref().map(Passes::list) {
-            None => format!("{} a pixel in {replicates}", count(s.spp as usize, "sample")),
+            None => format!("{} per pixel in {replicates}", count(s.spp as usize, "sample")),
             Some(passes) => {
                 let spp: f64 = passes.iter().map(|pass| pass.number()).sum();
                 let list: Vec<String> = passes.iter().map(|pass| pass.number().to_string()).collect();
                 let each = if passes.len() == 1 { "pass" } else { "passes" };
-                format!("{spp} samples a pixel in {} {each} ({}), each in {replicates}", passes.len(), list.join(", "))
+                format!(
+                    "{spp} samples per pixel in {} {each} ({}), each in {replicates}",
+                    passes.len(),
+                    list.join(", ")
+                )
             }
         },
         Some(AdaptiveSampling { threshold, min_spp }) => {
             let by_sensor = s.route == Route::Lens && camera.body.sensor.is_some();
             let of = if by_sensor { "the sensor's noise" } else { "its mean" };
-            format!("{min_spp} to {} samples a pixel in {replicates}, until its error is {threshold} of {of}", s.spp)
+            format!("{min_spp} to {} samples per pixel in {replicates}, until its error is {threshold} of {of}", s.spp)
         }
     }
 }
@@ -218,43 +220,46 @@ fn samples(camera: &CameraPlan) -> String {
 fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let s = &camera.settings;
     let samples = samples(camera);
-    let alone =
-        if s.wavelengths == 1 && camera.body.disperses() { ", as the lens treats each differently" } else { "" };
+    let alone = if s.wavelengths == 1 && camera.body.disperses() { ", as the optics are dispersive" } else { "" };
     let carried = count(s.wavelengths as usize, "wavelength");
-    line(f, "sampling", format!("{samples}, seed {}, {carried} a path{alone}", s.seed))?;
+    line(f, "sampling", format!("{samples}, seed {}, {carried} per path{alone}", s.seed))?;
     if let Some(text) = light::wavelengths(camera) {
         line(f, "wavelengths", text)?;
     }
     line(f, "paths", path_depth(s))?;
     if s.blocks != Blocks::SINGLE {
-        line(f, "shared", format!("tails of the paths of {} pixels, whose errors are alike", s.blocks.len_px()))?;
+        line(f, "shared", format!("tails of the paths of {} pixels, whose errors are correlated", s.blocks.len_px()))?;
     }
     if !s.paths.caustics {
-        line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
+        line(
+            f,
+            "left out",
+            "caustics of suns and lamps (light that smooth surfaces cast on diffuse ones), as requested",
+        )?;
     }
     if s.guiding {
         let paths = count(training::paths_of(camera) as usize, "path");
-        line(f, "guided", format!("directions at matt surfaces, by what {paths} find before the picture"))?;
+        line(f, "guided", format!("directions at diffuse surfaces, learned by {paths} before rendering"))?;
     }
     if s.paths.branches > 1 {
         line(
             f,
             "branched",
-            format!("{0} lights are drawn and {0} paths go on at each sample's first surface", s.paths.branches),
+            format!("{0} lights are sampled and {0} paths continue at each sample's first surface", s.paths.branches),
         )?;
     }
     if s.paths.regularize {
-        line(f, "widened", "lobes of metals, coats, glass and paint behind wider ones (a bias), as asked")?;
+        line(f, "widened", "lobes of metals, coats, glass and paint after wider ones (biased), as requested")?;
     }
     let cube = |bands: Bands| {
         let noise = light::band_noise(camera, bands);
-        format!("{} band means of {} nm are kept{noise}", bands.count(), bands.width_nm())
+        format!("{} band means of {} nm are stored{noise}", bands.count(), bands.width_nm())
     };
     let kept = match (s.bands, s.folded) {
         (Some(bands), false) => cube(bands),
-        (Some(bands), true) => format!("{}; electrons are summed beside them", cube(bands)),
-        (None, true) => "none is kept: pixels sum electrons directly".to_owned(),
-        (None, false) => "nothing is kept".to_owned(),
+        (Some(bands), true) => format!("{}; electrons are summed as well", cube(bands)),
+        (None, true) => "not stored: pixels sum electrons directly".to_owned(),
+        (None, false) => "not stored".to_owned(),
     };
     line(f, "spectrum", format!("{} to {} nm; {kept}", s.range.low_nm, s.range.high_nm))
 }
@@ -262,14 +267,12 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
 fn path_depth(settings: &Settings) -> String {
     match settings.paths.integrator {
         Integrator::Flat => {
-            "none: local shading of lamps, suns and sky (integrator flat); shadows, reflections and light from \
-                        surface to surface are missing"
+            "none: local shading by lamps, suns and sky (integrator flat); shadows, reflections and indirect light are \
+             missing"
                 .to_owned()
         }
         Integrator::Direct => {
-            "none: direct light with its shadows (integrator direct); reflections and light from surface to \
-                          surface are missing"
-                .to_owned()
+            "none: direct light with shadows (integrator direct); reflections and indirect light are missing".to_owned()
         }
         Integrator::Path => {
             format!("at most {} bounces (light scattered more often is missing)", settings.paths.max_bounces)
@@ -283,11 +286,9 @@ fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let [columns, rows] = effects.margin_px();
     let about = match (effects.is_idle(), columns + rows) {
         (true, _) => "none on the irradiance".to_owned(),
-        (false, 0) => "on the irradiance; nothing comes from beyond the picture".to_owned(),
+        (false, 0) => "on the irradiance; light from outside the image is missing".to_owned(),
         (false, _) => {
-            format!(
-                "on the irradiance, with {columns} columns and {rows} rows beyond each edge of the picture rendered"
-            )
+            format!("on the irradiance, with {columns} columns and {rows} rows rendered beyond each edge of the image")
         }
     };
     line(f, "effects", about)?;
@@ -303,7 +304,7 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let size = format!("{} × {} px of {} µm", raster.width(), raster.height(), 1000.0 * raster.pitch_mm().x);
     let size = size + &scale(camera);
     let Some(sensor) = &camera.body.sensor else {
-        return line(f, "sensor", format!("{size}; no electronics are described, so no electrons are made"));
+        return line(f, "sensor", format!("{size}; no electronics are described, so no electrons are computed"));
     };
     let p = sensor.parameters();
     line(
@@ -334,10 +335,10 @@ fn scale(camera: &CameraPlan) -> String {
 /// Dynamic range of a frame.
 fn range(range: &DynamicRange) -> String {
     if range.most_e <= range.least_e {
-        return "dynamic range: none; the well or the converter ends below the noise".into();
+        return "dynamic range: none; the full well or the range of the ADC is below the noise".into();
     }
     let switch = |s: &Switch| {
-        format!("; at {:.4e} e⁻ the next capture: S/N {:.1} to {:.1} dB", s.at_e, db(s.before), db(s.after))
+        format!("; switch to the next capture at {:.4e} e⁻: S/N {:.1} to {:.1} dB", s.at_e, db(s.before), db(s.after))
     };
     let switches: String = range.switches.iter().map(switch).collect();
     format!("dynamic range: {:.1} dB, {:.4} to {:.4e} e⁻{switches}", range.db(), range.least_e, range.most_e)
@@ -358,16 +359,16 @@ const SHORT_CPU_S: f64 = 1.0;
 fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let cost = FrameCost::of(plan, camera);
     if let Some(server) = light::server(plan, camera) {
-        line(f, "cost", format!("no paths of its own: those of camera {}", server.name))?;
+        line(f, "cost", format!("no separate paths: shares those of camera {}", server.name))?;
         return cost_beside(&cost.parts, cost.film_cpu_s(), f);
     }
-    let upwards = if cost.is_lower_bound { " and more" } else { "" };
+    let upwards = if cost.is_lower_bound { " or more" } else { "" };
     let served = light::served(plan, camera);
     line(
         f,
         "cost",
         format!(
-            "{:.1} million paths{upwards}, about {:.0} CPU seconds at the street's rate{served}; film {}",
+            "{:.1} million paths{upwards}, about {:.0} CPU seconds at the rate of the street scene{served}; film {}",
             cost.paths / 1e6,
             cost.paths_cpu_s,
             film(cost.film)
@@ -383,8 +384,8 @@ fn film(bytes: FilmBytes) -> String {
         return memory;
     }
     let read =
-        bytes.all_bands_for.map_or_else(String::new, |what| format!(", read into memory all at once for {what}"));
-    format!("{memory} in memory, its bands {:.1} MB on the disk{read}", bytes.disk / 1e6)
+        bytes.all_bands_for.map_or_else(String::new, |what| format!(", all read into memory at once for {what}"));
+    format!("{memory} in memory, its bands {:.1} MB on disk{read}", bytes.disk / 1e6)
 }
 
 /// Work in addition to the paths, and the total time; empty if it is short.
@@ -399,5 +400,5 @@ fn cost_beside(shares: &[Share], whole_s: f64, f: &mut Formatter<'_>) -> fmt::Re
     if list.is_empty() {
         return Ok(());
     }
-    line(f, "", format!("on the film: {}; about {} CPU seconds in all", list.join(", "), seconds(whole_s)))
+    line(f, "", format!("on the film: {}; about {} CPU seconds in total", list.join(", "), seconds(whole_s)))
 }

@@ -9,8 +9,8 @@ pub(super) fn field(precipitation: &Precipitation) -> String {
     let law = precipitation.field.law();
     let (what, number) = if law.is_snow() { ("snow", "flakes") } else { ("rain", "drops") };
     format!(
-        "{what} of {} mm/h (its {number} bring {} mm/h), {} {number} a m³; visibility {} m (2 %) and extinction {} 1/km as meteorologists \
-         measure, {} 1/km of an image; falls from {} m",
+        "{what} of {} mm/h (its {number} carry {} mm/h), {} {number} per m³; meteorological visibility {} m (2 %) and \
+         extinction {} 1/km, extinction in an image {} 1/km; falls from {} m",
         significant(law.rate_mm_h()),
         significant(law.carried_mm_h()),
         significant(law.number_per_m3()),
@@ -39,7 +39,7 @@ pub(super) fn near(plan: &Plan, camera: &CameraPlan) -> Option<String> {
         return Some(format!("a medium at all distances: no {number} are resolved"));
     }
     Some(format!(
-        "about {:.0} {number} at a moment, one by one up to {}, {} and {}, a medium beyond",
+        "about {:.0} {number} at a time, resolved individually up to {}, {} and {}, a medium beyond",
         change_over.expected,
         of(1e-3),
         of(2e-3),

@@ -11,7 +11,7 @@ use std::fmt::{self, Formatter};
 /// Writes the lines of a camera's processing.
 pub(super) fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let Some(development) = &camera.body.development else {
-        return line(f, "processing", "none: no picture is made");
+        return line(f, "processing", "none: no image is produced");
     };
     line(f, "processing", development.to_string())?;
     line(f, "left out", left_out(&development.processing))
@@ -27,7 +27,7 @@ impl fmt::Display for Development {
             .chain([format!("gain {}", processing.exposure_gain)])
             .chain(paper(processing, Stage::Linear))
             .chain([tone(&processing.tone)])
-            .chain(processing.sharpening.map(|s| format!("unsharp mask of {} px by {}", s.radius_px, s.amount)))
+            .chain(processing.sharpening.map(|s| format!("unsharp mask of {} px, amount {}", s.radius_px, s.amount)))
             .chain(paper(processing, Stage::Display))
             .chain([written(*format)]);
         f.write_str(&steps.collect::<Vec<_>>().join(", "))
@@ -38,7 +38,7 @@ fn corrections(p: &Processing) -> Vec<String> {
     let black = match p.black_level {
         BlackLevel::Stated => None,
         BlackLevel::Fixed(dn) => Some(format!("black level {dn} DN")),
-        BlackLevel::OpticalBlack => Some("black level by shielded rows".to_owned()),
+        BlackLevel::OpticalBlack => Some("black level from optical-black rows".to_owned()),
     };
     let map = (!p.defects.map.is_empty()).then(|| format!("{} mapped defects", p.defects.map.len()));
     let outliers = p.defects.outlier_threshold.map(|t| format!("outliers beyond {t}"));
@@ -62,8 +62,8 @@ fn colour(p: &Processing, mosaic: &Mosaic) -> Vec<String> {
     };
     let demosaic = match p.demosaic {
         Demosaic::Bilinear => "bilinear demosaic",
-        Demosaic::MalvarHeCutler => "demosaic of Malvar, He and Cutler",
-        Demosaic::HamiltonAdams => "demosaic of Hamilton and Adams",
+        Demosaic::MalvarHeCutler => "Malvar-He-Cutler demosaic",
+        Demosaic::HamiltonAdams => "Hamilton-Adams demosaic",
     };
     let matrix = (!has_own_colours(p)).then(|| match mosaic.channels() {
         3 => "colour matrix".to_owned(),
@@ -79,31 +79,31 @@ fn has_own_colours(p: &Processing) -> bool {
 
 fn noise_reduction(p: &Processing) -> Option<String> {
     p.noise_reduction.map(|reduction| match reduction {
-        NoiseReduction::Bilateral(b) => format!("bilateral noise reduction of {} px and {}", b.radius_px, b.range),
+        NoiseReduction::Bilateral(b) => format!("bilateral noise reduction of {} px, range {}", b.radius_px, b.range),
         NoiseReduction::Median { radius_px } => format!("median of {0} × {0} px", 2 * radius_px + 1),
     })
 }
 
 fn tone(curve: &ToneCurve) -> String {
     match curve {
-        ToneCurve::Srgb => "sRGB tone".to_owned(),
-        ToneCurve::Gamma(1.0) => "linear tone".to_owned(),
-        ToneCurve::Gamma(gamma) => format!("tone of gamma {gamma}"),
+        ToneCurve::Srgb => "sRGB tone curve".to_owned(),
+        ToneCurve::Gamma(1.0) => "linear tone curve".to_owned(),
+        ToneCurve::Gamma(gamma) => format!("tone curve of gamma {gamma}"),
         ToneCurve::SCurve(curve) => format!("S-curve of contrast {} about {}", curve.contrast(), curve.midpoint()),
-        ToneCurve::Table(_) => "tone by table".to_owned(),
-        ToneCurve::Oecf(_) => "tone by measured OECF".to_owned(),
+        ToneCurve::Table(_) => "tabulated tone curve".to_owned(),
+        ToneCurve::Oecf(_) => "measured OECF as tone curve".to_owned(),
     }
 }
 
 fn paper(p: &Processing, stage: Stage) -> Vec<String> {
     let name = |filter: &Filter| match filter {
-        Filter::Glow(_) => "the paper's glow",
-        Filter::ToneMap(_) => "the paper's tone map",
-        Filter::Drops(_) => "the paper's drops",
-        Filter::Colour(_) => "the paper's colour matrix",
-        Filter::PulseNoise(_) => "the paper's pulse noise",
-        Filter::GaussianNoise(_) => "the paper's Gaussian noise",
-        Filter::UniformNoise(_) => "the paper's uniform noise",
+        Filter::Glow(_) => "image filter glow",
+        Filter::ToneMap(_) => "image filter tone map",
+        Filter::Drops(_) => "image filter drops",
+        Filter::Colour(_) => "image filter colour matrix",
+        Filter::PulseNoise(_) => "image filter pulse noise",
+        Filter::GaussianNoise(_) => "image filter Gaussian noise",
+        Filter::UniformNoise(_) => "image filter uniform noise",
     };
     p.image_filters.iter().filter(|filter| filter.stage() == stage).map(|filter| name(filter).to_owned()).collect()
 }
@@ -124,6 +124,6 @@ fn left_out(p: &Processing) -> String {
         (p.sharpening.is_none(), "sharpening"),
     ];
     let list: Vec<&str> = absent.iter().filter(|(is, _)| *is).map(|(_, name)| *name).collect();
-    let asked = if list.is_empty() { String::new() } else { format!("{}: not asked for; ", list.join(", ")) };
+    let asked = if list.is_empty() { String::new() } else { format!("{}: not requested; ", list.join(", ")) };
     format!("{asked}highlight recovery and local tone mapping: not modelled")
 }

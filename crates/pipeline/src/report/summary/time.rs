@@ -35,13 +35,13 @@ pub(super) fn motion(plan: &Plan) -> Option<String> {
 pub(super) fn frames(camera: &CameraPlan) -> Option<String> {
     let why = match camera.time {
         TimeDependence::None => return None,
-        TimeDependence::Lights => "nothing moves, lights change: each row sees their mean over its exposure",
-        TimeDependence::Motion => "each sample has a moment of its row's exposure",
+        TimeDependence::Lights => "nothing moves, lights change: each row receives their mean over its exposure",
+        TimeDependence::Motion => "each sample has a time within the exposure of its row",
     };
     let timing = &camera.timing;
     let rate = match timing.period_s {
         None => "only frame 0, as no [sequence] is described".to_owned(),
-        Some(period_s) => format!("{} a second", figure(1.0 / period_s)),
+        Some(period_s) => format!("{} per second", figure(1.0 / period_s)),
     };
     let jitter = timing.jitter.map_or_else(String::new, |j| format!(" ± {} s of jitter", j.half_width_s));
     Some(format!("{rate}, from {} s on{jitter}; {why}", timing.epoch.time(timing.start_s)))
@@ -54,8 +54,8 @@ pub(super) fn shutter(camera: &CameraPlan) -> Option<String> {
         return None;
     }
     let effect = match (camera.time, rows.is_even()) {
-        (TimeDependence::None, true) => "; without effect, as nothing depends on time",
-        (TimeDependence::None, false) => "; without effect but on the light of rows",
+        (TimeDependence::None, true) => "; no effect, as nothing depends on time",
+        (TimeDependence::None, false) => "; no effect except on the light of rows",
         _ => "",
     };
     let captures = match rows.captures.len() {
@@ -65,7 +65,7 @@ pub(super) fn shutter(camera: &CameraPlan) -> Option<String> {
     let s = rows.exposure_s;
     Some(match &rows.shutter {
         Shutter::Global => format!("global, {s} s{captures}{effect}"),
-        Shutter::Rolling(timing) => format!("rolling, {s} s a row, {}{captures}{effect}", order(rows, timing)),
+        Shutter::Rolling(timing) => format!("rolling, {s} s per row, {}{captures}{effect}", order(rows, timing)),
         Shutter::GlobalReset(timing) => {
             format!("global reset, {s} s in the first row, {}{captures}{effect}", order(rows, timing))
         }
@@ -78,8 +78,11 @@ fn order(rows: &RowExposure, timing: &RowTiming) -> String {
     let fields = if *fields > 1 { format!(" in {fields} fields") } else { String::new() };
     let last_ms = figure(1e3 * rows.shutter.length_s(rows.rows, 0.0));
     let RowSkipping { together, pitch } = rows.skipping;
-    let skipped =
-        if rows.skipping.skips() { format!(" of {} rows, {together} of {pitch},", rows.rows) } else { String::new() };
+    let skipped = if rows.skipping.skips() {
+        format!(" of {} rows, {together} of every {pitch},", rows.rows)
+    } else {
+        String::new()
+    };
     format!(
         "{} µs from row to row{skipped} {from}{fields}, the last one {last_ms} ms after the first",
         figure(1e6 * row_time_s)
