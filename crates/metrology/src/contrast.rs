@@ -78,10 +78,10 @@ pub enum ContrastError {
     #[error("a contrast needs patches of at least four pixels each")]
     TooSmall,
     /// The scene's contrast is zero or not a number.
-    #[error("the scene's contrast must be a number above 0, not {0}: name the darker patch first")]
+    #[error("the contrast of the scene must be a number above 0, not {0}: name the darker patch first")]
     Contrast(f64),
     /// The tolerance is outside 0 to 1.
-    #[error("the tolerated share must lie above 0 and at most 1, not {0}")]
+    #[error("the tolerated fraction must be above 0 and at most 1, not {0}")]
     Share(f64),
     /// A patch is clipped.
     #[error(
@@ -92,7 +92,7 @@ pub enum ContrastError {
         percent: f64,
     },
     /// The patches are in the wrong order.
-    #[error("the brighter patch reads less than the darker one, or is the same: name the darker patch first")]
+    #[error("the brighter patch does not read more than the darker one: name the darker patch first")]
     Order,
     /// The darker patch has no light.
     #[error("the darker patch reads no more than black: a Weber contrast needs light in it")]

@@ -108,7 +108,7 @@ fn edges(truth: &Image, settings: &DepthSettings) -> Vec<bool> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DepthError {
     /// Images of different sizes.
-    #[error("the estimate is {} × {} pixels, the truth {} × {}: both must have one size", estimate.0, estimate.1, truth.0, truth.1)]
+    #[error("the estimate has {} × {} pixels, the ground truth {} × {}: both must have the same size", estimate.0, estimate.1, truth.0, truth.1)]
     Size {
         /// Width and height of the estimate.
         estimate: (usize, usize),
@@ -116,10 +116,12 @@ pub enum DepthError {
         truth: (usize, usize),
     },
     /// No pixel has both.
-    #[error("no pixel away from edges has a finite depth above zero in both pictures: are these depths in metres?")]
+    #[error(
+        "no pixel away from edges has a finite depth above zero in both images: check that both store depth in metres"
+    )]
     Nothing,
     /// Ranges that do not increase.
-    #[error("the limits of the ranges must rise from 0 or more, two or more of them")]
+    #[error("the limits of the ranges must increase and be 0 or more; at least two are needed")]
     Ranges,
     /// An invalid setting.
     #[error("{name}: expected a finite number of {least} or more, not {value}")]
@@ -132,7 +134,7 @@ pub enum DepthError {
         least: &'static str,
     },
     /// The same image twice.
-    #[error("the estimate is the truth, pixel by pixel: give two different pictures")]
+    #[error("the estimate equals the ground truth in every pixel: give two different images")]
     Same,
 }
 
@@ -231,14 +233,15 @@ impl DepthSettings {
             return Err(DepthError::Ranges);
         }
         let shares = [
-            ("outlier share", self.outlier_ratio),
-            ("least error of an outlier", self.outlier_least_m),
+            ("outlier ratio", self.outlier_ratio),
+            ("minimum error of an outlier", self.outlier_least_m),
             ("edge ratio", self.edge_ratio),
         ];
         let wrong = shares.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0));
         let wrong = wrong.map(|(name, value)| DepthError::Setting { name, value, least: "0" });
         let rig = self.focal_base_px_m.filter(|value| !(value.is_finite() && *value > 0.0));
-        let rig = rig.map(|value| DepthError::Setting { name: "focal length times base", value, least: "more than 0" });
+        let rig =
+            rig.map(|value| DepthError::Setting { name: "focal length times baseline", value, least: "more than 0" });
         wrong.or(rig).map_or(Ok(()), Err)
     }
 }

@@ -26,7 +26,9 @@ pub enum FlareError {
         percent: f64,
     },
     /// The traps are as bright as the white.
-    #[error("the white region ({white:.2}) is no brighter than black ({black:.2}): are the regions mixed up?")]
+    #[error(
+        "the white region ({white:.2}) is no brighter than black ({black:.2}): check that the regions are not swapped"
+    )]
     NotWhite {
         /// Mean of the white region.
         white: f64,

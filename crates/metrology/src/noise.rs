@@ -59,7 +59,7 @@ pub enum NoiseError {
     TooFew(usize),
     /// No light.
     #[error(
-        "the mean reading {mean:.4} is no more than black, {black}: a signal over its noise needs light; is `black` right?"
+        "the mean reading {mean:.4} is not above black, {black}: a signal-to-noise ratio needs light; check `black`"
     )]
     Dark {
         /// Mean reading.
@@ -69,7 +69,7 @@ pub enum NoiseError {
     },
     /// A frame of another subject.
     #[error(
-        "frame {frame} of {frames} reads {mean:.4} on average where most read {usual:.4}: are they frames of one patch in one light?"
+        "frame {frame} of {frames} reads {mean:.4} on average, most read {usual:.4}: give frames of one patch in constant light"
     )]
     Unlike {
         /// Number of the frame, from 1.
@@ -82,7 +82,7 @@ pub enum NoiseError {
         usual: f64,
     },
     /// A frame is clipped.
-    #[error("{percent:.1} % of the pixels are saturated, which cuts their noise: expose less")]
+    #[error("{percent:.1} % of the pixels are saturated, which clips their noise: expose less")]
     Saturated {
         /// Percentage of saturated pixels.
         percent: f64,

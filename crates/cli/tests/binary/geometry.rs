@@ -309,10 +309,10 @@ fn depths_of_stereo_are_read_from_float_maps() {
     let refused = |more: &[&str], told: &[&str]| {
         etendue(["measure", "depth", &guess, &truth].iter().chain(more).copied()).refused(told);
     };
-    refused(&["--outlier-ratio", "nan"], &["outlier share", "not NaN"]);
+    refused(&["--outlier-ratio", "nan"], &["outlier ratio", "not NaN"]);
     refused(&["--edge-ratio", "-1"], &["edge ratio", "not -1"]);
-    refused(&["--focal-base-px-m", "0"], &["focal length times base"]);
-    etendue(["measure", "depth", &truth, &truth]).refused(&["pixel by pixel"]);
+    refused(&["--focal-base-px-m", "0"], &["focal length times baseline"]);
+    etendue(["measure", "depth", &truth, &truth]).refused(&["in every pixel"]);
 }
 
 #[test]
@@ -338,5 +338,5 @@ fn nonsense_is_refused() {
         turns.iter().enumerate().map(|(i, t)| board(folder.path(), &format!("view{i}.png"), *t)).collect();
     let all = ["measure", "focal", "--pitch-mm", "30", "--model", "pinhole", "--distance-mm", "500"];
     let all: Vec<&str> = all.into_iter().chain(views.iter().map(String::as_str)).collect();
-    etendue(all).refused(&["stated distance, 500", "what the views show, 3"]);
+    etendue(all).refused(&["stated distance 500", "contradicts the views, which give 3"]);
 }

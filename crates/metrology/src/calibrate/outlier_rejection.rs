@@ -46,7 +46,7 @@ pub fn calibrate_rejecting_outliers(
             Ok(camera) => match stray(&camera).filter(|_| may) {
                 Some(v) => match of(&without(&kept, v)) {
                     Ok(better) if better.rms_px() < GAIN * camera.rms_px() => {
-                        (v, format!("its points lie {:.1} px from the fit", camera.view_rms_px(v)))
+                        (v, format!("its points are {:.1} px from the fit", camera.view_rms_px(v)))
                     }
                     _ => return Ok(OutlierRejection { camera, kept, left_out }),
                 },

@@ -52,7 +52,7 @@ pub struct Options {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrateError {
     /// No views.
-    #[error("no views: give at least one picture of the chart")]
+    #[error("no views: give at least one image of the chart")]
     NoViews,
     /// A view with too few points.
     #[error("view {} shows {points} points of the chart; at least {least} are needed: leave it out", view + 1)]
@@ -66,7 +66,7 @@ pub enum CalibrateError {
     },
     /// One view prevents the calibration.
     #[error(
-        "view {}: without it the others give a camera, with it: {cause}. See how its points are numbered, leave it out, or give more views",
+        "view {} prevents the calibration, which succeeds without it: {cause}. Check the numbering of its points, leave the view out, or give more views",
         view + 1
     )]
     View {
@@ -77,8 +77,7 @@ pub enum CalibrateError {
     },
     /// No initial guess.
     #[error(
-        "the points lie on no plane chart as this model would see it: check the order of the points and the model (a fisheye for \
-         very wide fields)"
+        "the points do not fit a plane chart seen with this model: check the order of the points and the model (a fisheye for very wide fields)"
     )]
     Start,
     /// The fit failed.
@@ -92,8 +91,8 @@ pub enum CalibrateError {
     Camera(#[from] CalibrationError),
     /// A stated value contradicts the views.
     #[error(
-        "the stated distance, {} ± {}, is not what the views show, {:.6} ± {:.2} (in the pitch's unit): check distance and pitch, state the \
-         distance's uncertainty, or leave it out", stated.value, stated.standard_uncertainty, shown.value, shown.standard_uncertainty
+        "the stated distance {} ± {} contradicts the views, which give {:.6} ± {:.2} (in the pitch's unit): check distance and pitch, state the \
+         uncertainty of the distance, or leave it out", stated.value, stated.standard_uncertainty, shown.value, shown.standard_uncertainty
     )]
     Distance {
         /// Stated value.
@@ -103,8 +102,8 @@ pub enum CalibrateError {
     },
     /// Parameters that the views do not determine.
     #[error(
-        "the views do not determine {}: add views with the chart turned by 20° to 45° about different axes and out to the picture's \
-         corners, state the chart's distance, or fit a model of fewer coefficients (a narrow field does not tell those of wide ones)", names.join(", ")
+        "the views do not determine {}: add views with the chart turned by 20° to 45° about different axes and out to the corners of the image, state the \
+         chart's distance, or fit a model with fewer coefficients (a narrow field does not determine those of wide fields)", names.join(", ")
     )]
     Undetermined {
         /// Names of the parameters.

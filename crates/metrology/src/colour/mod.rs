@@ -65,12 +65,12 @@ pub enum ColourFault {
     },
     /// The patches do not distinguish the channels.
     #[error(
-        "the patches look the same to two of the camera's channels, so no colour matrix can be fitted: is this a colour picture of the chart?"
+        "two channels of the camera have equal readings of the patches, so no colour matrix can be fitted: check that this is a colour image of the chart"
     )]
     Ambiguous,
     /// The patches have other colours.
     #[error(
-        "the patches are not those of the chart (mean ΔE00 {0:.1} after the best matrix, where cameras leave a few): is it the chart, the right way up?"
+        "the patches do not match the chart (mean ΔE00 {0:.1} with the best matrix; a few are usual): check the chart and its orientation"
     )]
     Unlike(f64),
 }

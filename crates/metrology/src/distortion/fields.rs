@@ -49,7 +49,7 @@ fn powers(x: f64) -> [f64; DEGREE + 1] {
 pub enum DistortionError {
     /// Too few points.
     #[error(
-        "{points} points of the chart are too few for a distortion curve; at least {least} are needed: use a chart of more points"
+        "{points} points of the chart are too few for a distortion curve; at least {least} are needed: use a chart with more points"
     )]
     Few {
         /// Points found.
@@ -58,7 +58,10 @@ pub enum DistortionError {
         least: usize,
     },
     /// The chart does not cover the centre.
-    #[error("the chart does not cover the picture's centre, ({:.1}, {:.1}) px, where ideal scale is taken: centre the chart, or state another centre", centre_px[0], centre_px[1])]
+    #[error(
+        "the chart does not cover the image centre, ({:.1}, {:.1}) px, where the ideal scale is determined: centre the chart, or \
+         state another centre", centre_px[0], centre_px[1]
+    )]
     Centre {
         /// The centre, px.
         centre_px: [f64; 2],

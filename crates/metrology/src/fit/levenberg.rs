@@ -69,7 +69,7 @@ impl Fit {
 pub enum FitError {
     /// Too few observations.
     #[error(
-        "{residuals} observed numbers do not determine {parameters} parameters: give more points or views, or fit fewer coefficients"
+        "{residuals} observed values do not determine {parameters} parameters: give more points or views, or fit fewer coefficients"
     )]
     Underdetermined {
         /// Number of residuals.
@@ -78,11 +78,13 @@ pub enum FitError {
         parameters: usize,
     },
     /// The initial guess cannot be evaluated.
-    #[error("the fit's first guess cannot be evaluated: the points do not suit the model; choose another model")]
+    #[error(
+        "the fit cannot be evaluated at its initial values: the points do not suit the model; choose another model"
+    )]
     BadInitialGuess,
     /// No convergence.
     #[error(
-        "the fit does not settle after {steps} steps: the model does not suit the points; choose another model, or fit fewer coefficients"
+        "the fit does not converge in {steps} steps: the model does not suit the points; choose another model, or fit fewer coefficients"
     )]
     NotConverged {
         /// Number of steps.

@@ -58,11 +58,11 @@ pub struct Flicker {
 pub enum FlickerError {
     /// A single frame without a row time.
     #[error(
-        "one frame says nothing of flicker where all rows are exposed together: give the time from row to row (`row_time_us`), or several frames"
+        "a single frame whose rows are exposed together does not show flicker: give the time from row to row (`row_time_us`), or several frames"
     )]
     NoTime,
     /// An invalid time.
-    #[error("found {what} of {value}: give a number above 0")]
+    #[error("{what} is {value}: expected a number above 0")]
     Timing {
         /// Name of the time.
         what: &'static str,
@@ -70,7 +70,7 @@ pub enum FlickerError {
         value: f64,
     },
     /// Too few rows.
-    #[error("{rows} rows say too little of bands: give a region of {least} rows at least")]
+    #[error("{rows} rows are too few to detect bands: give a region of at least {least} rows")]
     FewRows {
         /// Number of rows.
         rows: usize,
@@ -78,7 +78,7 @@ pub enum FlickerError {
         least: usize,
     },
     /// Too narrow.
-    #[error("a region of {columns} columns says nothing of its noise: give one of two at least")]
+    #[error("the noise of a region of {columns} columns cannot be estimated: give at least two columns")]
     Narrow {
         /// Number of columns.
         columns: usize,
@@ -87,13 +87,13 @@ pub enum FlickerError {
     #[error("the frames differ in size: give frames of one camera")]
     Sizes,
     /// Saturated pixels.
-    #[error("{percent:.1} % of the region is saturated, which cuts the light's peaks: expose less")]
+    #[error("{percent:.1} % of the region is saturated, which clips the peaks of the light: expose less")]
     Saturated {
         /// Percentage of saturated pixels.
         percent: f64,
     },
     /// No light.
-    #[error("the mean reading {mean:.3} is not above that of no light, {black:.3}: is `black` right?")]
+    #[error("the mean reading {mean:.3} is not above the reading without light, {black:.3}: check `black`")]
     Dark {
         /// Mean of all frames.
         mean: f64,
@@ -130,9 +130,9 @@ pub fn measure_flicker(
 
 fn check_timing(timing: &FlickerTiming, frames: usize) -> Result<(), FlickerError> {
     let times = [
-        ("a row time (s)", timing.row_time_s),
-        ("a frame rate (Hz)", timing.frame_rate_hz),
-        ("an exposure (s)", timing.exposure_s),
+        ("the row time (s)", timing.row_time_s),
+        ("the frame rate (Hz)", timing.frame_rate_hz),
+        ("the exposure (s)", timing.exposure_s),
     ];
     for (what, value) in times {
         if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {

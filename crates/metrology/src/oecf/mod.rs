@@ -109,17 +109,17 @@ pub struct Linearity {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OecfError {
     /// Too few points.
-    #[error("a tone curve needs at least three exposures, not {0}: give more pictures or steps")]
+    #[error("a tone curve needs at least three exposures, not {0}: give more images or steps")]
     TooFew(usize),
     /// An exposure is not a positive number.
     #[error("exposures must be positive numbers, not {0}")]
     Exposure(f64),
     /// Two points have equal exposures.
-    #[error("two points share the exposure {0}: give each exposure once")]
+    #[error("two points have the exposure {0}: give each exposure once")]
     Twice(f64),
     /// Higher exposure, lower reading.
     #[error(
-        "the reading falls from {from:.2} to {to:.2} between the exposures {low} and {high}: are the exposures in the wrong order?"
+        "the reading falls from {from:.2} to {to:.2} between the exposures {low} and {high}: check the order of the exposures"
     )]
     Falls {
         /// The lower exposure.
@@ -132,10 +132,10 @@ pub enum OecfError {
         to: f64,
     },
     /// Readings do not change.
-    #[error("the readings do not change with the exposure: is every picture saturated, or the same?")]
+    #[error("the readings do not change with the exposure: check that the images differ and are not saturated")]
     Flat,
     /// The lowest exposure is saturated.
-    #[error("even the least exposure, {0}, is saturated: expose less")]
+    #[error("the shortest exposure, {0}, is saturated: expose less")]
     Saturated(f64),
 }
 

@@ -44,7 +44,7 @@ pub use stack::{LevelStatistics, Stack};
 pub enum TransferError {
     /// Frames of different sizes.
     #[error(
-        "a frame is {} × {} pixels, the frames before it {} × {}: all frames must have one size",
+        "a frame has {} × {} pixels, the frames before it {} × {}: all frames must have the same size",
         size.0, size.1, expected.0, expected.1
     )]
     Size {
@@ -54,21 +54,21 @@ pub enum TransferError {
         expected: (usize, usize),
     },
     /// A reading is NaN or infinite.
-    #[error("a frame holds readings that are no numbers: give finite values")]
+    #[error("a frame contains readings that are not finite: give finite values")]
     NotFinite,
     /// Two frames are equal.
     #[error(
-        "two frames are copies of one another, pixel by pixel: noise cannot be measured from copies; give frames taken one after another"
+        "two frames are equal in every pixel: noise cannot be measured from copies; give frames captured one after another"
     )]
     Copies,
     /// A level with one frame.
-    #[error("temporal noise needs at least two frames of two or more pixels a level, not {frames} frame(s)")]
+    #[error("temporal noise needs at least two frames of two or more pixels per level, not {frames} frame(s)")]
     TooFewFrames {
         /// Number of frames.
         frames: usize,
     },
     /// Too few rows or columns to separate them.
-    #[error("a pattern's row and column parts need at least 3 × 3 pixels, not {width} × {height}")]
+    #[error("row and column patterns need at least 3 × 3 pixels, not {width} × {height}")]
     TooSmall {
         /// Pixels per row.
         width: usize,
@@ -76,9 +76,7 @@ pub enum TransferError {
         height: usize,
     },
     /// No frames without light.
-    #[error(
-        "no dark frames were given for an exposure time of {exposure_s} s: every exposure time needs a level without light"
-    )]
+    #[error("no dark frames for the exposure time {exposure_s} s: every exposure time needs a level without light")]
     NoDark {
         /// Exposure time.
         exposure_s: f64,
@@ -92,19 +90,21 @@ pub enum TransferError {
         levels: usize,
     },
     /// The light of a level is not a positive number.
-    #[error("a level's light must be a positive number, not {0}")]
+    #[error("the light of a level must be a positive number, not {0}")]
     Light(f64),
     /// Readings do not increase with the light.
-    #[error("the readings do not grow with the light: is the sensor saturated throughout, or are levels mixed up?")]
+    #[error(
+        "the readings do not increase with the light: check the order of the levels, and that the sensor is not saturated at all of them"
+    )]
     NoResponse,
     /// Variance does not increase with the signal.
     #[error(
-        "the temporal variance does not grow with the signal: photon transfer needs linear raw frames with their shot noise, not processed or averaged pictures"
+        "the temporal variance does not increase with the signal: photon transfer needs linear raw frames with shot noise, not processed or averaged images"
     )]
     NoShotNoise,
     /// The stack for PRNU is saturated.
     #[error(
-        "the bright stack's mean of {mean_dn} DN lies at or above saturation ({saturation_dn} DN): give one at half of saturation"
+        "the mean of the bright stack, {mean_dn} DN, is at or above saturation ({saturation_dn} DN): give a stack at half of saturation"
     )]
     SaturatedStack {
         /// Mean of the stack.
@@ -113,18 +113,20 @@ pub enum TransferError {
         saturation_dn: f64,
     },
     /// Two stacks of different sizes, or a bright one that is no brighter.
-    #[error("the bright stack is no brighter than the dark one: PRNU needs one at about half of saturation")]
+    #[error("the bright stack is no brighter than the dark one: PRNU needs a stack at about half of saturation")]
     NotBrighter,
     /// Dark currents at too few temperatures.
-    #[error("the dark current's growth needs at least three different temperatures, not {0}")]
+    #[error("the dark current over temperature needs at least three different temperatures, not {0}")]
     TooFewTemperatures(usize),
     /// An impossible temperature.
-    #[error("{0} °C is no temperature: expected numbers above -273.15")]
+    #[error("the temperature {0} °C is invalid: expected a number above -273.15")]
     NoTemperature(f64),
     /// A dark current without an uncertainty for its weight.
-    #[error("the dark current at {0} °C has no known uncertainty to weigh it by: give more pixels or exposure times")]
+    #[error(
+        "the uncertainty of the dark current at {0} °C, its weight in the fit, is unknown: give more pixels or exposure times"
+    )]
     DarkCurrentUnknown(f64),
     /// No growth of the dark current.
-    #[error("the dark currents are not above zero on the whole: give longer exposures or warmer sensors")]
+    #[error("the dark currents are not above zero on average: give longer exposures or warmer sensors")]
     NoDarkCurrent,
 }

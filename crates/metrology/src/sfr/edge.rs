@@ -39,11 +39,11 @@ impl Edge {
         let (xx, yy, xy) = (sum(|g| g.x * g.x), sum(|g| g.y * g.y), sum(|g| g.x * g.y));
         // Readings near the largest number have invalid gradients.
         if (xx + yy).is_nan() || xx + yy <= 0.0 {
-            return Err(SfrError::NoEdge("the picture is even"));
+            return Err(SfrError::NoEdge("the image is uniform"));
         }
         let spread = ((xx - yy) * (xx - yy) + 4.0 * xy * xy).sqrt();
         if spread < MIN_ANISOTROPY * (xx + yy) {
-            return Err(SfrError::NoEdge("its gradients have no common direction"));
+            return Err(SfrError::NoEdge("the gradients have no common direction"));
         }
         let normal_rad = 0.5 * atan2(2.0 * xy, xx - yy);
         let vertical = xx >= yy;
@@ -63,7 +63,7 @@ impl Edge {
         let at = moment / weight;
         let width = if vertical { image.width() } else { image.height() } as f64;
         if !(at > 0.0 && at < width) {
-            return Err(SfrError::NoEdge("its gradients cancel"));
+            return Err(SfrError::NoEdge("the gradients cancel"));
         }
         let orientation = if vertical { Orientation::Vertical } else { Orientation::Horizontal };
         Ok(Self { orientation, middle, coefficients: vec![at, slope * middle] })
@@ -75,7 +75,7 @@ impl Edge {
         let vertical = run[1].abs() >= run[0].abs();
         let (across, along, length) = if vertical { (0, 1, image.height()) } else { (1, 0, image.width()) };
         if run[along] == 0.0 {
-            return Err(SfrError::NoEdge("its two ends are one"));
+            return Err(SfrError::NoEdge("the two ends coincide"));
         }
         let (slope, middle) = (run[across] / run[along], 0.5 * length as f64);
         let orientation = if vertical { Orientation::Vertical } else { Orientation::Horizontal };

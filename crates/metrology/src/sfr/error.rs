@@ -12,16 +12,16 @@ pub enum SfrError {
         height: usize,
     },
     /// A reading is NaN or infinite.
-    #[error("the picture holds readings that are no numbers: give finite values")]
+    #[error("the image contains readings that are not finite: give finite values")]
     NotFinite,
     /// No edge.
     #[error(
-        "no slanted edge is in this part of the picture: expected one straight edge between two even surfaces ({0})"
+        "no slanted edge was found in this region of the image: expected one straight edge between two uniform surfaces ({0})"
     )]
     NoEdge(&'static str),
     /// Its angle cannot be measured.
     #[error(
-        "the edge is at {angle_deg:.2}° to the pixels' rows or columns: expected 2° to 43°, so that its profile is sampled between the pixels"
+        "the edge is at {angle_deg:.2}° to the rows or columns: expected 2° to 43°, so that its profile is sampled between the pixels"
     )]
     Angle {
         /// Angle to the nearest of rows and columns.
@@ -29,7 +29,7 @@ pub enum SfrError {
     },
     /// The rows do not sample the profile densely enough.
     #[error(
-        "the edge's profile is sampled with gaps of {gap_px:.2} pixels only: at {angle_deg:.2}° take more rows, or another angle"
+        "the samples of the edge profile have gaps of {gap_px:.2} pixels: at {angle_deg:.2}° use more rows, or another angle"
     )]
     Gaps {
         /// Widest gap.
@@ -39,8 +39,8 @@ pub enum SfrError {
     },
     /// The edge rises within a gap between its samples.
     #[error(
-        "the edge rises within the {gap_px:.2} pixels between the samples of its profile at {angle_deg:.2}°, so that finer structure is \
-         folded back: take another angle; is the picture sampled at points (nearest neighbour)?"
+        "the edge rises within the {gap_px:.2} pixels between the samples of its profile at {angle_deg:.2}°, so that the profile is aliased: use another \
+         angle; check that the image is not point-sampled (nearest neighbour)"
     )]
     Steep {
         /// Widest gap.
@@ -49,14 +49,14 @@ pub enum SfrError {
         angle_deg: f64,
     },
     /// A side is clipped.
-    #[error("{percent:.1} % of the pixels are saturated: expose less, so that both sides of the edge keep their noise")]
+    #[error("{percent:.1} % of the pixels are saturated: expose less, so that neither side of the edge is clipped")]
     Saturated {
         /// Percentage of clipped pixels.
         percent: f64,
     },
     /// The dark side is clipped at 0.
     #[error(
-        "{percent:.1} % of the pixels read 0, where darkness is cut: expose more, or raise the black level, so that both sides keep their noise"
+        "{percent:.1} % of the pixels read 0, where dark values are clipped: expose more, or raise the black level, so that neither side of the edge is clipped"
     )]
     Dark {
         /// Percentage of clipped pixels.

@@ -40,7 +40,7 @@ pub(super) fn fitted(
     edge.check()?;
     let samples = samples(image, &edge, &kept);
     let knots = Knots::new(image, &edge, &samples, settings)?;
-    let profile = Profile::of(knots, &samples, image).ok_or(SfrError::NoEdge("its profile has gaps"))?;
+    let profile = Profile::of(knots, &samples, image).ok_or(SfrError::NoEdge("the profile has gaps"))?;
     profile.check(&edge)?;
     Ok((edge, profile))
 }
@@ -89,7 +89,7 @@ fn regular(
     let believed = samples(image, edge, kept);
     let knots = Knots::new(image, edge, &believed, settings)?;
     let normal = knots.normal(&believed, &knots.rows(&believed));
-    let levels = normal.solve().ok_or(SfrError::NoEdge("its profile has gaps"))?;
+    let levels = normal.solve().ok_or(SfrError::NoEdge("the profile has gaps"))?;
     let samples = samples(image, edge, seen);
     let residuals: Vec<f64> =
         samples.iter().zip(knots.rows(&samples)).map(|(s, row)| s.reading - row.dot(&levels)).collect();
@@ -105,7 +105,7 @@ fn regular(
     let defects: Vec<&Sample> =
         samples.iter().zip(&apart).filter(|(s, r)| **r > limits[zone(s)]).map(|(s, _)| s).collect();
     if defects.len() as f64 > MAX_OUTLIERS * samples.len() as f64 {
-        return Err(SfrError::NoEdge("more than a fiftieth of the pixels are far from one straight edge"));
+        return Err(SfrError::NoEdge("more than 2 % of the pixels do not fit one straight edge"));
     }
     let mut kept = seen.to_vec();
     defects.iter().for_each(|s| kept[s.pixel] = false);

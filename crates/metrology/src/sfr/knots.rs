@@ -69,7 +69,7 @@ impl Knots {
         let most = widest(1.0).min(widest(-1.0)).min(0.5 * image.width() as f64);
         let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX).min(most);
         if reach_px < 2.0 {
-            return Err(SfrError::NoEdge("the edge lies too near to the picture's border"));
+            return Err(SfrError::NoEdge("the edge is too near the image border"));
         }
         let gap_px = widest_gap(samples, reach_px);
         if gap_px > WIDEST_GAP_PX {
@@ -78,7 +78,7 @@ impl Knots {
         let step_px = (STEP_OVER_GAP * gap_px).max(FINEST_STEP_PX);
         let count = (2.0 * reach_px / step_px).floor() as usize + 1 - SUPPORT;
         if count < 2 * SUPPORT {
-            return Err(SfrError::NoEdge("the edge lies too near to the picture's border"));
+            return Err(SfrError::NoEdge("the edge is too near the image border"));
         }
         let reach_px = 0.5 * step_px * (count + SUPPORT - 1) as f64;
         Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, (CHANGING * most).min(MAX_PX)) })

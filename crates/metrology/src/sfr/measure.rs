@@ -38,7 +38,7 @@ fn levelled(image: &Image, edge: &Edge, settings: &SfrSettings) -> Result<Image,
     let (width, height) = (image.width(), image.height());
     let [left, right] =
         [-1.0, 1.0].map(|side| Surface::fitted(image, degree, |x, y| side * edge.distance(x, y) > reach_px));
-    let few = SfrError::NoEdge("too few pixels beyond its reach tell the shading of its sides");
+    let few = SfrError::NoEdge("too few pixels outside the profile to determine the shading of the two sides");
     let (left, right) = left.zip(right).ok_or(few)?;
     let middle = [0.5 * width as f64, 0.5 * height as f64];
     let [l0, r0] = [&left, &right].map(|s| s.at(image, middle));
@@ -49,7 +49,7 @@ fn levelled(image: &Image, edge: &Edge, settings: &SfrSettings) -> Result<Image,
     };
     let samples: Vec<f32> = (0..width * height).map(|i| level(i) as f32).collect();
     if samples.iter().any(|s| !s.is_finite()) {
-        return Err(SfrError::NoEdge("the shading of its sides crosses"));
+        return Err(SfrError::NoEdge("the shading surfaces of the two sides intersect"));
     }
     Ok(Image::from_samples(width, height, samples).expect("as many as before"))
 }
@@ -132,10 +132,10 @@ pub(super) fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrErro
         return Err(SfrError::NotFinite);
     }
     if !(1..=5).contains(&settings.edge_degree) {
-        return Err(SfrError::Settings("the edge's degree must be 1 to 5"));
+        return Err(SfrError::Settings("the degree of the edge must be 1 to 5"));
     }
     if settings.reach_px.is_some_and(|reach| reach.is_nan() || reach < 2.0) {
-        return Err(SfrError::Settings("the profile's reach must be 2 pixels or more"));
+        return Err(SfrError::Settings("the reach of the profile must be 2 pixels or more"));
     }
     if settings.shading_degree > MAX_DEGREE {
         return Err(SfrError::Settings("the degree of the shading must be 0 to 2"));

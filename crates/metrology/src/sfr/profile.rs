@@ -45,9 +45,7 @@ impl Profile {
     pub(super) fn check(&self, edge: &Edge) -> Result<(), SfrError> {
         let [dark, bright] = self.levels();
         if self.noise.is_nan() || self.noise > 0.1 * (bright - dark) {
-            return Err(SfrError::NoEdge(
-                "the picture differs from a straight edge by more than a tenth of its height",
-            ));
+            return Err(SfrError::NoEdge("the image differs from a straight edge by more than a tenth of its height"));
         }
         let gap_px = self.step_px / STEP_OVER_GAP;
         let finest = self.step_px <= FINEST_STEP_PX;

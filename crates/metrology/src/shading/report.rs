@@ -19,14 +19,14 @@ use crate::linear::{Cholesky, Matrix};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShadingError {
     /// Saturated.
-    #[error("{percent:.1} % of the flat field's pixels are saturated: expose less")]
+    #[error("{percent:.1} % of the pixels of the flat field are saturated: expose less")]
     Saturated {
         /// Percentage of saturated pixels.
         percent: f64,
     },
     /// No light.
     #[error(
-        "the flat field's centre reads {reading}, no more than black ({black}): expose more, or check the black level"
+        "the centre of the flat field reads {reading}, no more than black ({black}): expose more, or check the black level"
     )]
     Dark {
         /// Reading of the centre.
@@ -36,7 +36,7 @@ pub enum ShadingError {
     },
     /// Not a flat field.
     #[error(
-        "this is no picture of an evenly lit surface: it differs from a smooth fall-off by {percent:.0} % (root mean square of {blocks} × {blocks} blocks)"
+        "the image does not show a uniformly lit surface: it differs from a smooth fall-off by {percent:.0} % (root mean square of {blocks} × {blocks} blocks)"
     )]
     NotFlat {
         /// Relative deviation.
@@ -45,11 +45,12 @@ pub enum ShadingError {
         blocks: usize,
     },
     /// A reading is NaN or infinite.
-    #[error("the picture holds readings that are no numbers: give finite values")]
+    #[error("the image contains readings that are not finite: give finite values")]
     NotFinite,
     /// Too few pixels for the rings and blocks.
     #[error(
-        "a picture of {width} × {height} pixels is too small for {rings} rings and {blocks} × {blocks} blocks (an odd number of blocks, four pixels or more each)"
+        "an image of {width} × {height} pixels is too small for {rings} rings and {blocks} × {blocks} blocks (an odd number of blocks, four pixels or \
+         more each)"
     )]
     TooSmall {
         /// Pixels per row.
@@ -62,7 +63,7 @@ pub enum ShadingError {
         blocks: usize,
     },
     /// Channels of different sizes.
-    #[error("the channels differ in size: give pictures of one size")]
+    #[error("the channels differ in size: give images of one size")]
     Sizes,
 }
 

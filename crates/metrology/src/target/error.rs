@@ -5,8 +5,8 @@
 pub enum TargetError {
     /// No points, or too few.
     #[error(
-        "no {sought} was found ({best} points in rows and columns, {least} are needed): photograph the whole chart in focus, evenly \
-         lit and not saturated, its steps at least 10 px wide"
+        "no {sought} was found ({best} points in rows and columns, {least} are needed): capture the whole chart in focus, uniformly lit and not \
+         saturated, with a pitch of at least 10 px"
     )]
     None {
         /// Description of the chart.
@@ -17,7 +17,7 @@ pub enum TargetError {
         least: usize,
     },
     /// Points in rows and columns, with too many gaps.
-    #[error("{points} points were found on a grid of {} × {}: too many are missing; see that nothing covers the chart", size[0], size[1])]
+    #[error("{points} points were found on a grid of {} × {}: too many are missing; check that nothing covers the chart", size[0], size[1])]
     Gaps {
         /// Number of points.
         points: usize,
@@ -26,7 +26,7 @@ pub enum TargetError {
     },
     /// Too small a chart for measurement.
     #[error(
-        "the points in rows and columns lie {step_px:.1} px apart, {least_px} px are needed: a pattern that is no chart, or a chart too far away"
+        "the points in rows and columns are {step_px:.1} px apart, {least_px} px are needed: the pattern is not a chart, or the chart is too far away"
     )]
     Small {
         /// Median distance of neighbours, px.
@@ -36,8 +36,8 @@ pub enum TargetError {
     },
     /// More than one chart.
     #[error(
-        "{} and {} points were found in rows and columns that do not join: two charts, or one that something covers; \
-         choose a part of the picture that holds one whole chart (`region`)", points[0], points[1]
+        "{} and {} points were found on two separate grids: two charts, or one that is partly covered; choose a region of the image that contains one \
+         whole chart (`region`)", points[0], points[1]
     )]
     Several {
         /// Numbers of points of the two largest.

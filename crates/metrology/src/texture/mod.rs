@@ -31,26 +31,29 @@ use crate::{Estimate, Image, linear::Normal, patch_statistics::saturated_percent
 pub enum TextureError {
     /// A star outside the image or without cycles.
     #[error(
-        "the star must lie within the picture: expected 4 or more cycles, an outer radius above the inner one, and {0}"
+        "the star must be within the image: expected 4 or more cycles, an outer radius above the inner one, and {0}"
     )]
     Star(&'static str),
     /// No star.
-    #[error("no star is at this place: its modulation at the outer radius is {percent:.1} %, below 5 %")]
+    #[error("no star was found at this position: the modulation at the outer radius is {percent:.1} %, below 5 %")]
     NoStar {
         /// Modulation, %.
         percent: f64,
     },
     /// Clipped.
-    #[error("{percent:.1} % of the pixels are saturated, which bends light and dark apart: expose less")]
+    #[error("{percent:.1} % of the pixels are saturated, which distorts the modulation: expose less")]
     Saturated {
         /// Percentage of saturated pixels.
         percent: f64,
     },
     /// A reading is NaN or infinite.
-    #[error("the picture holds readings that are no numbers: give finite values")]
+    #[error("the image contains readings that are not finite: give finite values")]
     NotFinite,
     /// Images of different sizes, or too small ones.
-    #[error("picture and reference must have one size of at least {least} × {least} pixels, not {} × {} and {} × {}", picture.0, picture.1, reference.0, reference.1)]
+    #[error(
+        "image and reference must have the same size of at least {least} × {least} pixels, not {} × {} and {} × {}",
+        picture.0, picture.1, reference.0, reference.1
+    )]
     Size {
         /// Minimum side.
         least: usize,
@@ -60,7 +63,7 @@ pub enum TextureError {
         reference: (usize, usize),
     },
     /// The image for the noise is too small.
-    #[error("the picture of an even surface must have at least {least} × {least} pixels, not {} × {}", size.0, size.1)]
+    #[error("the image of a uniform surface must have at least {least} × {least} pixels, not {} × {}", size.0, size.1)]
     Even {
         /// Minimum side.
         least: usize,
@@ -68,14 +71,16 @@ pub enum TextureError {
         size: (usize, usize),
     },
     /// Image and reference are displaced.
-    #[error("the picture shows the texture {:.1} px right and {:.1} px down of where the reference does: give a reference of the same place, within 2 px", shift_px[0], shift_px[1])]
+    #[error("the texture in the image is {:.1} px right of and {:.1} px below its position in the reference: give a reference of the same region, within \
+        2 px", shift_px[0], shift_px[1])]
     Shifted {
         /// To the right and down, px.
         shift_px: [f64; 2],
     },
     /// The reference has no texture, or the image another one.
     #[error(
-        "picture and reference share no texture: are they of the same place, pixel by pixel? A reference is a sharp render without noise: `set` output.radiance=true writes radiance.exr"
+        "image and reference have no common texture: give a reference of the same region, pixel by pixel. A reference is a sharp render without noise: \
+         `set` output.radiance=true writes radiance.exr"
     )]
     Unlike,
 }
@@ -127,7 +132,7 @@ pub fn measure_star(image: &Image, star: &Star) -> Result<(Vec<StarPoint>, (f64,
     let (squared, u) = (outer.value * outer.value, outer.standard_uncertainty);
     if squared < MIN_HELD * (squared + u * u * TAU * star.outer_px) {
         return Err(TextureError::Star(
-            "a wave of that many cycles about its centre, which lies within two pixels of where it is told",
+            "a wave of that number of cycles around a centre within two pixels of the given one",
         ));
     }
     let point = |(i, (radius_px, modulation)): (usize, &(f64, Estimate))| {
@@ -149,7 +154,7 @@ fn check(image: &Image, star: &Star) -> Result<(), TextureError> {
     let room = x.min(y).min(width - x).min(height - y);
     let whole = star.cycles >= 4 && star.inner_px >= 1.0 && star.outer_px >= star.inner_px + 2.0;
     if !whole {
-        return Err(TextureError::Star("circles of one pixel or more"));
+        return Err(TextureError::Star("an inner radius of one pixel or more"));
     }
     // The refined centre may be two pixels off.
     if room.is_nan() || room < star.outer_px + 2.5 {
