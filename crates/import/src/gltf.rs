@@ -67,7 +67,7 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
 fn add_still(scene: &mut Scene, name: &str, way: &str, report: &mut Vec<String>) {
     scene.meshes.push(Mesh::new(name, way));
     scene.objects.push(Object::new(name, Body::Mesh(name.into()), Transform::default()));
-    report.push(format!("its meshes: object \"{name}\", materials and pictures as the plan tells"));
+    report.push(format!("its meshes: object \"{name}\"; the plan lists its materials and textures"));
 }
 
 /// State for lights and cameras: the moving frames.
@@ -98,11 +98,11 @@ fn light_of(light: &GltfLight, held: &Held<'_>, names: &mut Names, report: &mut 
     let share: f64 = light.colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
     let level = light.intensity * share;
     if level <= 0.0 {
-        report.push(format!("light \"{name}\" is dark and left out"));
+        report.push(format!("light \"{name}\" emits no light and is left out"));
         return None;
     }
     let note = |kind: &str, unit: &str| {
-        let range = if light.has_range { "; its range is not used: light has none" } else { "" };
+        let range = if light.has_range { "; its range is not used: light is not cut off" } else { "" };
         format!("light \"{name}\", {kind}: {level} {unit}{range}")
     };
     let colour = LightColour::Rgb(light.colour.into());
@@ -115,15 +115,15 @@ fn light_of(light: &GltfLight, held: &Held<'_>, names: &mut Names, report: &mut 
             lamps::point(&name, position, level, colour)
         }
         GltfLightKind::Spot { inner_rad, outer_rad } => {
-            report.push(note("spot, whose edge falls by our own curve between the same angles", "cd"));
+            report.push(note("spot, with Étendue's falloff curve between the same angles", "cd"));
             // 90° rounded to 32 bits may exceed it.
             let half_deg = [inner_rad, outer_rad].map(|rad| rad.to_degrees().min(90.0));
             lamps::spot(&name, position, ahead, half_deg, level, colour)
         }
         GltfLightKind::Directional => {
-            report.push(note("directional: a sun's disc of 0.01°", "lx"));
+            report.push(note("directional: a sun disc of 0.01°", "lx"));
             if frame.is_some() {
-                report.push(format!("light \"{name}\" stands still: suns do not move"));
+                report.push(format!("light \"{name}\" does not move: a sun is static"));
             }
             let ahead = to_world(light.to_file.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
             lamps::parallel(&name, -ahead, level, colour)
@@ -143,7 +143,7 @@ fn cameras_of(
         stage.cameras.iter().map(|camera| camera_of(camera, held, &mut names, report)).collect();
     match (cameras.is_empty(), mesh) {
         (true, mesh) => {
-            report.push("it has no cameras: \"view\" is ours, which sees all of it from the front".to_owned());
+            report.push("it has no cameras: \"view\" is added, which shows the whole scene from the front".to_owned());
             vec![view_of(mesh)]
         }
         _ => cameras,
@@ -154,14 +154,14 @@ fn camera_of(camera: &GltfCamera, held: &Held<'_>, names: &mut Names, report: &m
     let name = names.take(&camera.name, "camera");
     let (view, aspect, message) = match camera.projection {
         GltfProjection::Perspective { yfov_rad, aspect } => {
-            let message = format!("perspective of {:.4}° in height", yfov_rad.to_degrees());
+            let message = format!("perspective, vertical field of view {:.4}°", yfov_rad.to_degrees());
             (View::Perspective { yfov_rad }, aspect, message)
         }
         GltfProjection::Orthographic { half_m: [x, y] } => {
-            (View::Orthographic { width_m: 2.0 * x }, Some(x / y), format!("orthographic of {} m in width", 2.0 * x))
+            (View::Orthographic { width_m: 2.0 * x }, Some(x / y), format!("orthographic, {} m wide", 2.0 * x))
         }
     };
-    let free = if aspect.is_none() { "; its shape is ours" } else { "" };
+    let free = if aspect.is_none() { "; its aspect ratio is not stated and is set to 4:3" } else { "" };
     report.push(format!("camera \"{name}\": {message}{free}; its near and far planes are not used"));
     // The scale of its node is ignored.
     let (frame, place) = held.place(camera.node, camera.to_file);

@@ -86,7 +86,7 @@ fn read(request: &ImportRequest, folder: &Path) -> Result<Written, Error> {
             let shown = file.display();
             return Err(Error::coded(
                 ErrorCode::UnsupportedFile,
-                format!("{shown}: not a scene that is imported; expected a file of {KINDS}"),
+                format!("{shown}: unsupported scene file; expected {KINDS}"),
             ));
         }
     };
@@ -95,7 +95,7 @@ fn read(request: &ImportRequest, folder: &Path) -> Result<Written, Error> {
         Some((name, _)) => Err(Error::coded(
             ErrorCode::NoEffect,
             format!(
-                "{}: a value is given to the parameter \"{name}\", and only scenes of Mitsuba (.xml) have parameters: leave it out",
+                "{}: the parameter \"{name}\" has no effect; only Mitsuba scenes (.xml) have parameters: remove it",
                 file.display()
             ),
         )),
@@ -108,7 +108,8 @@ fn without_usd(file: &Path) -> Error {
     Error::coded(
         ErrorCode::UnsupportedFile,
         format!(
-            "{}: this program was built without the reader of Universal Scene Description; build it with the feature \"usd\" (docs/import.md), or convert the scene to glTF",
+            "{}: this program was built without support for Universal Scene Description; build it with the feature \"usd\" (docs/import.md), or convert \
+                the scene to glTF",
             file.display()
         ),
     )

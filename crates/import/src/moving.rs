@@ -64,7 +64,7 @@ pub(super) fn add_moving(
         }
         frame.parent = mover.parent.map(|parent| moving.frames[parent].0.as_str().into());
         scene.frames.push(frame);
-        report.push(format!("node \"{name}\" moves: a frame of {} keys{}", times.len(), way.told(&times)));
+        report.push(format!("node \"{name}\" moves: a frame with {} keys{}", times.len(), way.told(&times)));
         let whole = above * scale;
         if mover.has_mesh {
             let own = if mover.scale.is_some() { DVec3::ONE } else { mover.rest.2 };
@@ -149,7 +149,7 @@ impl Way<'_> {
         let (translation, rotation) = (&self.mover.translation, &self.mover.rotation);
         let mut told = String::new();
         if translation.as_ref().is_some_and(GltfTrack::is_step) || rotation.as_ref().is_some_and(GltfTrack::is_step) {
-            told += "; its steps take 1 µs";
+            told += "; each of its steps takes 1 µs";
         }
         if translation.as_ref().is_some_and(GltfTrack::is_cubic) || rotation.as_ref().is_some_and(GltfTrack::is_cubic) {
             let (mut off_m, mut off_deg) = (0.0_f64, 0.0_f64);
@@ -160,7 +160,8 @@ impl Way<'_> {
                 off_deg = off_deg.max(angle_deg(middle.1, between));
             }
             told += &format!(
-                "; its cubic curves have {CUBIC_KEYS} keys from key to key, half-way off by {off_m:.2e} m and {off_deg:.2e}° at most"
+                "; its cubic curves are sampled with {CUBIC_KEYS} keys per interval, with an error half-way between keys of at most {off_m:.2e} m and \
+                    {off_deg:.2e}°"
             );
         }
         told

@@ -14,7 +14,7 @@ pub(super) fn even_sky(scene: &mut Scene) -> String {
     let level = Level::Luminance(SKY_CD_M2.into());
     let emission = Emission { colour: Some(LightColour::Illuminant("D65".into())), ..Emission::new(level) };
     scene.environment = Some(Environment::Uniform(emission));
-    format!("it has no light: an even sky of {SKY_CD_M2} cd/m² is ours")
+    format!("it has no light: a uniform sky of {SKY_CD_M2} cd/m² is added")
 }
 
 /// View of the box between two corners in the world, m, from the front and above.

@@ -102,7 +102,7 @@ impl View {
 /// `scene.toml` and `job.toml`, with the report at the head of the scene.
 pub(super) fn written(source: &Path, scene: &Scene, cameras: &[ImportedCamera], report: Vec<String>) -> Written {
     let name = source.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let mut head = format!("Made of {name} by etendue import. What became of what:");
+    let mut head = format!("Converted from {name} by etendue import. Conversion report:");
     for line in &report {
         // A control character in a name must not end the comment.
         let plain: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
@@ -112,7 +112,7 @@ pub(super) fn written(source: &Path, scene: &Scene, cameras: &[ImportedCamera], 
     let output = Table::new().with("radiance", true);
     let job = Table::new().with("scene", "scene.toml").with("cameras", cameras).with("output", output);
     let about = format!(
-        "The cameras of {name}. Size, f-number and samples are ours: the file says none of them, or not as a camera has them."
+        "The cameras of {name}. Image size, f-number and samples are Étendue's defaults where the file does not state them as a camera does."
     );
     let files = vec![
         ("scene.toml".to_owned(), File::new(scene.to_table()).head(head).to_string().into_bytes()),

@@ -158,8 +158,8 @@ fn keys_are_those_of_the_file() {
     let (told, job) = imported(place.path(), &scene("CUBICSPLINE", false), "a");
     let told = told.ok();
     for phrase in [
-        "node \"arm\" moves: a frame of 33 keys; its cubic curves have 16 keys from key to key, half-way off by",
-        "node \"hand\" moves: a frame of 5 keys; its steps take 1 µs",
+        "node \"arm\" moves: a frame with 33 keys; its cubic curves have 16 keys from key to key, half-way off by",
+        "node \"hand\" moves: a frame with 5 keys; its steps take 1 µs",
         "its meshes: object \"a\"",
     ] {
         assert!(told.err.contains(phrase), "{phrase}: {}", told.err);

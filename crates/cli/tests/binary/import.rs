@@ -108,8 +108,8 @@ fn an_import_says_what_became_of_what() {
     assert!(told.out.contains("made/scene.toml") && told.out.contains("made/job.toml"), "{}", told.out);
     for phrase in [
         "its meshes: object \"floor\"",
-        "light \"Key-Light\", point: 400 cd; its range is not used: light has none",
-        "camera \"eye\": perspective of 0.2292° in height; its near and far planes are not used",
+        "light \"Key-Light\", point: 400 cd; its range is not used: light is not cut off",
+        "camera \"eye\": perspective, vertical field of view 0.2292°; its near and far planes are not used",
         "camera \"plan-view\": orthographic of 0.012",
     ] {
         assert!(told.err.contains(phrase), "{phrase}: {}", told.err);

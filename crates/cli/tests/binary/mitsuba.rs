@@ -209,9 +209,9 @@ fn what_is_not_understood_is_said_and_the_rest_is_a_scene() {
     let told = ran.ok().err;
     for phrase in [
         "the shape \"serialized\" is left out: export its mesh as OBJ or PLY (a.xml:2)",
-        "the surface \"hair\" is not understood: grey of 0.5 in its place (a.xml:3)",
+        "the surface \"hair\" is not supported: a diffuse grey of 0.5 is used instead (a.xml:3)",
         "shape \"sphere\": \"wobble\" is not used (a.xml:3)",
-        "the emitter \"sunsky\" is not understood and left out (a.xml:4)",
+        "the emitter \"sunsky\" is not supported and left out (a.xml:4)",
         "facets of a \"roughplastic\" after Beckmann are GGX's of the same α",
         "it has no camera that is read",
     ] {
@@ -224,11 +224,11 @@ fn what_is_not_understood_is_said_and_the_rest_is_a_scene() {
 #[test]
 fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
     for (body, phrase) in [
-        ("<shape type=\"sphere\"><ref id=\"none\"/></shape>", "a.xml:2: no element is called \"none\""),
+        ("<shape type=\"sphere\"><ref id=\"none\"/></shape>", "a.xml:2: no element has the id \"none\""),
         ("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>", "\"radius\" of -1"),
         (
             "<shape type=\"sphere\"><float name=\"radius\" value=\"wide\"/></shape>",
-            "\"wide\" where a number is expected",
+            "expected a number, found \"wide\"",
         ),
         (
             "<bsdf type=\"mask\" id=\"m\"><ref id=\"m\"/></bsdf><shape type=\"disk\"><ref id=\"m\"/></shape>",
@@ -248,7 +248,7 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
         ("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1 -1 0\"/></emitter>", "light below 0"),
         (
             "<shape type=\"cube\"><transform name=\"to_world\"><rotate x=\"1\"/></transform></shape>",
-            "<rotate> without \"angle\"",
+            "<rotate> has no \"angle\"",
         ),
         (
             "<shape type=\"cube\"><transform name=\"to_world\"><scale w=\"1\"/></transform></shape>",
@@ -321,7 +321,7 @@ fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
     };
     refused(&file, &["-Dq=1"], &["a.xml: ", "\"q\", and no \"$q\" stands in the scene: it names $r"]);
     refused(&file, &["-Dr=1", "-Dr=2"], &["a.xml: ", "two values"]);
-    refused(&file, &["-Dr=wide"], &["a.xml:2: ", "\"wide\" where a number is expected"]);
+    refused(&file, &["-Dr=wide"], &["a.xml:2: ", "expected a number, found \"wide\""]);
     refused(&file, &["-Dr"], &["NAME=VALUE"]);
     refused(&root().join("scenes/import/box.pbrt"), &["-Dr=1"], &["box.pbrt: ", "only scenes of Mitsuba"]);
 }

@@ -247,9 +247,9 @@ fn kinds_of_usd_are_what_usd_core_computes() {
         check_lights(&made, &figures);
         check_materials(&made, &figures);
         for phrase in [
-            "a length of 1 is 0.01 m, as it says; y is up",
+            "one unit is 0.01 m (as it says); y is up",
             "changes: all stands as at time code 1",
-            "what is invisible, or for purposes other than rendering (guide, proxy), is left out",
+            "prims that are invisible, or have a purpose other than rendering (guide, proxy), are left out",
             "camera \"Shot\": 35 mm at f/2.8",
         ] {
             assert!(made.told.contains(phrase), "{ending}: {phrase} is not said: {}", made.told);
@@ -315,16 +315,16 @@ fn what_usd_does_not_say_is_ours_and_what_is_not_understood_is_said() {
     );
     let told = ran.ok().err;
     for phrase in [
-        "a length of 1 is 0.01 m, as where nothing is said; y is up",
+        "one unit is 0.01 m (as where nothing is said); y is up",
         "none.usda",
-        "a \"BasisCurves\" has no shape here and is left out",
+        "a \"BasisCurves\" is not supported and left out",
         "a subdivision surface is its control mesh with smooth normals",
-        "a RectLight is dark and left out",
-        "it has no light: an even sky of 2000 cd/m² is ours",
+        "a RectLight emits no light and is left out",
+        "it has no light: a uniform sky of 2000 cd/m² is added",
         "it has no cameras: \"view\" is ours",
-        "a second coat (clearcoat) is not used",
+        "clearcoat is not used",
         "is a pane without thickness",
-        "a mesh without \"st\", by which its pictures lie: all of it has their corner",
+        "a mesh lacks the texture coordinates \"st\": its textures have the value of their corner everywhere",
     ] {
         assert!(told.contains(phrase), "{phrase} is not said: {told}");
     }
@@ -339,28 +339,28 @@ fn damaged_scenes_of_usd_are_refused_and_nothing_is_written() {
     for (body, phrase) in [
         ("def Sphere \"a\" {\n double radius = = 2\n}\n", "a.usda:3: "),
         ("def Sphere \"a\" { double radius = -1 }\n", "/a: \"radius\" of -1"),
-        ("(\n metersPerUnit = 0\n)\n", "\"metersPerUnit\" of 0; expected a finite number above 0"),
+        ("(\n metersPerUnit = 0\n)\n", "\"metersPerUnit\" is 0; expected a finite number above 0"),
         ("(\n metersPerUnit = -1\n)\n", "\"metersPerUnit\" of -1"),
         ("(\n metersPerUnit = inf\n)\n", "\"metersPerUnit\" of inf"),
         ("def Camera \"a\" { float focalLength = 0 }\n", "\"focalLength\" of 0"),
         (
             "def Mesh \"a\" { int[] faceVertexCounts = [3] int[] faceVertexIndices = [0, 1, 9] point3f[] points = [(0,0,0), (1,0,0)] }\n",
-            "a corner at point 9, of 2",
+            "a face refers to point 9, and there are 2 points",
         ),
         (
             "def Mesh \"a\" { int[] faceVertexCounts = [4] int[] faceVertexIndices = [0, 0, 0] point3f[] points = [(0,0,0)] }\n",
-            "its faces have 4 corners, of which 3 are there",
+            "its faces have 4 corners, and \"faceVertexIndices\" has 3",
         ),
         (
             "def PointInstancer \"a\" { rel prototypes = </a/b> int[] protoIndices = [3] point3f[] positions = [(0,0,0)] }\n",
-            "an instance of prototype 3, of 1",
+            "an instance refers to prototype 3, and there are 1",
         ),
         (
             "def PointInstancer \"a\" { rel prototypes = </a> int[] protoIndices = [0] point3f[] positions = [(0,0,0)] }\n",
             "or in a circle",
         ),
         (&deep, "more than 64 deep"),
-        ("def Sphere \"B}lb\" {}\n", "line 2: a prim whose name has braces"),
+        ("def Sphere \"B}lb\" {}\n", "line 2: the name of a prim contains braces"),
         (
             "class \"a\" (inherits = </b>) {}\nclass \"b\" (specializes = </a>) {}\ndef \"c\" (inherits = </a>) {}\n",
             "in a circle",

@@ -17,7 +17,7 @@ pub(super) fn number_of(word: &str) -> Result<f64, String> {
     match word.trim().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(_) => Err(format!("\"{shown}\" is not finite")),
-        Err(_) => Err(format!("\"{shown}\" where a number is expected")),
+        Err(_) => Err(format!("expected a number, found \"{shown}\"")),
     }
 }
 
@@ -36,7 +36,7 @@ pub(super) fn triple_of(element: &MitsubaElement, default: f64) -> Result<DVec3,
     match numbers_of(value).map_err(|told| element.fault(told))?[..] {
         [one] => Ok(DVec3::splat(one)),
         [x, y, z] => Ok(DVec3::new(x, y, z)),
-        ref others => Err(element.fault(format!("{} numbers, where three are expected", others.len()))),
+        ref others => Err(element.fault(format!("expected three numbers, found {}", others.len()))),
     }
 }
 

@@ -60,7 +60,7 @@ impl<'a> Importer<'a> {
     fn made(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
         if depth >= MAX_DEPTH {
             return Err(
-                element.fault(format!("surfaces stand more than {MAX_DEPTH} deep in one another, or in a circle"))
+                element.fault(format!("surfaces are nested more than {MAX_DEPTH} levels deep, or form a cycle"))
             );
         }
         self.at(element);
@@ -85,9 +85,9 @@ impl<'a> Importer<'a> {
                 | "thindielectric"
         ) && depth == 0
         {
-            self.scenery.report.note(
-                "surfaces without \"twosided\" are black from behind in Mitsuba; here both sides of them are alike",
-            );
+            self.scenery
+                .report
+                .note("surfaces without \"twosided\" are black from behind in Mitsuba; here both sides are equal");
         }
         Ok(match kind {
             "diffuse" => {
@@ -112,17 +112,17 @@ impl<'a> Importer<'a> {
             "null" => Made { surface: None, opacity: None, normal_map: None },
             "twosided" => {
                 let [inner, others @ ..] = &self.within(element, "bsdf")?[..] else {
-                    return Err(element.fault("a \"twosided\" without a <bsdf>"));
+                    return Err(element.fault("the \"twosided\" has no <bsdf>"));
                 };
                 if others.iter().any(|other| other.number != inner.number) {
-                    self.scenery.report.note("of a \"twosided\" with two surfaces both sides have the first");
+                    self.scenery.report.note("both sides of a \"twosided\" with two surfaces use the first");
                 }
                 self.made(inner, depth + 1)?
             }
             "mask" => self.mask(element, depth)?,
             "blendbsdf" => self.blend(element, depth)?,
             "bumpmap" => {
-                self.scenery.report.note("bumps of a \"bumpmap\" are not used; its surface is");
+                self.scenery.report.note("the bumps of a \"bumpmap\" are not used; only its surface is");
                 element.children.iter().for_each(|child| child.used.set(true));
                 self.only(element, depth)?
             }
@@ -130,7 +130,7 @@ impl<'a> Importer<'a> {
             other => {
                 self.scenery
                     .report
-                    .note(format!("the surface \"{other}\" is not understood: grey of 0.5 in its place"));
+                    .note(format!("the surface \"{other}\" is not supported: a diffuse grey of 0.5 is used instead"));
                 element.children.iter().for_each(|child| child.used.set(true));
                 Surface::Diffuse(Diffuse::new(plain(0.5))).into()
             }
@@ -142,7 +142,7 @@ impl<'a> Importer<'a> {
         match self.within(element, "bsdf")?[..] {
             [inner] => self.made(inner, depth + 1),
             ref others => {
-                let message = format!("{} surfaces within a \"{}\"; expected one <bsdf>", others.len(), element.kind());
+                let message = format!("{} surfaces in a \"{}\"; expected one <bsdf>", others.len(), element.kind());
                 Err(element.fault(message))
             }
         }
@@ -152,7 +152,7 @@ impl<'a> Importer<'a> {
         let opacity = self.factor(element, "opacity", 0.5)?;
         let inner = self.only(element, depth)?;
         if inner.opacity.is_some() {
-            self.scenery.report.note("of a \"mask\" within another the outer one alone is used");
+            self.scenery.report.note("of nested \"mask\" surfaces only the outer mask is used");
         }
         Ok(Made { opacity: Some(opacity), ..inner })
     }
@@ -161,7 +161,7 @@ impl<'a> Importer<'a> {
         let found = self.within(element, "texture")?;
         let inner = self.only(element, depth)?;
         let Some(texture) = found.first() else {
-            return Err(element.fault("a \"normalmap\" without a <texture>"));
+            return Err(element.fault("the \"normalmap\" has no <texture>"));
         };
         let normal_map = match self.texture(texture, Use::Data)? {
             KnownTexture::Picture { name, .. } => Some(NormalMap::new(name.as_str())),
@@ -177,7 +177,7 @@ impl<'a> Importer<'a> {
         let weight = self.factor(element, "weight", 0.5)?;
         let parts = self.within(element, "bsdf")?;
         let [a, b] = parts[..] else {
-            return Err(element.fault(format!("{} surfaces, where a \"blendbsdf\" has two", parts.len())));
+            return Err(element.fault(format!("{} surfaces in a \"blendbsdf\"; expected two", parts.len())));
         };
         let share = |weight: f64| Some(Factor::Number(weight.into()));
         let [first, second] = [self.part(a, depth)?, self.part(b, depth)?];
@@ -190,7 +190,7 @@ impl<'a> Importer<'a> {
             (None, Some(_), Factor::Number(w)) => Ok(Made { opacity: share(w.value), ..self.made(b, depth + 1)? }),
             (None, Some(_), picture) => Ok(Made { opacity: Some(picture), ..self.made(b, depth + 1)? }),
             (Some(_), None, _) => {
-                self.scenery.report.note("a blend with a second part that is not seen is taken as its first alone");
+                self.scenery.report.note("a blend with an invisible second surface is replaced by its first surface");
                 self.made(a, depth + 1)
             }
             (Some(a), Some(b), weight) => Ok(Surface::Mix(Mix::new(&*a, &*b, weight)).into()),
@@ -203,14 +203,14 @@ impl<'a> Importer<'a> {
         let materials = &self.scenery.scene.materials;
         let Some(found) = materials.iter().find(|m| m.name.value == *name) else { return Ok(None) };
         if found.normal_map.is_some() {
-            self.scenery.report.note("green of a \"normalmap\" within a blend points up in its picture; set y = \"down\" where the picture lies mirrored");
+            self.scenery.report.note("the green channel of a \"normalmap\" in a blend points up in its image; set y = \"down\" where the image is mirrored");
         }
         if found.opacity.is_none() {
             return Ok(Some(name));
         }
         let own = self.scenery.names.take(&format!("{name}-whole"), "part");
         let whole = Material { name: own.as_str().into(), opacity: None, ..found.clone() };
-        self.scenery.report.note("a \"mask\" within a blend is not used: its surface is");
+        self.scenery.report.note("a \"mask\" in a blend is not used; only its surface is");
         self.scenery.scene.materials.push(whole);
         Ok(Some(own.as_str().into()))
     }
@@ -224,7 +224,7 @@ impl<'a> Importer<'a> {
         let [u, v] = [self.factor(element, "alpha_u", 0.1)?, self.factor(element, "alpha_v", 0.1)?];
         match (&u, &v) {
             (Factor::Number(u), Factor::Number(v)) if u.value != v.value => {
-                let told = "roughness that differs by direction is alike in all: α is the geometric mean";
+                let told = "anisotropic roughness becomes isotropic: α is the geometric mean";
                 self.scenery.report.note(told);
                 Ok(Factor::Number((u.value * v.value).sqrt().into()))
             }
@@ -237,15 +237,17 @@ impl<'a> Importer<'a> {
         match text(element, "distribution")?.unwrap_or("beckmann") {
             "ggx" => Ok(false),
             "beckmann" => Ok(true),
-            other => Err(element.fault(format!("\"distribution\" of \"{other}\"; expected beckmann or ggx"))),
+            other => Err(element.fault(format!("unknown \"distribution\" \"{other}\"; expected beckmann or ggx"))),
         }
     }
 
     /// Notes a slope distribution that our surfaces do not support.
     pub(super) fn note_slopes(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
         if Self::is_beckmann(element)? {
-            let told =
-                format!("facets of a \"{}\" after Beckmann are GGX's of the same α: longer tails", element.kind());
+            let told = format!(
+                "the Beckmann distribution of a \"{}\" becomes GGX with the same α, which has longer tails",
+                element.kind()
+            );
             self.scenery.report.note(told);
         }
         Ok(())
@@ -265,7 +267,7 @@ impl<'a> Importer<'a> {
             etendue_scene::record::Reflectance::Plain(etendue_scene::record::Colour::Grey(v)) => [v.value; 3],
             etendue_scene::record::Reflectance::Plain(etendue_scene::record::Colour::LinearSrgb(v)) => v.value,
             _ => {
-                self.scenery.report.note("\"specular_reflectance\" of a picture or a table is 1");
+                self.scenery.report.note("\"specular_reflectance\" from an image or a table is set to 1");
                 [1.0; 3]
             }
         };
@@ -277,11 +279,11 @@ impl<'a> Importer<'a> {
             return Ok(self.scenery.index_file(|_| 1e-3, |_| 100.0));
         }
         if is_mirror {
-            self.scenery.report.note("a mirror of a colour is a metal that reflects it at normal incidence");
+            self.scenery.report.note("a coloured mirror becomes a metal that reflects this colour at normal incidence");
             return Ok(self.metal_of_rgb(tint));
         }
         if grey(tint) != Some(1.0) {
-            self.scenery.report.note("\"specular_reflectance\" of a metal is 1");
+            self.scenery.report.note("\"specular_reflectance\" of a metal is set to 1");
         }
         if has_index {
             let (n, _) = self.coefficient(element, "eta", 0.0)?;
@@ -293,7 +295,7 @@ impl<'a> Importer<'a> {
         if metal::names().contains(&name) {
             return Ok(Metal::Named(name.into()));
         }
-        self.scenery.report.note(format!("the metal \"{name}\" is not known: aluminium in its place"));
+        self.scenery.report.note(format!("the metal \"{name}\" is unknown: aluminium is used instead"));
         Ok(Metal::Named("Al".into()))
     }
 }
@@ -308,14 +310,14 @@ impl<'a> Importer<'a> {
     /// Converted like glTF's surfaces: dielectrics are coated, a metal has the index that reflects its colour, values between give a mix; surfaces that
     /// transmit most light are glass.
     fn principled(&mut self, element: &'a MitsubaElement) -> Result<Surface, Error> {
-        self.scenery.report.note(
-            "a \"principled\" surface is approximate: base colour, roughness, metallic, specular and eta are used",
-        );
+        self.scenery
+            .report
+            .note("a \"principled\" surface is approximated by its base colour, roughness, metallic, specular and eta");
         let roughness = self.factor(element, "roughness", 0.5)?;
         let alpha = match roughness {
             Factor::Number(r) => Factor::Number((r.value * r.value).into()),
             Factor::Texture(texture) => {
-                self.scenery.report.note("a picture of \"roughness\" is taken as α itself, not as its root");
+                self.scenery.report.note("an image of \"roughness\" is used as α directly, not as √α");
                 Factor::Texture(FactorTexture { ..texture })
             }
         };
@@ -346,7 +348,7 @@ impl<'a> Importer<'a> {
             Reflectance::Plain(Colour::Grey(v)) => [v.value; 3],
             Reflectance::Plain(Colour::LinearSrgb(v)) => v.value,
             _ => {
-                self.scenery.report.note("a picture or table of a metal's colour is 0.5");
+                self.scenery.report.note("the colour of a metal from an image or a table is set to 0.5");
                 [0.5; 3]
             }
         };

@@ -34,7 +34,9 @@ enum Kind {
 pub(super) fn read(sensor: &MitsubaElement, report: &mut Report) -> Result<Option<MitsubaCamera>, Error> {
     let kind = sensor.kind();
     if !matches!(kind, "perspective" | "thinlens" | "orthographic") {
-        report.note(format!("the sensor \"{kind}\" is left out; expected perspective, thinlens or orthographic"));
+        report.note(format!(
+            "the sensor \"{kind}\" is not supported and left out; expected perspective, thinlens or orthographic"
+        ));
         return Ok(None);
     }
     let size_px = film_size(sensor, report)?;
@@ -50,18 +52,19 @@ pub(super) fn read(sensor: &MitsubaElement, report: &mut Report) -> Result<Optio
         }
     }
     if all(sensor, "sampler").count() > 0 {
-        report.note("samplers are not used: how light is found is the job's");
+        report.note("samplers are not used: the job has its own sampling settings");
     }
     let kind = match kind {
         "orthographic" => Kind::Orthographic,
         "thinlens" => {
             let radius = stated(sensor, "aperture_radius")?;
             let radius = radius.filter(|r| *r > 0.0).ok_or_else(|| {
-                sensor.fault("a thinlens needs \"aperture_radius\" above 0 (perspective: a camera without a lens)")
+                sensor
+                    .fault("a thinlens needs \"aperture_radius\" above 0 (use perspective for a camera without a lens)")
             })?;
             let focus = number(sensor, "focus_distance", 1e4)?;
             if focus <= 0.0 {
-                return Err(sensor.fault(format!("\"focus_distance\" of {focus}; expected a distance above 0")));
+                return Err(sensor.fault(format!("\"focus_distance\" is {focus}; expected a distance above 0")));
             }
             Kind::Lens { yfov_rad: yfov_rad(sensor, size_px)?, lens: [radius, focus] }
         }
@@ -74,13 +77,13 @@ fn film_size(sensor: &MitsubaElement, report: &mut Report) -> Result<[u64; 2], E
     let Some(film) = all(sensor, "film").next() else { return Ok([768, 576]) };
     let pixels = |name: &str, default: f64| match number(film, name, default)? {
         n if (1.0..=65_536.0).contains(&n) && n.fract() == 0.0 => Ok(n as u64),
-        n => Err(film.fault(format!("\"{name}\" of {n}; expected a whole number from 1 to 65536"))),
+        n => Err(film.fault(format!("\"{name}\" is {n}; expected an integer from 1 to 65536"))),
     };
     let size = [pixels("width", 768.0)?, pixels("height", 576.0)?];
     if ["crop_width", "crop_height", "crop_offset_x", "crop_offset_y"].iter().any(|name| find(film, name).is_some()) {
-        report.note("a film's crop is not used: the whole picture is taken");
+        report.note("the crop of a film is not used: the whole image is rendered");
     }
-    report.note(format!("the film \"{}\" gives the size of the picture, and no more is used of it", film.kind()));
+    report.note(format!("of the film \"{}\" only the image size is used", film.kind()));
     Ok(size)
 }
 
@@ -93,12 +96,16 @@ fn yfov_rad(sensor: &MitsubaElement, [width, height]: [u64; 2]) -> Result<f64, E
         let stated = text(sensor, "focal_length")?.unwrap_or("50mm").trim();
         let focal_mm: f64 = match stated.trim_end_matches("mm").trim().parse() {
             Ok(mm) if mm > 0.0 && f64::is_finite(mm) => mm,
-            _ => return Err(sensor.fault(format!("\"focal_length\" of \"{stated}\"; expected such as \"50mm\""))),
+            _ => {
+                return Err(
+                    sensor.fault(format!("\"focal_length\" is \"{stated}\"; expected a length such as \"50mm\""))
+                );
+            }
         };
         return Ok(half_of(0.5 * (36.0_f64 * 36.0 + 24.0 * 24.0).sqrt() / focal_mm * h / diagonal));
     };
     if !(0.0..180.0).contains(&fov_deg) || fov_deg == 0.0 {
-        return Err(sensor.fault(format!("a field of {fov_deg}°; expected an angle between 0° and 180°")));
+        return Err(sensor.fault(format!("the field of view is {fov_deg}°; expected an angle between 0° and 180°")));
     }
     let of = match text(sensor, "fov_axis")?.unwrap_or("x").to_ascii_lowercase().as_str() {
         "x" => w,
@@ -107,7 +114,7 @@ fn yfov_rad(sensor: &MitsubaElement, [width, height]: [u64; 2]) -> Result<f64, E
         "smaller" => w.min(h),
         "larger" => w.max(h),
         other => {
-            let message = format!("\"fov_axis\" of \"{other}\"; expected x, y, diagonal, smaller or larger");
+            let message = format!("unknown \"fov_axis\" \"{other}\"; expected x, y, diagonal, smaller or larger");
             return Err(sensor.fault(message));
         }
     };
@@ -133,17 +140,20 @@ impl MitsubaCamera {
         // Only the first camera may mirror the world.
         if axis(DVec3::X).cross(axis(DVec3::Y)).dot(axis(DVec3::Z)) < 0.0 {
             report.note(format!(
-                "the picture of camera \"{name}\" is mirrored in the file, unlike that of the first: not here"
+                "the image of camera \"{name}\" is mirrored in the file, unlike that of the first camera; here it is not"
             ));
         }
         let view = match self.kind {
             Kind::Perspective { yfov_rad } => {
-                report.note(format!("camera \"{name}\": perspective of {:.4}° in height", yfov_rad.to_degrees()));
+                report.note(format!(
+                    "camera \"{name}\": perspective, vertical field of view {:.4}°",
+                    yfov_rad.to_degrees()
+                ));
                 View::Perspective { yfov_rad }
             }
             Kind::Lens { yfov_rad, lens: [radius_m, focus_m] } => {
                 report.note(format!(
-                    "camera \"{name}\": perspective of {:.4}° in height, a lens of radius {radius_m} m that is focused on {focus_m} m",
+                    "camera \"{name}\": perspective, vertical field of view {:.4}°, lens radius {radius_m} m, focused at {focus_m} m",
                     yfov_rad.to_degrees()
                 ));
                 View::Lens { yfov_rad, radius_m, focus_m }
@@ -151,7 +161,7 @@ impl MitsubaCamera {
             Kind::Orthographic => {
                 let width_m = 2.0 * axis(DVec3::X).length();
                 let height_m = width_m * height as f64 / width as f64;
-                report.note(format!("camera \"{name}\": orthographic of {width_m} m by {height_m} m"));
+                report.note(format!("camera \"{name}\": orthographic, {width_m} m by {height_m} m"));
                 View::Orthographic { width_m }
             }
         };

@@ -32,7 +32,7 @@ impl<'a> Importer<'a> {
                 }
             }
             other => {
-                self.scenery.report.note(format!("the emitter \"{other}\" is not understood and left out"));
+                self.scenery.report.note(format!("the emitter \"{other}\" is not supported and left out"));
                 element.children.iter().for_each(|child| child.used.set(true));
             }
         }
@@ -42,7 +42,7 @@ impl<'a> Importer<'a> {
 
     fn surround(&mut self, environment: Environment) {
         if self.scenery.scene.environment.replace(environment).is_some() {
-            self.scenery.report.note("of several lights from infinity only the last is used");
+            self.scenery.report.note("of several environment lights only the last is used");
         }
     }
 
@@ -52,7 +52,7 @@ impl<'a> Importer<'a> {
             self.scenery.report.note(format!("emitter \"{kind}\": {level} {unit}"));
             return Some(level);
         }
-        self.scenery.report.note(format!("an emitter \"{kind}\" is dark and left out"));
+        self.scenery.report.note(format!("an emitter \"{kind}\" emits no light and is left out"));
         None
     }
 
@@ -79,11 +79,11 @@ impl<'a> Importer<'a> {
         let outer_deg = number(element, "cutoff_angle", 20.0)?;
         let inner_deg = number(element, "beam_width", 0.75 * outer_deg)?;
         if !(0.0..=180.0).contains(&outer_deg) || outer_deg == 0.0 || !(0.0..=outer_deg).contains(&inner_deg) {
-            let message = format!("a cone from {inner_deg}° to {outer_deg}°; expected 0 ≤ beam ≤ cutoff ≤ 180");
+            let message = format!("the cone is from {inner_deg}° to {outer_deg}°; expected 0 ≤ beam ≤ cutoff ≤ 180");
             return Err(element.fault(message));
         }
         let Some(candela) = self.lit("spot", "cd", unit.luminance) else { return Ok(()) };
-        self.scenery.report.note("the edge of a spot falls by our own curve between the same angles");
+        self.scenery.report.note("the falloff of a spot follows Étendue's curve between the same angles");
         let name = self.name(element);
         let ahead = (self.scenery.to_ours * to_world.matrix3.z_axis).normalize_or(DVec3::X);
         let pose = (self.scenery.to_ours * to_world.translation, ahead);
@@ -103,8 +103,8 @@ impl<'a> Importer<'a> {
         let to_world = transform_of(element, "to_world")?;
         let ahead = vector(element, "direction", to_world.matrix3.z_axis)?;
         let towards = (self.scenery.to_ours * -ahead).try_normalize();
-        let towards = towards.ok_or_else(|| element.fault("a \"direction\" without length"))?;
-        let Some(lux) = self.lit("directional", "lx, a sun's disc of 0.01°", unit.luminance) else { return Ok(()) };
+        let towards = towards.ok_or_else(|| element.fault("\"direction\" has zero length"))?;
+        let Some(lux) = self.lit("directional", "lx, a sun disc of 0.01°", unit.luminance) else { return Ok(()) };
         let name = self.name(element);
         self.scenery.scene.lights.push(lamps::parallel(&name, towards, lux, unit.colour));
         Ok(())
@@ -119,10 +119,10 @@ fn picture_axes() -> DMat3 {
 impl<'a> Importer<'a> {
     /// `None`, with a note, for an unsupported or dark image.
     fn envmap(&mut self, element: &'a MitsubaElement) -> Result<Option<Environment>, Error> {
-        let file = text(element, "filename")?.ok_or_else(|| element.fault("an envmap without \"filename\""))?;
+        let file = text(element, "filename")?.ok_or_else(|| element.fault("the envmap has no \"filename\""))?;
         let scale = number(element, "scale", 1.0)?;
         if scale <= 0.0 {
-            self.scenery.report.note("an emitter \"envmap\" is dark and left out");
+            self.scenery.report.note("an emitter \"envmap\" emits no light and is left out");
             return Ok(None);
         }
         let to_world = transform_of(element, "to_world")?.matrix3;
@@ -133,7 +133,7 @@ impl<'a> Importer<'a> {
         );
         let image = read_picture(&self.file(file)).map_err(|e| element.fault(e.to_string()))?.in_rec_709();
         let Some(pixel) = linear_pixels(&image) else {
-            let message = format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)");
+            let message = format!("the environment map `{file}` is left out: expected linear values (EXR, HDR)");
             self.scenery.report.note(message);
             return Ok(None);
         };
@@ -157,7 +157,7 @@ impl<'a> Importer<'a> {
         let name: Rc<str> = match kind {
             "homogeneous" => self.homogeneous(element)?,
             _ => {
-                let message = format!("the medium \"{kind}\" is not understood and left out: expected homogeneous");
+                let message = format!("the medium \"{kind}\" is not supported and left out: expected homogeneous");
                 self.scenery.report.note(message);
                 element.children.iter().for_each(|child| child.used.set(true));
                 "".into()
@@ -172,7 +172,7 @@ impl<'a> Importer<'a> {
         let scale = number(element, "scale", 1.0)?;
         let (extinction, even) = self.coefficient(element, "sigma_t", 1.0)?;
         if scale < 0.0 || !(300..=1100).step_by(100).any(|nm| extinction.at(nm as f32) > 0.0) {
-            return Err(element.fault("a medium without \"sigma_t\" or \"scale\" above 0"));
+            return Err(element.fault("the medium needs \"sigma_t\" and \"scale\" above 0"));
         }
         let extinction = self.scenery.curve(&extinction, even, scale);
         let (albedo, even) = self.coefficient(element, "albedo", 0.75)?;
@@ -180,14 +180,16 @@ impl<'a> Importer<'a> {
         let stated = match all(element, "phase").next() {
             Some(phase) if phase.kind() == "hg" => number(phase, "g", 0.8)?,
             Some(phase) if phase.kind() != "isotropic" => {
-                self.scenery.report.note(format!("the phase function \"{}\" is taken as isotropic", phase.kind()));
+                self.scenery
+                    .report
+                    .note(format!("the phase function \"{}\" is replaced by an isotropic one", phase.kind()));
                 0.0
             }
             _ => 0.0,
         };
         let g = stated.clamp(-0.99, 0.99);
         if g != stated {
-            self.scenery.report.note(format!("a medium of g = {stated} is one of {g}"));
+            self.scenery.report.note(format!("g = {stated} of a medium is limited to {g}"));
         }
         let name: Rc<str> = format!("{}#{}", element.attribute("id").unwrap_or("medium"), element.number).into();
         self.scenery.known.media.insert(name.to_string(), Homogeneous { extinction, albedo, g });

@@ -70,7 +70,7 @@ impl<'a> Importer<'a> {
             && element.tag != "alias"
             && self.ids.insert(id, element).is_some()
         {
-            return Err(element.fault(format!("a second element is called \"{id}\"; give each its own id")));
+            return Err(element.fault(format!("duplicate id \"{id}\"; give each element its own id")));
         }
         element.children.iter().try_for_each(|child| self.collect(child))
     }
@@ -78,10 +78,10 @@ impl<'a> Importer<'a> {
     fn aliases(&mut self, root: &'a MitsubaElement) -> Result<(), Error> {
         for alias in all(root, "alias") {
             let (Some(id), Some(name)) = (alias.attribute("id"), alias.attribute("as")) else {
-                return Err(alias.fault("<alias> without \"id\" or \"as\""));
+                return Err(alias.fault("<alias> lacks \"id\" or \"as\""));
             };
             let known = self.ids.get(id).copied();
-            self.ids.insert(name, known.ok_or_else(|| alias.fault(format!("no element is called \"{id}\"")))?);
+            self.ids.insert(name, known.ok_or_else(|| alias.fault(format!("no element has the id \"{id}\"")))?);
         }
         Ok(())
     }
@@ -91,9 +91,9 @@ impl<'a> Importer<'a> {
         if element.tag != "ref" {
             return Ok(element);
         }
-        let id = element.attribute("id").ok_or_else(|| element.fault("<ref> without \"id\""))?;
+        let id = element.attribute("id").ok_or_else(|| element.fault("<ref> has no \"id\""))?;
         let found = self.ids.get(id).copied();
-        let found = found.ok_or_else(|| element.fault(format!("no element is called \"{id}\"; check the id")))?;
+        let found = found.ok_or_else(|| element.fault(format!("no element has the id \"{id}\"; check the id")))?;
         element.used.set(true);
         found.used.set(true);
         Ok(found)
@@ -154,7 +154,7 @@ impl<'a> Importer<'a> {
         self.scenery.to_ours = first.unwrap_or_else(|| camera::MitsubaCamera::at_origin().to_ours());
         if read.is_empty() {
             self.scenery.report.at(String::new());
-            self.scenery.report.note("it has no camera that is read: one at the origin that looks along z is ours");
+            self.scenery.report.note("it has no supported camera: one at the origin that looks along z is added");
             let camera = camera::MitsubaCamera::at_origin();
             let imported = camera.imported("camera", self.scenery.to_ours, &mut self.scenery.report);
             self.cameras.push(imported);
@@ -168,7 +168,7 @@ impl<'a> Importer<'a> {
                 let name = self.medium(medium)?;
                 self.scenery
                     .report
-                    .note("a camera's medium fills the whole world, and adds to those of shapes within it");
+                    .note("the medium of a camera fills the whole scene and adds to the media of shapes in it");
                 self.scenery.fill(&name, MediumShape::Everywhere(Everywhere::default()), Transform::default());
             }
             self.note_unused(sensor);
@@ -184,14 +184,14 @@ impl<'a> Importer<'a> {
             "shape" => self.shape(element, &Graphics::plain(), 0)?,
             "emitter" => self.emitter(element)?,
             "integrator" | "sampler" => {
-                let message = format!("{} \"{kind}\" is not used: how light is found is the job's", element.tag);
+                let message = format!("{} \"{kind}\" is not used: the job has its own settings", element.tag);
                 self.scenery.report.note(message);
             }
             // Cameras are already read; elements with an id are used by reference.
             "sensor" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
             | "rfilter" | "rgb" => {}
             // Parameters, such as <default> of other versions.
-            tag => self.scenery.report.note(format!("<{tag}> of the scene itself is not used")),
+            tag => self.scenery.report.note(format!("<{tag}> at the top level of the scene is not used")),
         }
         Ok(())
     }
@@ -204,7 +204,7 @@ impl<'a> Importer<'a> {
             [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];
         let [objects, materials, textures, lights, media] = counts;
         report.note(format!(
-            "made: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
+            "written: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
         ));
         let mut made = written(file, &scene, &self.cameras, report.lines());
         made.files.extend(files);

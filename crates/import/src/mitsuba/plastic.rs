@@ -44,7 +44,8 @@ impl<'a> Importer<'a> {
             SUBSTANCES.iter().find(|(substance, _)| substance.eq_ignore_ascii_case(word)).map(|(_, index)| *index);
         match known.map_or_else(|| number_of(word), Ok) {
             Ok(index) if index > 0.0 => Ok(index),
-            _ => Err(element.fault(format!("\"{name}\" of \"{word}\"; expected an index or a substance such as bk7"))),
+            _ => Err(element
+                .fault(format!("\"{name}\" is \"{word}\"; expected a refractive index or a material such as bk7"))),
         }
     }
 
@@ -57,7 +58,7 @@ impl<'a> Importer<'a> {
         let ratio = Self::ratio(element, inside)?;
         let legal = ratio.clamp(1.0, 4.0);
         if legal != ratio {
-            self.scenery.report.note(format!("an index of {ratio} against what is outside is one of {legal}"));
+            self.scenery.report.note(format!("the relative refractive index {ratio} is limited to {legal}"));
         }
         Ok(legal)
     }
@@ -65,7 +66,7 @@ impl<'a> Importer<'a> {
     pub(super) fn coat_index(&mut self, stated: f64) -> f64 {
         let index = stated.clamp(*COAT_INDICES.start(), *COAT_INDICES.end());
         if index != stated {
-            self.scenery.report.note(format!("a coat of index {stated} is one of {index}"));
+            self.scenery.report.note(format!("the refractive index {stated} of a coat is limited to {index}"));
         }
         index
     }
@@ -78,13 +79,13 @@ impl<'a> Importer<'a> {
         if is_rough {
             self.note_slopes(element)?;
             self.scenery.report.note(
-                "the base of a \"roughplastic\" is brighter than in Mitsuba, whose rough borders lose light: by a tenth at α = 0.2",
+                "the base of a \"roughplastic\" is brighter than in Mitsuba, whose rough interfaces lose energy: by a tenth at α = 0.2",
             );
         }
         let gloss = self.reflectance(element, "specular_reflectance", 1.0, &|v| v)?;
         if !matches!(&gloss, etendue_scene::record::Reflectance::Plain(etendue_scene::record::Colour::Grey(v)) if v.value == 1.0)
         {
-            self.scenery.report.note("\"specular_reflectance\" of a plastic is 1");
+            self.scenery.report.note("\"specular_reflectance\" of a plastic is set to 1");
         }
         let inner = inner_reflectance(index);
         let base = match flag(element, "nonlinear", false)? {

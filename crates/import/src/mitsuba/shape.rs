@@ -24,15 +24,16 @@ impl<'a> Importer<'a> {
     pub(super) fn shape(&mut self, element: &'a MitsubaElement, outer: &Graphics, depth: usize) -> Result<(), Error> {
         if depth >= MAX_DEPTH {
             return Err(
-                element.fault(format!("instances stand more than {MAX_DEPTH} deep in one another, or in a circle"))
+                element.fault(format!("instances are nested more than {MAX_DEPTH} levels deep, or form a cycle"))
             );
         }
         self.at(element);
         let told = |what: String| element.fault(what);
         let kind = element.kind();
         if (kind == "instance" && depth >= 1) || (kind == "shapegroup" && depth >= 2) {
-            let told =
-                format!("the shape \"{kind}\" within an instance, which Mitsuba does not allow; put its shapes there");
+            let told = format!(
+                "the shape \"{kind}\" is in an instance, which Mitsuba does not allow; insert its shapes instead"
+            );
             return Err(element.fault(told));
         }
         // A shape group is placed only by its instances.
@@ -53,8 +54,8 @@ impl<'a> Importer<'a> {
             other => {
                 let why = match other {
                     "serialized" => "export its mesh as OBJ or PLY",
-                    "bsplinecurve" | "linearcurve" => "hairs have no shape here",
-                    _ => "it has no shape here",
+                    "bsplinecurve" | "linearcurve" => "hair is not supported",
+                    _ => "this shape is not supported",
                 };
                 self.scenery.report.note(format!("the shape \"{other}\" is left out: {why}"));
                 return Ok(());
@@ -73,15 +74,15 @@ impl<'a> Importer<'a> {
             "cylinder" => {
                 let ends = [vector(element, "p0", DVec3::ZERO)?, vector(element, "p1", DVec3::Z)?];
                 let mesh = cylinder(ends, number(element, "radius", 1.0)?)
-                    .ok_or_else(|| told("a cylinder without extent".to_owned()))?;
-                self.scenery.report.note("a cylinder is a mesh of 128 sides");
+                    .ok_or_else(|| told("the cylinder has no extent".to_owned()))?;
+                self.scenery.report.note("a cylinder becomes a mesh of 128 sides");
                 self.mesh(mesh, &graphics).map_err(told)?;
             }
             "sphere" => {
                 let (centre, radius) =
                     (vector(element, "center", DVec3::ZERO)?, stated(element, "radius")?.unwrap_or(1.0));
                 if radius <= 0.0 {
-                    return Err(told(format!("\"radius\" of {radius}; expected a number above 0")));
+                    return Err(told(format!("\"radius\" is {radius}; expected a number above 0")));
                 }
                 let to_world = graphics.to_world * DAffine3::from_translation(centre);
                 let graphics = Graphics { to_world, ..graphics };
@@ -105,14 +106,14 @@ impl<'a> Importer<'a> {
 
     /// Adds a round shape as one mesh.
     fn round(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
-        self.scenery.report.note("spheres and disks that carry a picture are meshes of 256 sides");
+        self.scenery.report.note("spheres and disks with a texture become meshes of 256 sides");
         self.scenery.surface(mesh, graphics, 1)
     }
 
     fn instance(&mut self, element: &'a MitsubaElement, graphics: &Graphics, depth: usize) -> Result<(), Error> {
         let groups = self.within(element, "shape")?;
         if groups.is_empty() {
-            return Err(element.fault("an instance without a <ref> to a shapegroup"));
+            return Err(element.fault("the instance has no <ref> to a shapegroup"));
         }
         groups.into_iter().try_for_each(|group| self.shape(group, graphics, depth + 1))
     }
@@ -141,20 +142,22 @@ impl<'a> Importer<'a> {
         }
         if find(element, "exterior").is_some() {
             self.at(element);
-            self.scenery.report.note("the medium outside of a shape is that of the shape or camera about it");
+            self.scenery
+                .report
+                .note("the exterior medium of a shape is ignored: the medium of the enclosing shape or camera is used");
         }
         Ok(graphics)
     }
 
     fn area_light(&mut self, emitter: &'a MitsubaElement) -> Result<Option<AreaLight>, Error> {
         if emitter.kind() != "area" {
-            let message = format!("the emitter \"{}\" of a shape is not understood and left out", emitter.kind());
+            let message = format!("the emitter \"{}\" of a shape is not supported and left out", emitter.kind());
             self.scenery.report.note(message);
             return Ok(None);
         }
         let unit = self.light(emitter, "radiance")?;
         if unit.luminance <= 0.0 {
-            self.scenery.report.note("an area light is dark and left out");
+            self.scenery.report.note("an area light emits no light and is left out");
             return Ok(None);
         }
         Ok(Some(AreaLight { colour: unit.colour, luminance: unit.luminance, flux: None, two_sided: false }))
@@ -189,7 +192,7 @@ impl<'a> Importer<'a> {
 
     fn mesh_file(&mut self, element: &'a MitsubaElement, graphics: Graphics) -> Result<(), Error> {
         let is_obj = element.kind() == "obj";
-        let name = text(element, "filename")?.ok_or_else(|| element.fault("a mesh without \"filename\""))?;
+        let name = text(element, "filename")?.ok_or_else(|| element.fault("the mesh has no \"filename\""))?;
         let mut mesh = Triangles::read(&self.file(name)).map_err(|told| element.fault(told))?;
         // Mitsuba's v points downwards in images.
         if !flag(element, "flip_tex_coords", is_obj)? {

@@ -36,7 +36,7 @@ impl<'a> Importer<'a> {
             _ => None,
         };
         let known = made.unwrap_or_else(|| {
-            self.scenery.report.note(format!("the texture \"{kind}\" is not understood: 0.5 in its place"));
+            self.scenery.report.note(format!("the texture \"{kind}\" is not supported: 0.5 is used instead"));
             element.children.iter().for_each(|child| child.used.set(true));
             KnownTexture::Even([0.5; 3])
         });
@@ -62,10 +62,10 @@ impl<'a> Importer<'a> {
     }
 
     fn bitmap(&mut self, element: &'a MitsubaElement, usage: Use) -> Result<Option<KnownTexture>, Error> {
-        let file = text(element, "filename")?.ok_or_else(|| element.fault("a bitmap without \"filename\""))?;
+        let file = text(element, "filename")?.ok_or_else(|| element.fault("the bitmap has no \"filename\""))?;
         let ending = file.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         if !ENDINGS.contains(&ending.as_str()) {
-            let message = format!("the picture `{file}` is of a kind that is not read; convert it to PNG or EXR");
+            let message = format!("the format of the image `{file}` is not supported; convert it to PNG or EXR");
             self.scenery.report.note(message);
             return Ok(None);
         }
@@ -80,13 +80,15 @@ impl<'a> Importer<'a> {
             "clamp" => Wrap::Clamp,
             "mirror" => Wrap::Mirror,
             other => {
-                return Err(element.fault(format!("\"wrap_mode\" of \"{other}\"; expected repeat, mirror or clamp")));
+                return Err(
+                    element.fault(format!("unknown \"wrap_mode\" \"{other}\"; expected repeat, mirror or clamp"))
+                );
             }
         };
         // All images are filtered by their footprint here.
         text(element, "filter_type")?;
         let Some(laid) = self.laid(element)? else {
-            self.scenery.report.note("a picture that is turned or mirrored by \"to_uv\" is not understood");
+            self.scenery.report.note("rotation and mirroring of an image by \"to_uv\" are not supported");
             return Ok(None);
         };
         if (usage, encoding) == (Use::Numbers, Encoding::Srgb)
@@ -142,7 +144,7 @@ impl<'a> Importer<'a> {
             encode_layers(SIDE, SIDE, &layers, &Provenance::default()).map_err(|e| element.fault(e.to_string()))?;
         let file = self.scenery.file_names.take("checkerboard", "checkerboard");
         let path = self.scenery.add_file(format!("textures/{file}.exr"), bytes);
-        self.scenery.report.note("a checkerboard is a picture of 128 by 128 pixels");
+        self.scenery.report.note("a checkerboard becomes an image of 128 by 128 pixels");
         Ok(Some(self.picture(element, &path, Encoding::Linear, Wrap::Repeat, &laid)))
     }
 
@@ -179,7 +181,7 @@ impl<'a> Importer<'a> {
             KnownTexture::Picture { name: texture, .. } => {
                 if (map(0.5) - 0.5).abs() > 1e-9 {
                     self.scenery.report.note(format!(
-                        "a picture under a plastic without \"nonlinear\" is darker here: {:.2} of a 0.5 of it",
+                        "an image as the base of a plastic without \"nonlinear\" is darker here: by a factor of {:.2} where it is 0.5",
                         0.5 / map(0.5)
                     ));
                 }
@@ -215,7 +217,7 @@ impl<'a> Importer<'a> {
             None => default,
             Some(Value::Number(v) | Value::Even(v)) => v,
             Some(Value::Rgb(rgb)) => grey(rgb).unwrap_or_else(|| {
-                self.scenery.report.note(format!("\"{name}\" of a colour is the mean of its numbers"));
+                self.scenery.report.note(format!("\"{name}\" from a colour is the mean of its components"));
                 rgb.iter().sum::<f64>() / 3.0
             }),
             Some(Value::Texture(texture)) => match self.texture(texture, Use::Numbers)? {
@@ -223,7 +225,7 @@ impl<'a> Importer<'a> {
                 KnownTexture::Picture { name, .. } => return Ok(Factor::Texture(FactorTexture::new(name.as_str()))),
             },
             Some(_) => {
-                self.scenery.report.note(format!("\"{name}\" over the wavelength is {default}"));
+                self.scenery.report.note(format!("\"{name}\" from a spectrum is set to {default}"));
                 default
             }
         };

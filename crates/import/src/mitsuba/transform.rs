@@ -19,7 +19,7 @@ pub(super) fn transform_of(element: &MitsubaElement, name: &str) -> Result<DAffi
         made = step_of(step)? * made;
     }
     if !made.is_finite() || made.matrix3.determinant() == 0.0 {
-        return Err(parameter.fault("this makes a space without extent; correct its numbers"));
+        return Err(parameter.fault("the transform is singular; correct its numbers"));
     }
     Ok(made)
 }
@@ -32,22 +32,29 @@ fn step_of(step: &MitsubaElement) -> Result<DAffine3, Error> {
         _ => &["value", "x", "y", "z"],
     };
     if let Some((name, _)) = step.attributes.iter().find(|(name, _)| !known.contains(&&**name)) {
-        return Err(step.fault(format!("\"{name:.40}\" of <{}>; expected {}", step.tag, known.join(", "))));
+        return Err(step.fault(format!(
+            "unknown attribute \"{name:.40}\" of <{}>; expected {}",
+            step.tag,
+            known.join(", ")
+        )));
     }
     match step.tag {
         "translate" => Ok(DAffine3::from_translation(triple_of(step, 0.0)?)),
         "scale" => Ok(DAffine3::from_scale(triple_of(step, 1.0)?)),
         "rotate" => {
             if step.attribute("angle").is_none() {
-                return Err(step.fault("<rotate> without \"angle\""));
+                return Err(step.fault("<rotate> has no \"angle\""));
             }
             let degrees = attribute_number(step, "angle", 0.0)?;
-            let axis = triple_of(step, 0.0)?.try_normalize().ok_or_else(|| step.fault("a rotation about no axis"))?;
+            let axis =
+                triple_of(step, 0.0)?.try_normalize().ok_or_else(|| step.fault("the rotation axis has zero length"))?;
             Ok(DAffine3::from_mat3(rotation(degrees, axis)))
         }
         "lookat" => look_at(step),
         "matrix" => matrix(step),
-        tag => Err(step.fault(format!("<{tag}> in a transform; expected translate, rotate, scale, lookat or matrix"))),
+        tag => Err(step.fault(format!(
+            "unknown element <{tag}> in a transform; expected translate, rotate, scale, lookat or matrix"
+        ))),
     }
 }
 
@@ -61,34 +68,39 @@ fn rotation(degrees: f64, axis: DVec3) -> DMat3 {
 /// Camera transform: x to the left, y upwards, z forward.
 fn look_at(step: &MitsubaElement) -> Result<DAffine3, Error> {
     let three = |name: &str| {
-        let text = step.attribute(name).ok_or_else(|| step.fault(format!("<lookat> without \"{name}\"")))?;
+        let text = step.attribute(name).ok_or_else(|| step.fault(format!("<lookat> has no \"{name}\"")))?;
         match numbers_of(text).map_err(|told| step.fault(told))?[..] {
             [x, y, z] => Ok(DVec3::new(x, y, z)),
             _ => Err(step.fault(format!("\"{name}\" of <lookat>: expected three numbers"))),
         }
     };
     let (origin, target) = (three("origin")?, three("target")?);
-    let ahead = (target - origin).try_normalize().ok_or_else(|| step.fault("<lookat> looks at its own place"))?;
+    let ahead = (target - origin)
+        .try_normalize()
+        .ok_or_else(|| step.fault("\"origin\" and \"target\" of <lookat> coincide"))?;
     let up = match step.attribute("up") {
         Some(_) => three("up")?,
         None => ahead.any_orthonormal_vector(),
     };
-    let left = up.cross(ahead).try_normalize().ok_or_else(|| step.fault("<lookat> looks along its up"))?;
+    let left = up
+        .cross(ahead)
+        .try_normalize()
+        .ok_or_else(|| step.fault("\"up\" of <lookat> is parallel to the viewing direction"))?;
     Ok(DAffine3::from_mat3_translation(DMat3::from_cols(left, ahead.cross(left), ahead), origin))
 }
 
 /// Matrix, row by row.
 fn matrix(step: &MitsubaElement) -> Result<DAffine3, Error> {
-    let text = step.attribute("value").ok_or_else(|| step.fault("<matrix> without \"value\""))?;
+    let text = step.attribute("value").ok_or_else(|| step.fault("<matrix> has no \"value\""))?;
     let numbers = numbers_of(text).map_err(|told| step.fault(told))?;
     if let Ok(rows) = <[f64; 9]>::try_from(&numbers[..]) {
         return Ok(DAffine3::from_mat3(DMat3::from_cols_array(&rows).transpose()));
     }
     let rows = <[f64; 16]>::try_from(&numbers[..])
-        .map_err(|_| step.fault(format!("{} numbers; a <matrix> has 9 or 16", numbers.len())))?;
+        .map_err(|_| step.fault(format!("{} numbers in a <matrix>; expected 9 or 16", numbers.len())))?;
     match rows[12..] == [0.0, 0.0, 0.0, 1.0] {
         true => Ok(DAffine3::from_mat4(DMat4::from_cols_array(&rows).transpose())),
-        false => Err(step.fault("a matrix that is no affine transform; expected 0, 0, 0, 1 as its last row")),
+        false => Err(step.fault("the matrix is not affine; expected 0, 0, 0, 1 as its last row")),
     }
 }
 

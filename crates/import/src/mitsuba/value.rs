@@ -33,7 +33,7 @@ fn paired(nm: Vec<f64>, values: Vec<f64>) -> Result<Value<'static>, String> {
     let points: Vec<(f64, f64)> = nm.iter().copied().zip(values.iter().copied()).collect();
     match nm.len() == values.len() && nm.len() >= 2 && points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
         true => Ok(Value::Table(points)),
-        false => Err("expected two or more pairs of wavelength and value, wavelengths rising".to_owned()),
+        false => Err("expected two or more pairs of wavelength and value, in order of rising wavelength".to_owned()),
     }
 }
 
@@ -45,7 +45,7 @@ fn stated_spectrum(text: &str) -> Result<Value<'static>, String> {
     let words = text.split(|c: char| c == ',' || c.is_ascii_whitespace()).filter(|word| !word.is_empty());
     let pair = |word: &str| match word.split_once(':') {
         Some((nm, value)) => Ok((number_of(nm)?, number_of(value)?)),
-        None => Err(format!("a part of a spectrum has no wavelength before it: {word:.40}")),
+        None => Err(format!("an entry of a spectrum has no wavelength: {word:.40}; expected WAVELENGTH:VALUE")),
     };
     let (nm, values) = words.map(pair).collect::<Result<Vec<_>, String>>()?.into_iter().unzip();
     paired(nm, values)
@@ -61,7 +61,7 @@ fn spectrum_of_file(text: &str) -> Result<Value<'static>, String> {
                 nm.push(wavelength);
                 values.push(value);
             }
-            _ => return Err("expected lines of a wavelength and a value".to_owned()),
+            _ => return Err("expected a wavelength and a value on each line".to_owned()),
         }
     }
     paired(nm, values)
@@ -87,31 +87,31 @@ impl<'a> Importer<'a> {
             ("rgb", _, Some(value)) => match numbers_of(value).map_err(told)?[..] {
                 [one] => Ok(Value::Rgb([one; 3])),
                 [r, g, b] => Ok(Value::Rgb([r, g, b])),
-                ref others => Err(told(format!("{} numbers, where an rgb has three", others.len()))),
+                ref others => Err(told(format!("{} numbers in an rgb; expected three", others.len()))),
             },
             ("spectrum", "", Some(value)) => stated_spectrum(value).map_err(told),
             ("spectrum", "", None) => match element.attribute("filename") {
                 Some(name) => self.spectrum_file(name).map_err(told),
-                None => Err(told("a spectrum without \"value\" or \"filename\"".to_owned())),
+                None => Err(told("the spectrum has neither \"value\" nor \"filename\"".to_owned())),
             },
             ("volume", "constvolume", _) => self.inner(element, "value"),
             ("spectrum" | "texture", kind, _) => self.plugin(element, kind),
-            (tag, ..) => Err(told(format!("<{tag}> where a number, a colour or a texture is expected"))),
+            (tag, ..) => Err(told(format!("expected a number, a colour or a texture, found <{tag}>"))),
         }
     }
 
     fn spectrum_file(&self, name: &str) -> Result<Value<'static>, String> {
         let bytes = read_regular(&self.file(name), &limits::DESCRIPTION).map_err(|e| format!("{name}: {e}"))?;
-        let text = String::from_utf8(bytes).map_err(|_| format!("{name}: no text"))?;
+        let text = String::from_utf8(bytes).map_err(|_| format!("{name}: not a text file"))?;
         spectrum_of_file(&text).map_err(|told| format!("{name}: {told}"))
     }
 
     /// Value of a wrapper, which holds another value. A wrapper may contain neither another wrapper nor itself.
     fn inner(&self, element: &'a MitsubaElement, name: &str) -> Result<Value<'a>, Error> {
-        let told = |what: &str| element.fault(format!("a {} \"{}\" {what} \"{name}\"", element.tag, element.kind()));
-        let held = find(element, name).ok_or_else(|| told("without"))?;
+        let told = |what: &str| element.fault(format!("the {} \"{}\" {what} \"{name}\"", element.tag, element.kind()));
+        let held = find(element, name).ok_or_else(|| told("has no"))?;
         match self.resolve(held)?.kind() {
-            "srgb" | "constvolume" => Err(told("with another such as its")),
+            "srgb" | "constvolume" => Err(told("cannot have another wrapper as its")),
             _ => self.value_of(held),
         }
     }
@@ -119,7 +119,7 @@ impl<'a> Importer<'a> {
     fn plugin(&self, element: &'a MitsubaElement, kind: &str) -> Result<Value<'a>, Error> {
         let list = |name: &str| match text(element, name)? {
             Some(numbers) => numbers_of(numbers).map_err(|told| element.fault(told)),
-            None => Err(element.fault(format!("a spectrum \"{kind}\" without \"{name}\""))),
+            None => Err(element.fault(format!("the spectrum \"{kind}\" has no \"{name}\""))),
         };
         match kind {
             "uniform" => Ok(Value::Even(number(element, "value", 1.0)?)),
@@ -128,7 +128,7 @@ impl<'a> Importer<'a> {
                 let kelvin = number(element, "temperature", 5000.0)?;
                 match kelvin > 0.0 {
                     true => Ok(Value::BlackBody(kelvin)),
-                    false => Err(element.fault(format!("a black body of {kelvin} K"))),
+                    false => Err(element.fault(format!("the temperature of a black body is {kelvin} K; expected a number above 0"))),
                 }
             }
             "srgb" => self.inner(element, "color"),
@@ -143,7 +143,7 @@ impl<'a> Importer<'a> {
             }
             _ if element.tag == "texture" => Ok(Value::Texture(element)),
             other => Err(element.fault(format!(
-                "the spectrum \"{other}\" is not read; expected uniform, regular, irregular, blackbody, d65 or srgb"
+                "the spectrum \"{other}\" is not supported; expected uniform, regular, irregular, blackbody, d65 or srgb"
             ))),
         }
     }
@@ -157,7 +157,7 @@ impl<'a> Importer<'a> {
             Some(Value::Even(level)) => LightUnit { colour: illuminant_of("E"), luminance: level },
             Some(Value::Rgb(rgb)) => {
                 if rgb.iter().any(|v| *v < 0.0) {
-                    return Err(element.fault(format!("\"{name}\": light below 0")));
+                    return Err(element.fault(format!("\"{name}\": emission is below 0")));
                 }
                 let luminance = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
                 LightUnit { colour: LightColour::Rgb(rgb.into()), luminance }
@@ -165,7 +165,9 @@ impl<'a> Importer<'a> {
             Some(Value::BlackBody(kelvin)) => {
                 let legal = kelvin.clamp(500.0, 20_000.0);
                 if legal != kelvin {
-                    self.scenery.report.note(format!("a black body of {kelvin} K is one of {legal} K"));
+                    self.scenery
+                        .report
+                        .note(format!("the temperature {kelvin} K of a black body is limited to {legal} K"));
                 }
                 let luminance = relative_luminance(&illuminant::blackbody(legal));
                 LightUnit { colour: LightColour::Temperature(legal.into()), luminance }
@@ -178,13 +180,13 @@ impl<'a> Importer<'a> {
                 LightUnit { colour, luminance: relative_luminance(&spectrum) }
             }
             Some(Value::Texture(_)) => {
-                self.scenery.report.note("the picture of a light is not used: it is white of 1 everywhere");
+                self.scenery.report.note("the texture of a light is not used: its radiance is a uniform white of 1");
                 white(1.0)
             }
         };
         match unit.luminance >= 0.0 && unit.luminance.is_finite() {
             true => Ok(unit),
-            false => Err(element.fault(format!("\"{name}\": light below 0"))),
+            false => Err(element.fault(format!("\"{name}\": emission is below 0"))),
         }
     }
 
@@ -199,7 +201,7 @@ impl<'a> Importer<'a> {
                 Colour::Spectrum(scenery.spectrum_file(&points).as_str().into())
             }
             Value::BlackBody(_) | Value::D65(_) => {
-                scenery.report.note(format!("\"{name}\" is the spectrum of a light: grey of 0.5 in its place"));
+                scenery.report.note(format!("\"{name}\" is an emission spectrum: grey of 0.5 is used instead"));
                 Colour::Grey(0.5.into())
             }
             Value::Texture(_) => return None,
@@ -223,7 +225,9 @@ impl<'a> Importer<'a> {
                 (Spectrum::from_points(&points, Outside::Hold).map_err(|e| told(e.to_string()))?, None)
             }
             Some(_) => {
-                self.scenery.report.note(format!("\"{name}\" that is no number, colour or table is {default}"));
+                self.scenery
+                    .report
+                    .note(format!("\"{name}\" is not a number, colour or table and is set to {default}"));
                 even(default)
             }
         };

@@ -27,7 +27,7 @@ impl Film {
     pub(super) fn read(parameters: Parameters<'_>) -> Result<Self, String> {
         let pixels = |name: &str, default: f64| match parameters.number(name, default)? {
             n if (1.0..=65_536.0).contains(&n) && n.fract() == 0.0 => Ok(n as u64),
-            n => Err(format!("\"{name}\" of {n}; expected a whole number from 1 to 65536")),
+            n => Err(format!("\"{name}\" is {n}; expected an integer from 1 to 65536")),
         };
         Ok(Self { size_px: [pixels("xresolution", 1280.0)?, pixels("yresolution", 720.0)?] })
     }
@@ -74,7 +74,7 @@ impl PbrtCamera {
             "perspective" => {
                 let fov_deg = parameters.number("fov", 90.0)?;
                 if !(0.0..180.0).contains(&fov_deg) || fov_deg == 0.0 {
-                    return Err(format!("a field of {fov_deg}°; expected an angle between 0° and 180°"));
+                    return Err(format!("the field of view is {fov_deg}°; expected an angle between 0° and 180°"));
                 }
                 Kind::Perspective { fov_deg }
             }
@@ -82,7 +82,8 @@ impl PbrtCamera {
             other => {
                 parameters.0.iter().for_each(|p| p.used.set(true));
                 report.note(format!(
-                    "the camera \"{other}\" is not understood: a perspective of {STAND_IN_DEG}° from its place is ours (a lens file: state it as our lens)"
+                    "the camera \"{other}\" is not supported: a perspective camera of {STAND_IN_DEG}° at its position is used instead (convert a lens \
+                        file to an Étendue lens)"
                 ));
                 Kind::Perspective { fov_deg: STAND_IN_DEG }
             }
@@ -94,7 +95,7 @@ impl PbrtCamera {
             parameters.numbers("frameaspectratio")?.and_then(|n| n.first().copied()).filter(|a| *a > 0.0);
         for name in ["shutteropen", "shutterclose"] {
             if parameters.find(name).is_some() {
-                report.note("the camera's shutter is not used: nothing moves");
+                report.note("the shutter of the camera is not used: the scene is static");
             }
         }
         let lens = (radius > 0.0 && focus > 0.0).then_some([radius, focus]);
@@ -113,7 +114,7 @@ impl PbrtCamera {
         let [half_x, half_y] = match self.window {
             Some([x0, x1, y0, y1]) => {
                 if x0 + x1 != 0.0 || y0 + y1 != 0.0 {
-                    report.note("a \"screenwindow\" that is not centred is centred");
+                    report.note("an off-centre \"screenwindow\" is centred");
                 }
                 [0.5 * (x1 - x0).abs(), 0.5 * (y1 - y0).abs()]
             }
@@ -121,7 +122,7 @@ impl PbrtCamera {
             None => [1.0, 1.0 / aspect],
         };
         if ((half_x / half_y) * (height as f64 / width as f64) - 1.0).abs() > 1e-3 {
-            report.note("pixels that are not square are square: the picture's height holds");
+            report.note("non-square pixels become square; the height of the image is unchanged");
         }
         let axis = |v: DVec3| to_ours * (self.to_world.matrix3 * v);
         let yfov_rad = |fov_deg: f64| 2.0 * maths::atan2(half_y * maths::tan(0.5 * fov_deg.to_radians()), 1.0);
@@ -130,21 +131,21 @@ impl PbrtCamera {
                 let yfov_rad = yfov_rad(fov_deg);
                 let field = yfov_rad.to_degrees();
                 report.note(format!(
-                    "camera: perspective of {field:.4}° in height, a lens of radius {radius_m} m that is focused on {focus_m} m"
+                    "camera: perspective, vertical field of view {field:.4}°, lens radius {radius_m} m, focused at {focus_m} m"
                 ));
                 View::Lens { yfov_rad, radius_m, focus_m }
             }
             (Kind::Perspective { fov_deg }, None) => {
                 let yfov_rad = yfov_rad(fov_deg);
-                report.note(format!("camera: perspective of {:.4}° in height", yfov_rad.to_degrees()));
+                report.note(format!("camera: perspective, vertical field of view {:.4}°", yfov_rad.to_degrees()));
                 View::Perspective { yfov_rad }
             }
             (Kind::Orthographic, lens) => {
                 if lens.is_some() {
-                    report.note("the lens of an orthographic camera is not used: all is sharp");
+                    report.note("the lens of an orthographic camera is not used: everything is in focus");
                 }
                 let width_m = 2.0 * half_x * axis(DVec3::X).length();
-                report.note(format!("camera: orthographic of {width_m} m in width"));
+                report.note(format!("camera: orthographic, {width_m} m wide"));
                 View::Orthographic { width_m }
             }
         };

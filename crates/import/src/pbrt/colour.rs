@@ -9,7 +9,7 @@ use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
 pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
     let found = numbers.len();
-    numbers.try_into().map_err(|_| format!("\"{name}\": {found} numbers, where an rgb has three"))
+    numbers.try_into().map_err(|_| format!("\"{name}\": {found} numbers in an rgb; expected three"))
 }
 
 /// Distance beyond its ends at which a spectrum is 0, nm.
@@ -21,7 +21,7 @@ fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
     let rising = pairs.windows(2).all(|pair| pair[0].0 < pair[1].0);
     match numbers.len().is_multiple_of(2) && !pairs.is_empty() && rising {
         true => Ok(pairs),
-        false => Err(format!("\"{name}\": expected pairs of wavelength and value, wavelengths rising")),
+        false => Err(format!("\"{name}\": expected pairs of wavelength and value, in order of rising wavelength")),
     }
 }
 
@@ -47,16 +47,16 @@ impl Scenery {
             ("rgb" | "color", PbrtValues::Numbers(numbers)) => {
                 let rgb = three(name, numbers)?;
                 if rgb.iter().any(|v| *v < 0.0) {
-                    return Err(format!("\"{name}\": light below 0"));
+                    return Err(format!("\"{name}\": emission is below 0"));
                 }
                 let luminance = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
                 Ok(LightUnit { colour: LightColour::Rgb(rgb.into()), luminance })
             }
             ("blackbody", PbrtValues::Numbers(numbers)) => {
-                let kelvin = *numbers.first().ok_or("a black body without its temperature")?;
+                let kelvin = *numbers.first().ok_or("the black body has no temperature")?;
                 let legal = kelvin.clamp(500.0, 20_000.0);
                 if legal != kelvin {
-                    self.report.note(format!("a black body of {kelvin} K is one of {legal} K"));
+                    self.report.note(format!("the temperature {kelvin} K of a black body is limited to {legal} K"));
                 }
                 Ok(LightUnit { colour: LightColour::Temperature(legal.into()), luminance: 1.0 })
             }
@@ -66,7 +66,7 @@ impl Scenery {
                 Ok(LightUnit { colour: LightColour::Spectrum(file.as_str().into()), luminance: 1.0 })
             }
             ("spectrum", PbrtValues::Texts(texts)) => Ok(self.named_light(texts)),
-            (kind, _) => Err(format!("\"{kind} {name}\" is no light; expected rgb, blackbody or spectrum")),
+            (kind, _) => Err(format!("\"{kind} {name}\" is not an emission; expected rgb, blackbody or spectrum")),
         }
     }
 
@@ -75,7 +75,7 @@ impl Scenery {
         let own = name.strip_prefix("stdillum-").map(|name| name.replace('F', "FL"));
         let known = own.filter(|name| illuminant::names().contains(&name.as_str()));
         if known.is_none() {
-            self.report.note(format!("the light's spectrum \"{name}\" is not known: D65 in its place"));
+            self.report.note(format!("the emission spectrum \"{name}\" is unknown: D65 is used instead"));
         }
         LightUnit { colour: illuminant_of(known.as_deref().unwrap_or("D65")), luminance: 1.0 }
     }
@@ -97,10 +97,12 @@ impl Scenery {
             ("spectrum", PbrtValues::Texts(texts)) => {
                 let shown = texts.first().map_or("", String::as_str);
                 self.report
-                    .note(format!("the spectrum \"{shown}\" of a surface is not known: grey of 0.5 in its place"));
+                    .note(format!("the spectrum \"{shown}\" of a surface is unknown: grey of 0.5 is used instead"));
                 Ok(Colour::Grey(0.5.into()))
             }
-            (kind, _) => Err(format!("\"{kind} {name}\" is no share of light; expected rgb or spectrum")),
+            (kind, _) => {
+                Err(format!("\"{kind} {name}\" is not a reflectance or transmittance; expected rgb or spectrum"))
+            }
         }
     }
 
@@ -117,7 +119,9 @@ impl Scenery {
             Some(("spectrum", PbrtValues::Numbers(numbers))) => {
                 return Ok((table(name, numbers, Outside::Zero)?, None));
             }
-            Some((kind, _)) => return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths")),
+            Some((kind, _)) => {
+                return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths and values"));
+            }
         };
         coefficient_of_rgb(name, rgb)
     }

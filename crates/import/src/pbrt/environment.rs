@@ -27,12 +27,12 @@ impl Scenery {
         let path = self.source_folder.join(file);
         let image = read_picture(&path).map_err(|e| e.to_string())?.in_rec_709();
         let Some(texels) = Texels::of(&image) else {
-            self.report.note(format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)"));
+            self.report.note(format!("the environment map `{file}` is left out: expected linear values (EXR, HDR)"));
             return Ok(None);
         };
         if image.width != image.height {
             return Err(format!(
-                "`{file}` of {} by {} pixels; pbrt-v4 has squares (imgtool makeequiarea)",
+                "`{file}` has {} by {} pixels; pbrt-v4 expects a square image (imgtool makeequiarea)",
                 image.width, image.height
             ));
         }
@@ -41,7 +41,7 @@ impl Scenery {
             None => scale,
         };
         if scale <= 0.0 || !scale.is_finite() {
-            self.report.note("a light \"infinite\" is dark and left out");
+            self.report.note("a light \"infinite\" emits no light and is left out");
             return Ok(None);
         }
         // 4 n² pixels of the square sample the sphere as finely as 2 n × 4 n of ours at the horizon.
@@ -50,7 +50,7 @@ impl Scenery {
         let found = |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
         let path = self.environment_file(rows, &found)?;
         self.report
-            .note(format!("the light of `{file}`: resampled to {} by {rows} pixels, 1 is {scale} cd/m²", 2 * rows));
+            .note(format!("environment map `{file}`: resampled to {} by {rows} pixels, 1 is {scale} cd/m²", 2 * rows));
         Ok(Some(Environment::Image(EnvironmentImage::new(path.as_str(), scale))))
     }
 }

@@ -82,17 +82,17 @@ impl Interpreter {
             "ReverseOrientation" => self.graphics.reverse_orientation = !self.graphics.reverse_orientation,
             "AttributeBegin" | "TransformBegin" => {
                 if self.blocks.len() >= MAX_DEPTH {
-                    return Err(format!("blocks stand more than {MAX_DEPTH} deep in one another"));
+                    return Err(format!("blocks are nested more than {MAX_DEPTH} levels deep"));
                 }
                 self.blocks.push((name == "AttributeBegin", self.graphics.clone()));
             }
             "AttributeEnd" | "TransformEnd" => match self.blocks.pop() {
                 Some((true, before)) if name == "AttributeEnd" => self.graphics = before,
                 Some((false, before)) if name == "TransformEnd" => self.graphics.to_world = before.to_world,
-                _ => return Err(format!("`{name}` without its beginning; the file is damaged")),
+                _ => return Err(format!("`{name}` has no matching begin; the file is damaged")),
             },
             "ObjectEnd" => {
-                self.open_object.take().ok_or("`ObjectEnd` without its beginning; the file is damaged")?;
+                self.open_object.take().ok_or("`ObjectEnd` has no matching `ObjectBegin`; the file is damaged")?;
                 return self.plain("AttributeEnd");
             }
             _ => {}
@@ -102,7 +102,7 @@ impl Interpreter {
 
     fn begin_world(&mut self) -> Result<(), String> {
         if std::mem::replace(&mut self.in_world, true) {
-            return Err("a second `WorldBegin`".to_owned());
+            return Err("duplicate `WorldBegin`; remove one".to_owned());
         }
         let camera = self.camera.get_or_insert_with(PbrtCamera::at_origin);
         self.scenery.to_ours = camera.to_ours();
@@ -117,7 +117,7 @@ impl Interpreter {
         } else {
             self.scenery
                 .report
-                .note("motion (`ActiveTransform`) is not used: all stands as at the start of the exposure");
+                .note("motion (`ActiveTransform`) is not used: everything is placed as at the start of the exposure");
         }
     }
 
@@ -139,7 +139,7 @@ impl Interpreter {
             }
         };
         if !next.is_finite() || next.matrix3.determinant() == 0.0 {
-            return Err(format!("`{name}` makes a space without extent; correct its numbers"));
+            return Err(format!("`{name}` makes the transform singular; correct its numbers"));
         }
         self.set(next);
         Ok(())
@@ -152,13 +152,13 @@ impl Interpreter {
             }
             "CoordSysTransform" => match self.systems.get(&word) {
                 Some(system) => self.set(*system),
-                None => return Err(format!("no coordinate system \"{word}\" stands before this")),
+                None => return Err(format!("the coordinate system \"{word}\" is not defined before this")),
             },
             "NamedMaterial" => self.graphics.material = self.scenery.named_material(&word),
             "ObjectBegin" => {
                 self.plain("AttributeBegin")?;
                 if self.open_object.is_some() {
-                    return Err("an object within an object".to_owned());
+                    return Err("objects cannot be nested".to_owned());
                 }
                 self.objects.insert(word.clone(), Vec::new());
                 self.open_object = Some(word);
@@ -166,7 +166,7 @@ impl Interpreter {
             "ObjectInstance" => return self.instance(&word),
             "ActiveTransform" => self.at_start = word != "EndTime",
             "ColorSpace" if word != "srgb" => {
-                self.scenery.report.note(format!("colours of \"{word}\" are taken as sRGB's"));
+                self.scenery.report.note(format!("colours of \"{word}\" are read as sRGB"));
             }
             _ => {}
         }
@@ -185,14 +185,12 @@ impl Interpreter {
             }
             "Film" => {
                 self.film = Film::read(given).map_err(message)?;
-                self.scenery
-                    .report
-                    .note(format!("the film \"{kind}\" gives the size of the picture, and no more is used of it"));
+                self.scenery.report.note(format!("of the film \"{kind}\" only the image size is used"));
             }
             "Sampler" | "Integrator" | "PixelFilter" | "Accelerator" => {
-                self.scenery.report.note(format!("{name} \"{kind}\" is not used: how light is found is the job's"));
+                self.scenery.report.note(format!("{name} \"{kind}\" is not used: the job has its own settings"));
             }
-            "Attribute" => self.scenery.report.note(format!("`Attribute \"{kind}\"` is not understood and left out")),
+            "Attribute" => self.scenery.report.note(format!("`Attribute \"{kind}\"` is not supported and left out")),
             "Material" => self.graphics.material = self.scenery.material(&kind, given, None).map_err(message)?,
             "MakeNamedMaterial" => {
                 let of = given.text("type").map_err(message)?.unwrap_or("").to_owned();
@@ -211,7 +209,7 @@ impl Interpreter {
 
     fn shape(&mut self, kind: String, parameters: Vec<PbrtParameter>) -> Result<(), String> {
         if !self.in_world {
-            return Err("a shape before `WorldBegin`".to_owned());
+            return Err("the shape is before `WorldBegin`".to_owned());
         }
         if let Some(object) = &self.open_object {
             let graphics = self.graphics.clone();
@@ -224,12 +222,13 @@ impl Interpreter {
 
     fn instance(&mut self, word: &str) -> Result<(), String> {
         if self.open_object.is_some() {
-            return Err("an instance within an object".to_owned());
+            return Err("an object cannot contain an instance".to_owned());
         }
-        let stored = self.objects.get(word).ok_or_else(|| format!("no object \"{word}\" stands before this"))?;
+        let stored =
+            self.objects.get(word).ok_or_else(|| format!("the object \"{word}\" is not defined before this"))?;
         for Stored { kind, parameters, graphics } in stored {
             if graphics.area_light.is_some() {
-                self.scenery.report.note("shapes of instances give no light, as in pbrt");
+                self.scenery.report.note("shapes of instances emit no light, as in pbrt");
             }
             let to_world = self.graphics.to_world * graphics.to_world;
             let placed = Graphics { to_world, area_light: None, ..graphics.clone() };
@@ -241,10 +240,12 @@ impl Interpreter {
     /// Files of the scene.
     pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
         if !self.in_world {
-            return Err("it has no `WorldBegin`: no scene of pbrt-v4 (older ones: pbrt --upgrade)".to_owned());
+            return Err(
+                "`WorldBegin` is missing: not a pbrt-v4 scene (upgrade older files with pbrt --upgrade)".to_owned()
+            );
         }
         if !self.blocks.is_empty() {
-            return Err("a block has no end: the file may be truncated".to_owned());
+            return Err("a block is not closed; the file may be truncated".to_owned());
         }
         self.scenery.report.at(String::new());
         let camera = self.camera.take().unwrap_or_else(PbrtCamera::at_origin);
@@ -255,7 +256,7 @@ impl Interpreter {
             [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];
         let [objects, materials, textures, lights, media] = counts;
         report.note(format!(
-            "made: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
+            "written: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
         ));
         let mut made = written(file, &scene, &[camera.camera], report.lines());
         made.files.extend(files);
@@ -265,7 +266,7 @@ impl Interpreter {
 
 /// Rotation by Rodrigues' formula; degrees.
 fn rotation(degrees: f64, axis: DVec3) -> Result<DMat3, String> {
-    let axis = axis.try_normalize().ok_or("`Rotate` about no axis")?;
+    let axis = axis.try_normalize().ok_or("the axis of `Rotate` has zero length")?;
     let (s, c) = maths::sin_cos(degrees.to_radians());
     let column = |v: DVec3| c * v + s * axis.cross(v) + (1.0 - c) * axis.dot(v) * axis;
     Ok(DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)))
@@ -273,15 +274,16 @@ fn rotation(degrees: f64, axis: DVec3) -> Result<DMat3, String> {
 
 /// Transform from a camera (x right, y up, z forward) to the world.
 fn look_at(eye: DVec3, look: DVec3, up: DVec3) -> Result<DAffine3, String> {
-    let ahead = (look - eye).try_normalize().ok_or("`LookAt` looks at its own place")?;
-    let right = up.cross(ahead).try_normalize().ok_or("`LookAt` looks along its up")?;
+    let ahead = (look - eye).try_normalize().ok_or("the eye and the target of `LookAt` coincide")?;
+    let right =
+        up.cross(ahead).try_normalize().ok_or("the up vector of `LookAt` is parallel to the viewing direction")?;
     Ok(DAffine3::from_mat3_translation(DMat3::from_cols(right, ahead.cross(right), ahead), eye))
 }
 
 fn affine(numbers: &[f64]) -> Result<DAffine3, String> {
-    let numbers: [f64; 16] = numbers.try_into().map_err(|_| "a matrix of 16 numbers is expected")?;
+    let numbers: [f64; 16] = numbers.try_into().map_err(|_| "expected a matrix of 16 numbers")?;
     match [numbers[3], numbers[7], numbers[11], numbers[15]] == [0.0, 0.0, 0.0, 1.0] {
         true => Ok(DAffine3::from_mat4(DMat4::from_cols_array(&numbers))),
-        false => Err("a matrix that is no affine transform; expected 0, 0, 0, 1 as every fourth number".to_owned()),
+        false => Err("the matrix is not affine; expected 0, 0, 0, 1 as every fourth number".to_owned()),
     }
 }

@@ -21,7 +21,7 @@ impl Scenery {
     ) -> Result<(), String> {
         let scale = parameters.number("scale", 1.0)?;
         if scale < 0.0 {
-            return Err("\"scale\" below 0".to_owned());
+            return Err("\"scale\" is below 0".to_owned());
         }
         match kind {
             "point" => self.point(parameters, graphics, scale),
@@ -29,7 +29,7 @@ impl Scenery {
             "distant" => self.distant(parameters, graphics, scale),
             "infinite" => self.infinite(parameters, graphics, scale),
             other => {
-                self.report.note(format!("the light \"{other}\" is not understood and left out"));
+                self.report.note(format!("the light \"{other}\" is not supported and left out"));
                 parameters.0.iter().for_each(|p| p.used.set(true));
                 Ok(())
             }
@@ -57,11 +57,11 @@ impl Scenery {
         let [from, to] = [("from", [0.0; 3]), ("to", [0.0, 0.0, 1.0])]
             .map(|(name, default)| parameters.triple(name, default).map(DVec3::from_array));
         let (from, to) = (graphics.to_world.transform_point3(from?), graphics.to_world.transform_point3(to?));
-        let ahead = (self.to_ours * (to - from)).try_normalize().ok_or("\"from\" and \"to\" are one point")?;
+        let ahead = (self.to_ours * (to - from)).try_normalize().ok_or("\"from\" and \"to\" coincide")?;
         let outer_deg = parameters.number("coneangle", 30.0)?;
         let inner_deg = outer_deg - parameters.number("conedeltaangle", 5.0)?;
         if !(0.0..=180.0).contains(&outer_deg) || outer_deg == 0.0 || !(0.0..=outer_deg).contains(&inner_deg) {
-            return Err(format!("a cone from {inner_deg}° to {outer_deg}°; expected 0 ≤ inner ≤ outer ≤ 180"));
+            return Err(format!("the cone is from {inner_deg}° to {outer_deg}°; expected 0 ≤ inner ≤ outer ≤ 180"));
         }
         let [inner, outer] = [inner_deg, outer_deg].map(|a| maths::cos(a.to_radians()));
         let solid_angle = TAU * ((1.0 - inner) + 0.5 * (inner - outer));
@@ -78,7 +78,7 @@ impl Scenery {
         let from = DVec3::from_array(parameters.triple("from", [0.0; 3])?);
         let to = DVec3::from_array(parameters.triple("to", [0.0, 0.0, 1.0])?);
         let towards = self.to_ours * (graphics.to_world.matrix3 * (from - to));
-        let towards = towards.try_normalize().ok_or("\"from\" and \"to\" are one point")?;
+        let towards = towards.try_normalize().ok_or("\"from\" and \"to\" coincide")?;
         let stated = parameters.numbers("illuminance")?.and_then(|n| n.first().copied()).filter(|e| *e > 0.0);
         let Some(lux) = self.lit("distant", "lx", stated.unwrap_or(1.0) * scale * unit.luminance) else {
             return Ok(());
@@ -91,14 +91,14 @@ impl Scenery {
     fn infinite(&mut self, parameters: Parameters<'_>, graphics: &Graphics, scale: f64) -> Result<(), String> {
         let lux = parameters.numbers("illuminance")?.and_then(|n| n.first().copied()).filter(|e| *e > 0.0);
         if parameters.find("portal").is_some() {
-            self.report.note("a portal is not used: it changes noise alone");
+            self.report.note("a portal is not used: it affects only noise");
         }
         let environment = match parameters.text("filename")? {
             Some(file) => {
                 if lux.is_some() {
                     // Its sum over the upper half uses 2π instead of 4π.
                     self.report
-                        .note("\"illuminance\" of a picture of light is lx; pbrt-v4 itself makes it twice as much");
+                        .note("\"illuminance\" of an environment map is in lx; pbrt-v4 itself renders twice as much");
                 }
                 self.environment(file, graphics, scale, lux)?
             }
@@ -112,7 +112,7 @@ impl Scenery {
         };
         let Some(environment) = environment else { return Ok(()) };
         if self.scene.environment.replace(environment).is_some() {
-            self.report.note("of several lights from infinity only the last is used");
+            self.report.note("of several environment lights only the last is used");
         }
         Ok(())
     }
@@ -123,7 +123,7 @@ impl Scenery {
             self.report.note(format!("light \"{kind}\": {level} {unit}"));
             return Some(level);
         }
-        self.report.note(format!("a light \"{kind}\" is dark and left out"));
+        self.report.note(format!("a light \"{kind}\" emits no light and is left out"));
         None
     }
 }
@@ -132,17 +132,17 @@ impl Scenery {
     /// `None` for a dark light.
     pub(super) fn area_light(&mut self, kind: &str, parameters: Parameters<'_>) -> Result<Option<AreaLight>, String> {
         if kind != "diffuse" {
-            self.report.note(format!("the area light \"{kind}\" is not understood and left out"));
+            self.report.note(format!("the area light \"{kind}\" is not supported and left out"));
             return Ok(None);
         }
         if parameters.find("filename").is_some() {
-            self.report.note("the picture of an area light is not used: it is as bright everywhere");
+            self.report.note("the image of an area light is not used: its emission is uniform");
         }
         let unit = self.light(parameters, "L")?;
         let luminance = parameters.number("scale", 1.0)? * unit.luminance;
         let power = parameters.numbers("power")?.and_then(|n| n.first().copied()).filter(|p| *p > 0.0);
         if luminance <= 0.0 {
-            self.report.note("an area light is dark and left out");
+            self.report.note("an area light emits no light and is left out");
             return Ok(None);
         }
         let two_sided = parameters.flag("twosided", false)?;
@@ -155,7 +155,7 @@ impl Scenery {
         let kind = parameters.text("type")?.unwrap_or_default();
         if kind != "homogeneous" {
             self.report
-                .note(format!("the medium \"{name}\" ({kind}) is not understood and left out: expected homogeneous"));
+                .note(format!("the medium \"{name}\" ({kind}) is not supported and left out: expected homogeneous"));
             parameters.0.iter().for_each(|p| p.used.set(true));
             return Ok(());
         }
@@ -176,7 +176,7 @@ impl Scenery {
         let stated = parameters.number("g", 0.0)?;
         let g = stated.clamp(-0.99, 0.99);
         if g != stated {
-            self.report.note(format!("a medium of g = {stated} is one of {g}"));
+            self.report.note(format!("g = {stated} of a medium is limited to {g}"));
         }
         self.known.media.insert(name.to_owned(), Homogeneous { extinction, albedo, g });
         Ok(())
@@ -186,7 +186,7 @@ impl Scenery {
     pub(super) fn fill_air(&mut self, name: &str) {
         if !name.is_empty() {
             self.report.note(format!(
-                "the camera's medium \"{name}\" fills the whole world, and adds to those of shapes within it"
+                "the medium \"{name}\" of the camera fills the whole scene and adds to the media of shapes in it"
             ));
             self.fill(name, MediumShape::Everywhere(Everywhere::default()), Transform::default());
         }

@@ -61,7 +61,9 @@ impl Scenery {
                 own
             }
             None => {
-                self.report.note(format!("no material \"{name}\" stands before its use: grey of 0.5 in its place"));
+                self.report.note(format!(
+                    "the material \"{name}\" is not defined before its use: a diffuse grey of 0.5 is used instead"
+                ));
                 "".into()
             }
         }
@@ -73,7 +75,7 @@ impl Scenery {
             "coateddiffuse" => Surface::Coated(self.coated(parameters)?),
             "conductor" => Surface::Conductor(self.conductor(parameters, "")?),
             "coatedconductor" => {
-                self.report.note("the coat of a \"coatedconductor\" is not used: its metal is bare");
+                self.report.note("the coat of a \"coatedconductor\" is not used: only its metal is");
                 Surface::Conductor(self.conductor(parameters, "conductor.")?)
             }
             "dielectric" => {
@@ -88,7 +90,7 @@ impl Scenery {
             }
             "diffusetransmission" => {
                 if parameters.number("scale", 1.0)? != 1.0 {
-                    self.report.note("\"scale\" of a \"diffusetransmission\" is taken as 1");
+                    self.report.note("\"scale\" of a \"diffusetransmission\" is set to 1");
                 }
                 let reflectance = self.reflectance(parameters, "reflectance", 0.25)?;
                 Surface::Leaf(Leaf::new(reflectance, self.reflectance(parameters, "transmittance", 0.25)?))
@@ -96,7 +98,8 @@ impl Scenery {
             "mix" => self.mix(parameters)?,
             "interface" | "none" | "" => return Ok(None),
             other => {
-                self.report.note(format!("the material \"{other}\" is not understood: grey of 0.5 in its place"));
+                self.report
+                    .note(format!("the material \"{other}\" is not supported: a diffuse grey of 0.5 is used instead"));
                 parameters.0.iter().for_each(|p| p.used.set(true));
                 Surface::Diffuse(Diffuse::new(plain(0.5)))
             }
@@ -115,7 +118,7 @@ impl Scenery {
                 if let (Factor::Number(a), Factor::Number(b)) = (&a, &b)
                     && a.value != b.value
                 {
-                    self.report.note("roughness that differs by direction is alike in all: α is the geometric mean");
+                    self.report.note("anisotropic roughness becomes isotropic: α is the geometric mean");
                     return Ok(Factor::Number((a.value * b.value).sqrt().into()));
                 }
                 Ok(a)
@@ -128,7 +131,9 @@ impl Scenery {
         let index = match &eta.values {
             PbrtValues::Numbers(numbers) if numbers.len() == 1 => numbers[0],
             PbrtValues::Numbers(numbers) => {
-                self.report.note("an index over the wavelength is that at 587.6 nm: glass bodies do not disperse");
+                self.report.note(
+                    "a spectral refractive index is replaced by its value at 587.6 nm: dielectrics are not dispersive",
+                );
                 f64::from(table("eta", numbers, Outside::Hold)?.at(587.56))
             }
             PbrtValues::Texts(texts) => {
@@ -145,9 +150,13 @@ impl Scenery {
                 ];
                 let found = known.iter().find(|(glass, _)| *glass == name);
                 match found {
-                    Some(_) => self.report.note("a glass is its index at 587.6 nm: glass bodies do not disperse"),
+                    Some(_) => self.report.note(
+                        "a glass is replaced by its refractive index at 587.6 nm: dielectrics are not dispersive",
+                    ),
                     None => {
-                        self.report.note(format!("the glass \"{name}\" is not known: an index of 1.5 in its place"));
+                        self.report.note(format!(
+                            "the glass \"{name}\" is unknown: a refractive index of 1.5 is used instead"
+                        ));
                     }
                 }
                 found.map_or(1.5, |(_, index)| *index)
@@ -156,27 +165,27 @@ impl Scenery {
         };
         let legal = index.clamp(1.0, 4.0);
         if legal != index {
-            self.report.note(format!("an index of {index} is one of {legal}"));
+            self.report.note(format!("the refractive index {index} is limited to {legal}"));
         }
         Ok(legal)
     }
 
     fn coated(&mut self, parameters: Parameters<'_>) -> Result<Coated, String> {
         if parameters.numbers("albedo")?.is_some_and(|a| a.iter().any(|v| *v != 0.0)) {
-            self.report.note("light that a coat scatters within itself (\"albedo\") is not used");
+            self.report.note("scattering in a coat (\"albedo\") is not used");
         }
         // Scattering within the coat matters only with an albedo, and the number of bounces is our own.
         ["g", "maxdepth", "nsamples"].iter().for_each(|name| {
             parameters.find(name);
         });
         if parameters.find("thickness").is_some() {
-            self.report.note("the \"thickness\" of a coat is not used: light leaves it where it went in");
+            self.report.note("the \"thickness\" of a coat is not used: light leaves it at the point of entry");
         }
         let reflectance = self.reflectance(parameters, "reflectance", 0.5)?;
         let stated = self.index(parameters)?;
         let index = stated.clamp(*COAT_INDICES.start(), *COAT_INDICES.end());
         if index != stated {
-            self.report.note(format!("a coat of index {stated} is one of {index}"));
+            self.report.note(format!("the refractive index {stated} of a coat is limited to {index}"));
         }
         let alpha = self.alpha(parameters, "")?;
         Ok(Coated { index: Some(index.into()), ..Coated::new(reflectance, alpha) })
@@ -192,18 +201,18 @@ impl Scenery {
     }
 
     fn metal_of_reflectance(&mut self, parameters: Parameters<'_>) -> Result<Metal, String> {
-        let parameter = parameters.find("reflectance").ok_or("no reflectance")?;
+        let parameter = parameters.find("reflectance").ok_or("\"reflectance\" is missing")?;
         let rgb = match self.texture_of(parameter, true)? {
             Some(KnownTexture::Even(rgb)) => rgb,
             Some(KnownTexture::Picture { .. }) => {
-                self.report.note("a picture of a metal's reflectance is 0.5");
+                self.report.note("the reflectance of a metal from an image is set to 0.5");
                 [0.5; 3]
             }
             None => match self.share(parameter)? {
                 Colour::Grey(v) => [v.value; 3],
                 Colour::LinearSrgb(rgb) => rgb.value,
                 _ => {
-                    self.report.note("a table of a metal's reflectance is 0.5");
+                    self.report.note("the reflectance of a metal from a table is set to 0.5");
                     [0.5; 3]
                 }
             },
@@ -221,7 +230,7 @@ impl Scenery {
                 if metal::names().contains(&symbol) {
                     return Ok(Metal::Named(symbol.into()));
                 }
-                self.report.note(format!("the metal \"{name}\" is not known: aluminium in its place"));
+                self.report.note(format!("the metal \"{name}\" is unknown: aluminium is used instead"));
                 Ok(Metal::Named("Al".into()))
             }
             (Some(PbrtValues::Numbers(n)), Some(PbrtValues::Numbers(k))) => {
@@ -239,8 +248,8 @@ impl Scenery {
     }
 
     fn mix(&mut self, parameters: Parameters<'_>) -> Result<Surface, String> {
-        let names = parameters.texts("materials")?.ok_or("a mix without its \"materials\"")?;
-        let [a, b] = names else { return Err(format!("{} materials, where a mix has two", names.len())) };
+        let names = parameters.texts("materials")?.ok_or("the mix has no \"materials\"")?;
+        let [a, b] = names else { return Err(format!("{} materials in a mix; expected two", names.len())) };
         let [a, b] = [a, b].map(|name| {
             let own = self.named_material(name);
             self.known_material(if &*own == INTERFACE { "" } else { &own })

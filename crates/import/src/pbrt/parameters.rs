@@ -28,7 +28,7 @@ impl<'a> Parameters<'a> {
         match self.numbers(name)? {
             None => Ok(default),
             Some([number]) => Ok(*number),
-            Some(others) => Err(format!("\"{name}\": {} numbers, where one is expected", others.len())),
+            Some(others) => Err(format!("\"{name}\": expected one number, found {}", others.len())),
         }
     }
 
@@ -38,7 +38,7 @@ impl<'a> Parameters<'a> {
             None => Ok(default),
             Some(numbers) => {
                 let found = numbers.len();
-                numbers.try_into().map_err(|_| format!("\"{name}\": {found} numbers, where three are expected"))
+                numbers.try_into().map_err(|_| format!("\"{name}\": expected three numbers, found {found}"))
             }
         }
     }
@@ -48,7 +48,7 @@ impl<'a> Parameters<'a> {
         match self.texts(name)? {
             None => Ok(None),
             Some([text]) => Ok(Some(text)),
-            Some(_) => Err(format!("\"{name}\": several texts, where one is expected")),
+            Some(_) => Err(format!("\"{name}\": expected one string, found several")),
         }
     }
 
@@ -56,7 +56,7 @@ impl<'a> Parameters<'a> {
         match self.find(name).map(|p| &p.values) {
             None => Ok(None),
             Some(PbrtValues::Texts(texts)) => Ok(Some(texts)),
-            Some(_) => Err(format!("\"{name}\": expected a quoted text")),
+            Some(_) => Err(format!("\"{name}\": expected a quoted string")),
         }
     }
 

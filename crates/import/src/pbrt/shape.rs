@@ -21,7 +21,7 @@ impl Scenery {
                 self.mesh(mesh, graphics).map_err(message)?;
             }
             "bilinearmesh" => {
-                self.report.note("bilinear patches are two triangles each: exact where they are flat");
+                self.report.note("bilinear patches become two triangles each, which is exact for flat patches");
                 let mesh = Triangles::of_patches(parameters).map_err(message)?;
                 self.mesh(mesh, graphics).map_err(message)?;
             }
@@ -31,10 +31,10 @@ impl Scenery {
             other => {
                 let why = match other {
                     "loopsubdiv" => {
-                        "surfaces are not subdivided here: pbrt --format or another program makes a mesh of it"
+                        "subdivision is not supported; convert it to a mesh with pbrt --format or another program"
                     }
-                    "curve" => "hairs have no shape here",
-                    _ => "it has no shape here",
+                    "curve" => "hair is not supported",
+                    _ => "this shape is not supported",
                 };
                 self.report.note(format!("the shape \"{other}\" is left out: {why}"));
                 return Ok(());
@@ -52,9 +52,9 @@ impl Scenery {
                 // pbrt's scenes hide lights in this way: an invisible shape still emits light.
                 self.report.note(match graphics.area_light {
                     Some(_) => {
-                        "a light of alpha 0, which pbrt lets shine unseen, is left out: what shines is seen here"
+                        "an area light of alpha 0, which is an invisible light in pbrt, is left out: lights are visible here"
                     }
-                    None => "a shape of alpha 0 is left out: it is not there",
+                    None => "a shape of alpha 0 is left out: it is invisible",
                 });
                 return Ok(None);
             }
@@ -64,9 +64,9 @@ impl Scenery {
     }
 
     fn ply(&mut self, parameters: Parameters<'_>) -> Result<Triangles, String> {
-        let name = parameters.text("filename")?.ok_or("no \"filename\"")?;
+        let name = parameters.text("filename")?.ok_or("\"filename\" is missing")?;
         if name.ends_with(".gz") {
-            return Err(format!("`{name}`: compressed files are not read; unpack it and change the name"));
+            return Err(format!("`{name}`: compressed files are not supported; decompress it and change the name"));
         }
         if parameters.find("displacement").is_some() {
             self.report.note("\"displacement\" of a mesh is not used");
@@ -106,8 +106,7 @@ impl Scenery {
 
     /// Adds a round shape as one mesh.
     fn round(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
-        self.report
-            .note("cylinders, and spheres and discs that carry a picture or are not whole, are meshes of 256 sides");
+        self.report.note("cylinders, and spheres and discs that are textured or partial, become meshes of 256 sides");
         self.surface(mesh, graphics, 1)
     }
 
@@ -166,7 +165,10 @@ impl Triangles {
         let uvs = whole::<2, f64>("uv", uvs.unwrap_or_default())?.to_vec();
         for (name, found) in [("N", normals.len()), ("uv", uvs.len())] {
             if found != 0 && found != positions.len() {
-                return Err(format!("{found} of \"{name}\" for {} of \"P\"", positions.len()));
+                return Err(format!(
+                    "{found} values of \"{name}\" for {} values of \"P\"; expected as many",
+                    positions.len()
+                ));
             }
         }
         Ok(Self { positions, normals, uvs, triangles: Vec::new() })
@@ -186,7 +188,7 @@ fn indices<const N: usize>(parameters: Parameters<'_>, vertices: usize) -> Resul
             whole::<N, u32>("indices", &legal).map(<[_]>::to_vec)
         }
         None if vertices == N => Ok(vec![std::array::from_fn(|i| i as u32)]),
-        None => Err("no \"indices\"".to_owned()),
+        None => Err("\"indices\" is missing".to_owned()),
     }
 }
 
@@ -200,6 +202,6 @@ fn index(value: f64, vertices: usize) -> Result<u32, String> {
 fn whole<'a, const N: usize, T>(name: &str, values: &'a [T]) -> Result<&'a [[T; N]], String> {
     match values.as_chunks::<N>() {
         (chunks, []) => Ok(chunks),
-        _ => Err(format!("\"{name}\": {} numbers, which is no multiple of {N}", values.len())),
+        _ => Err(format!("\"{name}\": {} numbers; expected a multiple of {N}", values.len())),
     }
 }

@@ -49,7 +49,7 @@ impl Scenery {
             _ => None,
         };
         let known = known.unwrap_or_else(|| {
-            self.report.note(format!("texture \"{name}\" ({kind}) is not understood: 0.5 in its place"));
+            self.report.note(format!("the texture \"{name}\" ({kind}) is not supported: 0.5 is used instead"));
             KnownTexture::Even([0.5; 3])
         });
         self.known.textures.insert((is_colour, name.to_owned()), known);
@@ -74,10 +74,10 @@ impl Scenery {
         is_colour: bool,
         parameters: Parameters<'_>,
     ) -> Result<Option<KnownTexture>, String> {
-        let file = parameters.text("filename")?.ok_or("an imagemap without \"filename\"")?;
+        let file = parameters.text("filename")?.ok_or("the imagemap has no \"filename\"")?;
         let ending = file.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         if !ENDINGS.contains(&ending.as_str()) {
-            self.report.note(format!("the picture `{file}` is of a kind that is not read; convert it to PNG or EXR"));
+            self.report.note(format!("the format of the image `{file}` is not supported; convert it to PNG or EXR"));
             return Ok(None);
         }
         let is_linear = matches!(ending.as_str(), "hdr" | "exr");
@@ -87,7 +87,7 @@ impl Scenery {
             None | Some("sRGB") => Encoding::Srgb,
             Some("linear") if ending == "png" => Encoding::Linear,
             Some(other) => {
-                self.report.note(format!("the encoding \"{other}\" of a picture is taken as sRGB's"));
+                self.report.note(format!("the encoding \"{other}\" of an image is read as sRGB"));
                 Encoding::Srgb
             }
         };
@@ -95,12 +95,12 @@ impl Scenery {
             None | Some("repeat") => Wrap::Repeat,
             Some("clamp") => Wrap::Clamp,
             Some(other) => {
-                self.report.note(format!("pictures with wrap \"{other}\" have their edge outside"));
+                self.report.note(format!("wrap \"{other}\" of an image becomes clamp"));
                 Wrap::Clamp
             }
         };
         if parameters.flag("invert", false)? {
-            self.report.note("\"invert\" of a picture is not understood: 0.5 in its place");
+            self.report.note("\"invert\" of an image is not supported: 0.5 is used instead");
             return Ok(None);
         }
         let pair = |a: &str, b: &str, default: f64| {
@@ -108,7 +108,7 @@ impl Scenery {
         };
         let (uv_scale, uv_offset) = (pair("uscale", "vscale", 1.0)?, pair("udelta", "vdelta", 0.0)?);
         if uv_scale.iter().any(|s| *s <= 0.0) || !matches!(parameters.text("mapping")?, None | Some("uv")) {
-            self.report.note(format!("the mapping of texture \"{name}\" is not understood: 0.5 in its place"));
+            self.report.note(format!("the mapping of the texture \"{name}\" is not supported: 0.5 is used instead"));
             return Ok(None);
         }
         let scale = parameters.number("scale", 1.0)?;
@@ -179,14 +179,14 @@ impl Scenery {
         let name = texts.first().cloned().unwrap_or_default();
         match self.known.textures.get(&(is_colour, name.clone())) {
             Some(known) => Ok(Some(known.clone())),
-            None => Err(format!("\"{}\": no texture \"{name}\" stands before this", parameter.name)),
+            None => Err(format!("\"{}\": the texture \"{name}\" is not defined before this", parameter.name)),
         }
     }
 
     /// Scale within our legal range for textures.
     fn legal_scale(&mut self, scale: f64) -> Option<f64> {
         if scale > 1.0 {
-            self.report.note("a picture times more than 1 is taken times 1");
+            self.report.note("a scale above 1 of an image is set to 1");
         }
         (scale < 1.0).then_some(scale.max(1e-6))
     }
@@ -228,7 +228,7 @@ impl Scenery {
                 Some(KnownTexture::Picture { name: texture, scale, has_alpha }) => {
                     self.known.pictures_laid += 1;
                     if map(0.25) != 0.25 {
-                        self.report.note(format!("a picture of \"{name}\" is taken as α itself, not as its square"));
+                        self.report.note(format!("an image of \"{name}\" is used as α directly, not as α²"));
                     }
                     let scale = self.legal_scale(scale).map(Into::into);
                     let channel = has_alpha.then(|| Channel::Alpha.into());
@@ -242,7 +242,7 @@ impl Scenery {
         };
         let (mapped, legal) = (map(even), map(even).clamp(0.0, 1.0));
         if mapped != legal {
-            self.report.note(format!("\"{name}\" of {even} comes to {mapped}: {legal} in its place"));
+            self.report.note(format!("\"{name}\" of {even} gives {mapped}: {legal} is used instead"));
         }
         Ok(Factor::Number(legal.into()))
     }

@@ -93,7 +93,7 @@ impl Scenery {
         if is_upright(&turn) {
             let [azimuth, _] = azimuth_elevation_deg(turn.x_axis);
             let [degrees, ..] = rounded([azimuth, 0.0, 0.0]);
-            self.report.note(format!("the light of `{shown}`: 1 is {scale} cd/m²"));
+            self.report.note(format!("environment map `{shown}`: 1 is {scale} cd/m²"));
             let picture = EnvironmentImage::new(path, scale);
             let rotation_deg = (degrees != 0.0).then(|| degrees.into());
             return Ok(Environment::Image(EnvironmentImage { rotation_deg, ..picture }));
@@ -105,7 +105,7 @@ impl Scenery {
             bilinear(pixel, [columns, rows], [across * columns as f64 - 0.5, down * rows as f64 - 0.5])
         };
         let written = self.environment_file(rows, &found)?;
-        self.report.note(format!("the light of `{shown}`: turned, and resampled; 1 is {scale} cd/m²"));
+        self.report.note(format!("environment map `{shown}`: rotated and resampled, 1 is {scale} cd/m²"));
         Ok(Environment::Image(EnvironmentImage::new(written.as_str(), scale)))
     }
 }

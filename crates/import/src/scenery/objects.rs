@@ -54,7 +54,7 @@ impl Scenery {
         };
         let placed = self.placed(graphics).translation;
         if graphics.reverse_orientation && graphics.area_light.is_some() {
-            self.report.note("a sphere that shines inwards shines outwards");
+            self.report.note("a sphere that emits inwards emits outwards here");
         }
         let is_even = (scale.max_element() - scale.min_element()).abs() <= 1e-9 * scale.max_element();
         let (radius, transform) = match is_even {
@@ -109,7 +109,7 @@ impl Scenery {
         if self.scene.materials.iter().any(is_glass) {
             let medium = &graphics.inside;
             self.report.note(format!(
-                "warning: the medium \"{medium}\" inside glass is left out: light is neither scattered nor absorbed there"
+                "warning: the medium \"{medium}\" in a dielectric is left out: light is neither scattered nor absorbed in it"
             ));
             return;
         }
@@ -120,7 +120,7 @@ impl Scenery {
     fn is_seen(&mut self, graphics: &Graphics) -> bool {
         let is_border = &*graphics.material == INTERFACE;
         if is_border && graphics.area_light.is_some() {
-            self.report.note("a shape that is the border of a medium alone gives no light here");
+            self.report.note("a shape that is only the interface of a medium emits no light here");
         }
         !is_border
     }
@@ -131,7 +131,7 @@ impl Scenery {
             None => self.known_material(&graphics.material),
             Some(light) => {
                 if light.has_flux() && count > 1 {
-                    self.report.note("\"power\" of an area light holds for each triangle of a mesh, as in pbrt; triangles are taken as equally bright");
+                    self.report.note("\"power\" of an area light applies to each triangle of a mesh, as in pbrt; all triangles are assumed equally bright");
                 }
                 self.glowing(&graphics.material, light.emission(count))
             }
@@ -154,7 +154,7 @@ fn fills(graphics: &Graphics) -> bool {
 
 /// Checks that a number is above 0.
 pub(crate) fn above_zero(name: &str, value: f64) -> Result<f64, String> {
-    if value > 0.0 { Ok(value) } else { Err(format!("\"{name}\" of {value}; expected a number above 0")) }
+    if value > 0.0 { Ok(value) } else { Err(format!("\"{name}\" is {value}; expected a number above 0")) }
 }
 
 /// Rotation and the scales before it, equal to a matrix up to a rotation of x; `None` if it shears.

@@ -51,7 +51,7 @@ impl Scenery {
 /// Coefficient, 0 or more, from three numbers; the second value is the number if they are equal.
 pub(crate) fn coefficient_of_rgb(name: &str, rgb: [f64; 3]) -> Result<(Spectrum, Option<f64>), String> {
     if rgb.iter().any(|v| *v < 0.0) {
-        return Err(format!("\"{name}\" below 0"));
+        return Err(format!("\"{name}\" is below 0"));
     }
     // Like pbrt's colours beyond 1: a reflectance of half the largest, times twice that.
     let largest = rgb.iter().fold(0.0_f64, |most, v| most.max(*v));

@@ -144,7 +144,9 @@ impl Scenery {
     /// Refuses instances that exceed the limit.
     pub(crate) fn check_size(&self) -> Result<(), String> {
         if self.scene.objects.len() > MAX_OBJECTS {
-            return Err(format!("the scene has more than {MAX_OBJECTS} objects with all instances; instance less"));
+            return Err(format!(
+                "the scene has more than {MAX_OBJECTS} objects, counting each instance; use fewer instances"
+            ));
         }
         limits::MESH.check_unpacked(self.bytes).map_err(|problem| problem.words)
     }

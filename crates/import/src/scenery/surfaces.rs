@@ -19,7 +19,7 @@ impl Scenery {
     pub(crate) fn cut(&mut self, name: &str, share: f64) -> f64 {
         let legal = share.clamp(0.0, 1.0);
         if legal != share {
-            self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
+            self.report.note(format!("\"{name}\" is limited to 0 … 1"));
         }
         legal
     }
@@ -35,7 +35,8 @@ impl Scenery {
     /// Fills a part of the world with a medium; does nothing if the name is empty or not supported.
     pub(crate) fn fill(&mut self, name: &str, shape: MediumShape, transform: Transform) {
         let Some(Homogeneous { extinction, albedo, g }) = self.known.media.get(name).cloned() else {
-            self.report.note(format!("a part of the world has no medium: \"{name}\" is not there or not understood"));
+            self.report
+                .note(format!("a region of the scene has no medium: \"{name}\" is not defined or not supported"));
             return;
         };
         let phase = match g {

@@ -16,7 +16,7 @@ impl<'a> Importer<'a> {
     pub(super) fn camera(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
         let above_zero = |name: &str, usual: f64| match number(prim, name, usual) {
             v if v > 0.0 && v.is_finite() => Ok(v),
-            v => Err(format!("{}: \"{name}\" of {v}; expected a number above 0", prim.path)),
+            v => Err(format!("{}: \"{name}\" is {v}; expected a number above 0", prim.path)),
         };
         let (width, height) = (above_zero("horizontalAperture", 20.955)?, above_zero("verticalAperture", 15.2908)?);
         let focal = above_zero("focalLength", 50.0)?;
@@ -28,7 +28,7 @@ impl<'a> Importer<'a> {
             if number(prim, offset, 0.0) != 0.0 {
                 self.scenery
                     .report
-                    .note(format!("camera \"{name}\": its principal point is centred, without \"{offset}\""));
+                    .note(format!("camera \"{name}\": its principal point is centred; \"{offset}\" is not used"));
             }
         }
         let yfov_rad = 2.0 * maths::atan2(0.5 * height, focal);
@@ -37,20 +37,20 @@ impl<'a> Importer<'a> {
         let view = match text(prim, "projection") {
             "orthographic" => {
                 let width_m = 0.1 * width * axis(DVec3::X).length();
-                self.scenery.report.note(format!("camera \"{name}\": orthographic of {width_m} m in width"));
+                self.scenery.report.note(format!("camera \"{name}\": orthographic, {width_m} m wide"));
                 View::Orthographic { width_m }
             }
             _ if stop > 0.0 && focus > 0.0 => {
                 let (radius_m, focus_m) = (5e-4 * focal_mm / stop, focus * metres);
                 self.scenery.report.note(format!(
-                    "camera \"{name}\": {focal_mm} mm at f/{stop}, perspective of {:.4}° in height, focused on {focus_m} m",
+                    "camera \"{name}\": {focal_mm} mm at f/{stop}, perspective, vertical field of view {:.4}°, focused at {focus_m} m",
                     yfov_rad.to_degrees()
                 ));
                 View::Lens { yfov_rad, radius_m, focus_m }
             }
             _ => {
                 self.scenery.report.note(format!(
-                    "camera \"{name}\": {focal_mm} mm, perspective of {:.4}° in height, all sharp",
+                    "camera \"{name}\": {focal_mm} mm, perspective, vertical field of view {:.4}°, everything in focus",
                     yfov_rad.to_degrees()
                 ));
                 View::Perspective { yfov_rad }
@@ -58,7 +58,7 @@ impl<'a> Importer<'a> {
         };
         if !USUAL_MM.contains(&focal_mm) && text(prim, "projection") != "orthographic" {
             self.scenery.report.note(format!(
-                "camera \"{name}\": a focal length of {focal_mm} mm is unusual: check metersPerUnit, of which it is in tenths"
+                "camera \"{name}\": a focal length of {focal_mm} mm is unusual: check metersPerUnit (focal lengths are in tenths of a unit)"
             ));
         }
         let pose = pose_of(self.scenery.to_ours * state.to_world.translation, axis(DVec3::NEG_Z), axis(DVec3::Y));

@@ -29,7 +29,7 @@ impl<'a> Importer<'a> {
         if let Some(environment) = environment
             && self.scenery.scene.environment.replace(environment).is_some()
         {
-            self.scenery.report.note("of several lights from all round only the last is used");
+            self.scenery.report.note("of several dome lights only the last is used");
         }
         Ok(())
     }
@@ -44,21 +44,21 @@ impl<'a> Importer<'a> {
         let Some(stated) = asset(prim, "inputs:texture:file") else { return Ok(None) };
         let shown = stated.stated.as_str();
         if !matches!(text(prim, "inputs:texture:format"), "" | "automatic" | "latlong") {
-            self.scenery.report.note(format!("the picture of light `{shown}` is left out: expected latlong"));
+            self.scenery.report.note(format!("the environment map `{shown}` is left out: expected latlong"));
             return Ok(None);
         }
         if stated.file.is_none() {
-            self.scenery.report.note(format!("the picture of light `{shown}` is not there: no light from it"));
+            self.scenery.report.note(format!("the environment map `{shown}` does not exist: it emits no light"));
             return Ok(None);
         }
         if let LightColour::Rgb(rgb) = &unit.colour
             && grey(rgb.value).is_none()
         {
-            self.scenery.report.note("the colour of a dome with a picture is white of its luminance");
+            self.scenery.report.note("the colour of a dome light with a texture becomes white of the same luminance");
         }
         let image = self.image(stated)?;
         let Some(pixel) = linear_pixels(&image).filter(|_| is_linear(shown)) else {
-            let message = format!("the picture of light `{shown}` is left out: expected linear numbers (EXR, HDR)");
+            let message = format!("the environment map `{shown}` is left out: expected linear values (EXR, HDR)");
             self.scenery.report.note(message);
             return Ok(None);
         };

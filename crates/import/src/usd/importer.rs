@@ -84,9 +84,9 @@ impl<'a> Importer<'a> {
     /// Converts all prims.
     pub(super) fn read(&mut self) -> Result<(), String> {
         let metres = self.stage.metres_per_unit;
-        let by = if self.stage.says_metres { "as it says" } else { "as where nothing is said" };
+        let by = if self.stage.says_metres { "as stated" } else { "the default, as it is not stated" };
         let up = if self.stage.up == UsdAxis::Y { "y" } else { "z" };
-        self.scenery.report.note(format!("a length of 1 is {metres} m, {by}; {up} is up"));
+        self.scenery.report.note(format!("one unit is {metres} m ({by}); {up} is up"));
         self.stage.notes.iter().for_each(|note| self.scenery.report.note(note.as_str()));
         let bindings = Bindings::default();
         let state = State { to_world: self.root, is_visible: true, purpose: "", bindings, depth: 0 };
@@ -106,14 +106,14 @@ impl<'a> Importer<'a> {
             report.note(told);
         }
         if self.cameras.is_empty() {
-            report.note("it has no cameras: \"view\" is ours, which sees all of it from the front");
+            report.note("it has no cameras: \"view\" is added, which shows the whole scene from the front");
             let is_empty = self.low.x > self.high.x;
             let [low, high] = if is_empty { [DVec3::ZERO; 2] } else { [self.low, self.high] };
             self.cameras.push(whole_view(low, high));
         }
         let counts = [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len()];
         let [objects, materials, textures, lights] = counts;
-        report.note(format!("made: {objects} objects, {materials} materials, {textures} textures, {lights} lights"));
+        report.note(format!("written: {objects} objects, {materials} materials, {textures} textures, {lights} lights"));
         let mut made = written(file, &self.scenery.scene, &self.cameras, self.scenery.report.lines());
         made.files.extend(self.scenery.files);
         Ok(made)
@@ -123,7 +123,7 @@ impl<'a> Importer<'a> {
     pub(super) fn prim(&mut self, prim: &'a UsdPrim, about: &State<'a>) -> Result<(), String> {
         self.visits += 1;
         if self.visits > MAX_VISITS {
-            return Err(format!("it has more than {MAX_VISITS} prims with all instances; instance less"));
+            return Err(format!("it has more than {MAX_VISITS} prims, counting each instance; use fewer instances"));
         }
         self.scenery.report.at(prim.path.clone());
         let (own, is_reset) = transform_of(prim)?;
@@ -152,14 +152,12 @@ impl<'a> Importer<'a> {
     /// Bindings of a prim, within those of its parent.
     pub(super) fn bindings(&mut self, prim: &'a UsdPrim, about: &Bindings<'a>) -> Bindings<'a> {
         if binds_collections(prim) {
-            self.scenery.report.note("materials that are bound to collections are not used");
+            self.scenery.report.note("material bindings of collections are not used");
         }
         let paths = &self.paths;
         let is_material = |path: &str| paths.prim(path).is_some_and(|prim| prim.kind == "Material");
         for path in bound(prim).filter(|path| !is_material(path)) {
-            self.scenery
-                .report
-                .note(format!("the material <{path}> is not there: what is bound to it is as if it were not"));
+            self.scenery.report.note(format!("the material <{path}> does not exist: its bindings are ignored"));
         }
         about.within(prim, is_material)
     }
@@ -167,7 +165,7 @@ impl<'a> Importer<'a> {
     /// Notes that a prim is not drawn.
     pub(super) fn leave_undrawn(&mut self, prim: &UsdPrim) {
         super::access::leave(prim);
-        let told = "what is invisible, or for purposes other than rendering (guide, proxy), is left out";
+        let told = "prims that are invisible, or have a purpose other than rendering (guide, proxy), are left out";
         self.scenery.report.note(told);
     }
 
@@ -193,7 +191,9 @@ impl<'a> Importer<'a> {
                     self.scenery.report.note(format!("{kind}: \"{name}\" is not used"));
                 }
             } else if attribute.varies {
-                self.scenery.report.note(format!("{kind}: \"{name}\" changes: all stands as at time code {time}"));
+                self.scenery
+                    .report
+                    .note(format!("{kind}: \"{name}\" is animated: its value at time code {time} is used"));
             }
         }
         for (name, relation) in prim.relations.iter().filter(|(_, relation)| !relation.targets.is_empty()) {

@@ -25,7 +25,7 @@ impl<'a> Importer<'a> {
             ["DistantLight", "SphereLight", "DiskLight", "RectLight", "CylinderLight", "DomeLight", "DomeLight_1"];
         if !kinds.contains(&prim.kind.as_str()) {
             super::access::leave(prim);
-            self.scenery.report.note(format!("a \"{}\" is not understood and left out", prim.kind));
+            self.scenery.report.note(format!("a \"{}\" is not supported and left out", prim.kind));
             return Ok(());
         }
         let Some(unit) = self.light_unit(prim, usual) else { return Ok(()) };
@@ -46,7 +46,9 @@ impl<'a> Importer<'a> {
                 return Ok(());
             }
             (Some(_), _) => {
-                self.scenery.report.note(format!("the cone of a {} is not used: it shines all round", prim.kind));
+                self.scenery
+                    .report
+                    .note(format!("the cone of a {} is not used: it emits in all directions", prim.kind));
             }
             (None, "SphereLight") if flag(prim, "treatAsPoint", false) || number(prim, "inputs:radius", 0.5) <= 0.0 => {
                 let candela = self.candela(prim, state, unit.luminance);
@@ -70,7 +72,7 @@ impl<'a> Importer<'a> {
     fn area(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit) -> Result<(), String> {
         self.scenery.report.note(format!("{}: {} cd/m²", prim.kind, unit.luminance));
         if super::access::asset(prim, "inputs:texture:file").is_some() {
-            self.scenery.report.note("the picture of a RectLight is not used: it is white of 1 everywhere");
+            self.scenery.report.note("the texture of a RectLight is not used: it is a uniform white of 1");
         }
         let light = AreaLight { colour: unit.colour, luminance: unit.luminance, flux: None, two_sided: false };
         let graphics = Graphics {
@@ -132,7 +134,7 @@ impl<'a> Importer<'a> {
         }
         let [inner_deg, outer_deg] = cone;
         self.scenery.report.note(format!(
-            "SphereLight with a cone of {outer_deg}° is a spot of {candela} cd without a size; its edge falls by our own curve from {inner_deg}° on"
+            "SphereLight with a cone of {outer_deg}° becomes a point-like spot of {candela} cd; its falloff from {inner_deg}° follows Étendue's curve"
         ));
         let name = self.scenery.names.take(prim.name(), "light");
         let ahead = (self.scenery.to_ours * -state.to_world.matrix3.z_axis).normalize_or(DVec3::X);
@@ -141,7 +143,9 @@ impl<'a> Importer<'a> {
     }
 
     fn note_dark_point(&mut self) {
-        self.scenery.report.note("a SphereLight without a radius, and without \"normalize\", is dark and left out");
+        self.scenery
+            .report
+            .note("a SphereLight without a radius and without \"normalize\" emits no light and is left out");
     }
 
     /// Disc at infinity: its illuminance is its luminance times its projected solid angle.
@@ -150,9 +154,9 @@ impl<'a> Importer<'a> {
         let half = maths::sin(0.5 * angle_deg.min(180.0).to_radians());
         let lux = if is_divided || half == 0.0 { unit.luminance } else { unit.luminance * PI * half * half };
         let disc_deg = angle_deg.clamp(PARALLEL_DEG, MAX_SUN_DEG);
-        self.scenery.report.note(format!("DistantLight: {lux} lx, a sun's disc of {disc_deg}°"));
+        self.scenery.report.note(format!("DistantLight: {lux} lx, a sun disc of {disc_deg}°"));
         if angle_deg > MAX_SUN_DEG {
-            self.scenery.report.note(format!("the disc of a DistantLight of {angle_deg}° is one of {MAX_SUN_DEG}°"));
+            self.scenery.report.note(format!("the disc {angle_deg}° of a DistantLight is limited to {MAX_SUN_DEG}°"));
         }
         let name = self.scenery.names.take(prim.name(), "light");
         let from = (self.scenery.to_ours * state.to_world.matrix3.z_axis).normalize_or(DVec3::Z);

@@ -24,11 +24,11 @@ impl<'a> Importer<'a> {
         let has_temperature = flag(prim, "inputs:enableColorTemperature", false);
         let connected = ["inputs:intensity", "inputs:color", "inputs:exposure"];
         if connected.iter().any(|name| prim.attributes.get(*name).is_some_and(|a| !a.connections.is_empty())) {
-            self.scenery.report.note("what a light's inputs are connected to is not used: their own values hold");
+            self.scenery.report.note("connections of the inputs of a light are not used: their own values are used");
         }
         for (name, usual) in [("inputs:diffuse", 1.0), ("inputs:specular", 1.0)] {
             if number(prim, name, usual) != usual {
-                self.scenery.report.note("factors on diffuse and specular light of a lamp are not used");
+                self.scenery.report.note("the diffuse and specular factors of a light are not used");
             }
         }
         let unit = match (has_temperature, grey(rgb)) {
@@ -37,7 +37,7 @@ impl<'a> Importer<'a> {
             (true, even) => {
                 let legal = kelvin.clamp(500.0, 20_000.0);
                 if legal != kelvin {
-                    self.scenery.report.note(format!("a colour temperature of {kelvin} K is one of {legal} K"));
+                    self.scenery.report.note(format!("the colour temperature {kelvin} K is limited to {legal} K"));
                 }
                 match even {
                     Some(level) => {
@@ -50,14 +50,16 @@ impl<'a> Importer<'a> {
         if unit.luminance > 0.0 && unit.luminance.is_finite() {
             return Some(unit);
         }
-        self.scenery.report.note(format!("a {} is dark and left out", prim.kind));
+        self.scenery.report.note(format!("a {} emits no light and is left out", prim.kind));
         None
     }
 
     /// Light of an emissive mesh, without "normalize".
     pub(super) fn mesh_light(&mut self, prim: &'a UsdPrim) -> Option<AreaLight> {
         let unit = self.light_unit(prim, 1.0)?;
-        self.scenery.report.note(format!("a mesh shines, {} cd/m², its own emission apart", unit.luminance));
+        self.scenery
+            .report
+            .note(format!("mesh light: {} cd/m², in addition to the emission of its material", unit.luminance));
         Some(AreaLight { colour: unit.colour, luminance: unit.luminance, flux: None, two_sided: false })
     }
 }

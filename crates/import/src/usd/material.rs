@@ -44,8 +44,8 @@ impl<'a> Importer<'a> {
         let (Some(shader), "UsdPreviewSurface") = (found, id) else {
             self.scenery.report.at(prim.path.clone());
             let told = match id {
-                "" => "a material without a surface is grey of 0.5".to_owned(),
-                id => format!("a surface \"{id}\" is not understood: grey of 0.5 in its place"),
+                "" => "a material without a surface becomes a diffuse grey of 0.5".to_owned(),
+                id => format!("the surface \"{id}\" is not supported: a diffuse grey of 0.5 is used instead"),
             };
             self.scenery.report.note(told);
             return Ok(BoundMaterial::default());
@@ -56,7 +56,7 @@ impl<'a> Importer<'a> {
         let surface = self.surface(shader, &name)?;
         let normal_map = self.normal_map(shader)?;
         if normal_map.is_some() && matches!(surface, Surface::Mix(_)) {
-            self.scenery.report.note("the normals of a surface between plastic and metal are not used");
+            self.scenery.report.note("the normal map of a surface between dielectric and metal is not used");
         }
         let material = Material {
             emission: self.emission(shader)?,
@@ -77,7 +77,7 @@ impl<'a> Importer<'a> {
             Some(_) => true,
         };
         if stands(self, "inputs:clearcoat", 0.0) {
-            self.scenery.report.note("a second coat (clearcoat) is not used");
+            self.scenery.report.note("clearcoat is not used");
         }
         let _ = stands(self, "inputs:clearcoatRoughness", 0.01);
         for (name, usual) in [("displacement", 0.0), ("occlusion", 1.0)] {
@@ -96,7 +96,8 @@ impl<'a> Importer<'a> {
         let stated = self.plain_number(shader, "inputs:ior").unwrap_or(1.5);
         if self.is_clear(shader) {
             self.scenery.report.note(
-                "a surface of an opacity of 0.5 or less is a pane without thickness: light goes straight through; for a solid that refracts write type = \"dielectric\"",
+                "a surface with an opacity of at most 0.5 becomes a thin sheet, which transmits light without refraction; for a refracting solid set type \
+                    = \"dielectric\"",
             );
             let index = self.index_within("ior", stated, 1.0..=4.0);
             return Ok(Surface::ThinSheet(ThinSheet { index: Some(index.into()), ..ThinSheet::default() }));
@@ -126,13 +127,11 @@ impl<'a> Importer<'a> {
         let colour = self.mean_colour(shader, "inputs:specularColor", [0.0; 3])?;
         let share: f64 = colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
         if share > 0.25 {
-            self.scenery
-                .report
-                .note("a surface whose highlights reflect more than a quarter is a metal of their colour");
+            self.scenery.report.note("a surface with a specular reflectance above 0.25 becomes a metal of this colour");
             return Ok(Surface::Conductor(Conductor::new(self.scenery.metal_of_rgb(colour), alpha)));
         }
         if grey(colour).is_none() {
-            self.scenery.report.note("the colour of highlights (specularColor) is white of its luminance");
+            self.scenery.report.note("the specular colour (specularColor) becomes white of the same luminance");
         }
         Ok(self.coated(base, "specularColor", index_of(share), &alpha))
     }
@@ -152,7 +151,7 @@ impl<'a> Importer<'a> {
         if legal != stated {
             let [low, high] = [range.start(), range.end()];
             self.scenery.report.note(format!(
-                "the refractive index {stated} of \"{name}\" is taken as {legal}: expected {low} … {high}"
+                "the refractive index {stated} of \"{name}\" is limited to {legal}: expected {low} … {high}"
             ));
         }
         legal
@@ -184,7 +183,9 @@ impl<'a> Importer<'a> {
         };
         let is_whole = matches!(&opacity, Factor::Number(v) if v.value == 1.0);
         if !is_whole && threshold <= 0.0 && !self.is_presence(shader) {
-            self.scenery.report.note("opacity is the share of the surface that is there, its highlights with it");
+            self.scenery
+                .report
+                .note("opacity is the fraction of the surface that is present, including its specular reflection");
         }
         Ok(Some(opacity).filter(|_| !is_whole))
     }
@@ -207,7 +208,7 @@ impl<'a> Importer<'a> {
             return Ok(None);
         }
         self.scenery.report.at(shader.path.clone());
-        self.scenery.report.note(format!("a surface shines to both sides, {luminance} cd/m²"));
+        self.scenery.report.note(format!("a surface emits on both sides, {luminance} cd/m²"));
         let colour = match grey(rgb) {
             Some(_) => LightColour::Illuminant("D65".into()),
             None => LightColour::Rgb(rgb.into()),
@@ -223,7 +224,7 @@ impl<'a> Importer<'a> {
         let is_down = node.scale[1] < 0.0;
         let expected = |i: usize| (node.scale[i].abs() - 2.0).abs() < 1e-6 && (node.bias[i].abs() - 1.0).abs() < 1e-6;
         if !(0..3).all(expected) {
-            self.scenery.report.note("a picture of normals is read as 2 v − 1, whatever its scale and bias");
+            self.scenery.report.note("a normal map is read as 2 v − 1; its scale and bias are not used");
         }
         let y = is_down.then(|| Green::Down.into());
         let name = self.data_picture(&node)?;
@@ -254,7 +255,7 @@ impl<'a> Importer<'a> {
             Some(Input::Shader(node, output)) => match self.picture(node, &output, name)? {
                 Picture::Even(rgb) => rgb,
                 Picture::Node(node) => {
-                    self.scenery.report.note("the picture of a metal's colour is its mean");
+                    self.scenery.report.note("the colour image of a metal is replaced by its mean");
                     self.mean(&node)?
                 }
             },

@@ -46,10 +46,10 @@ impl<'a> PolygonMesh<'a> {
     pub(super) fn read(prim: &'a UsdPrim) -> Result<Self, String> {
         let points = tuples::<3>(prim, "points");
         if points.iter().flatten().any(|v| !v.is_finite()) {
-            return Err("a point that is no finite number".to_owned());
+            return Err("\"points\" has a value that is not finite".to_owned());
         }
-        let counts = indices(prim, "faceVertexCounts").ok_or("a face of fewer than no corners")?;
-        let corners = indices(prim, "faceVertexIndices").ok_or("a corner at a point below 0")?;
+        let counts = indices(prim, "faceVertexCounts").ok_or("\"faceVertexCounts\" has a value below 0")?;
+        let corners = indices(prim, "faceVertexIndices").ok_or("\"faceVertexIndices\" has a value below 0")?;
         let begins: Vec<usize> = std::iter::once(0)
             .chain(counts.iter().scan(0_usize, |sum, count| {
                 *sum = sum.saturating_add(*count);
@@ -58,10 +58,10 @@ impl<'a> PolygonMesh<'a> {
             .collect();
         let stated = begins.last().copied().unwrap_or_default();
         if stated != corners.len() {
-            return Err(format!("its faces have {stated} corners, of which {} are there", corners.len()));
+            return Err(format!("its faces have {stated} corners, and \"faceVertexIndices\" has {}", corners.len()));
         }
         if let Some(beyond) = corners.iter().find(|corner| **corner >= points.len()) {
-            return Err(format!("a corner at point {beyond}, of {}", points.len()));
+            return Err(format!("a face refers to point {beyond}, and there are {} points", points.len()));
         }
         let counts = Counts { faces: counts.len(), points: points.len(), corners: corners.len() };
         let scheme = match text(prim, "subdivisionScheme") {
@@ -207,7 +207,7 @@ impl<'a, const N: usize> Primvar<'a, N> {
             return Ok(None);
         }
         if values.iter().flatten().any(|v| !v.is_finite()) {
-            return Err(format!("\"{name}\" that is no finite number"));
+            return Err(format!("\"{name}\" has a value that is not finite"));
         }
         let stated = prim.attributes.get(name).map_or("", |attribute| attribute.interpolation.as_str());
         let (interpolation, count) = match if stated.is_empty() { usual } else { stated } {
@@ -215,20 +215,20 @@ impl<'a, const N: usize> Primvar<'a, N> {
             "uniform" => (Interpolation::Faces, counts.faces),
             "vertex" | "varying" => (Interpolation::Points, counts.points),
             "faceVarying" => (Interpolation::Corners, counts.corners),
-            other => return Err(format!("\"{name}\" of an interpolation \"{other}\", which there is not")),
+            other => return Err(format!("\"{name}\" has an unknown interpolation \"{other}\"")),
         };
         let by = format!("{name}:indices");
         let has_indices = matches!(prim.value(&by), Some(UsdValue::Numbers(list)) if !list.is_empty());
         let indices = match has_indices {
-            true => Some(indices(prim, &by).ok_or_else(|| format!("\"{by}\" below 0"))?),
+            true => Some(indices(prim, &by).ok_or_else(|| format!("\"{by}\" has a value below 0"))?),
             false => None,
         };
         let found = indices.as_ref().map_or(values.len(), Vec::len);
         if found < count {
-            return Err(format!("\"{name}\" has {found} values where the mesh has {count}"));
+            return Err(format!("\"{name}\" has {found} values; the mesh needs {count}"));
         }
         if indices.iter().flatten().take(count).any(|index| *index >= values.len()) {
-            return Err(format!("\"{by}\" goes beyond the {} values", values.len()));
+            return Err(format!("\"{by}\" has an index beyond the {} values", values.len()));
         }
         Ok(Some(Self { values, indices, interpolation }))
     }

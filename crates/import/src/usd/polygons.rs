@@ -58,10 +58,12 @@ impl<'a> Importer<'a> {
             let bindings = self.bindings(subset, &state.bindings);
             let Some(path) = bindings.material().filter(|_| is_bound(subset)) else { continue };
             if !matches!(text(subset, "elementType"), "" | "face") {
-                self.scenery.report.note("a GeomSubset of other than faces is not used");
+                self.scenery.report.note("a GeomSubset of elements other than faces is not used");
                 continue;
             }
-            for face in indices(subset, "indices").ok_or_else(|| format!("{}: a face below 0", subset.path))? {
+            for face in
+                indices(subset, "indices").ok_or_else(|| format!("{}: \"indices\" has a value below 0", subset.path))?
+            {
                 if taken.get(face) == Some(&false) {
                     taken[face] = true;
                     by_material.entry(path).or_default().push(face);
@@ -76,9 +78,9 @@ impl<'a> Importer<'a> {
     fn note_scheme(&mut self, scheme: Scheme) {
         self.scenery.report.note(match scheme {
             Scheme::None => return,
-            Scheme::Bilinear => "a bilinear subdivision surface is its control mesh, flat from edge to edge",
+            Scheme::Bilinear => "a bilinear subdivision surface becomes its control mesh with flat faces",
             Scheme::Smooth => {
-                "a subdivision surface is its control mesh with smooth normals: subdivide it before, or set subdivisionScheme = \"none\""
+                "a subdivision surface becomes its control mesh with smooth normals; subdivide it first, or set subdivisionScheme = \"none\""
             }
         });
     }
@@ -89,7 +91,9 @@ impl<'a> Importer<'a> {
         let (mut triangles, refused) = of.triangles(faces, material.primvar())?;
         if material.has_pictures() && triangles.uvs.is_empty() {
             let name = material.primvar();
-            let message = format!("a mesh without \"{name}\", by which its pictures lie: all of it has their corner");
+            let message = format!(
+                "a mesh lacks the texture coordinates \"{name}\": its textures have the value of their corner everywhere"
+            );
             self.scenery.report.note(message);
             triangles.uvs = vec![[0.0; 2]; triangles.positions.len()];
         }
@@ -97,7 +101,7 @@ impl<'a> Importer<'a> {
             self.note_outside();
         }
         if refused > 0 {
-            self.scenery.report.note(format!("{refused} polygons that cross themselves are left out"));
+            self.scenery.report.note(format!("{refused} self-intersecting polygons are left out"));
         }
         // Normals define the front; those of a control mesh follow its winding.
         let has_own = !triangles.normals.is_empty() && of.mesh.scheme == Scheme::None;

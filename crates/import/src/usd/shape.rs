@@ -49,12 +49,12 @@ impl<'a> Importer<'a> {
             }
             kind => {
                 super::access::leave(prim);
-                self.scenery.report.note(format!("a \"{kind}\" has no shape here and is left out"));
+                self.scenery.report.note(format!("a \"{kind}\" is not supported and left out"));
                 return Ok(());
             }
         };
         if matches!(prim.kind.as_str(), "Cylinder" | "Cylinder_1" | "Cone" | "Capsule" | "Capsule_1") {
-            self.scenery.report.note("cylinders, cones and capsules are meshes of 128 sides");
+            self.scenery.report.note("cylinders, cones and capsules become meshes of 128 sides");
         }
         let (graphics, material) = self.graphics(prim, state, state.bindings.material())?;
         if material.shows_outside(&mesh.uvs) {
@@ -95,7 +95,7 @@ impl<'a> Importer<'a> {
         let whole = super::mesh::Counts { faces: 1, points: 1, corners: 1 };
         if let Ok(Some(colour)) = Primvar::<3>::read(prim, "primvars:displayColor", "constant", whole) {
             if !colour.is_even() {
-                self.scenery.report.note("a displayColor that is not the same everywhere is its mean");
+                self.scenery.report.note("a varying displayColor is replaced by its mean");
             }
             // 32-bit numbers have seven digits.
             graphics.material = self.display_material(colour.mean().map(|v| (1e7 * v).round() / 1e7));
@@ -124,7 +124,7 @@ impl<'a> Importer<'a> {
     fn sphere(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
         let radius = number(prim, "radius", 1.0);
         if radius <= 0.0 {
-            return Err(format!("\"radius\" of {radius}; expected a number above 0"));
+            return Err(format!("\"radius\" is {radius}; expected a number above 0"));
         }
         let (graphics, material) = self.graphics(prim, state, state.bindings.material())?;
         if material.shows_outside(&[[0.0; 2], [1.0; 2]]) {
@@ -162,14 +162,14 @@ impl<'a> Importer<'a> {
     pub(super) fn instancer(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
         let told = |what: String| Err(format!("{}: {what}", prim.path));
         if state.depth >= MAX_DEPTH {
-            return told(format!("instancers stand more than {MAX_DEPTH} deep in one another, or in a circle"));
+            return told(format!("instancers are nested more than {MAX_DEPTH} levels deep, or form a cycle"));
         }
         if !state.is_drawn() {
             self.leave_undrawn(prim);
             return Ok(());
         }
         let Some(which) = indices(prim, "protoIndices") else {
-            return told("a prototype below 0".to_owned());
+            return told("\"protoIndices\" has a value below 0".to_owned());
         };
         let positions = tuples::<3>(prim, "positions");
         let scales = tuples::<3>(prim, "scales");
@@ -180,7 +180,7 @@ impl<'a> Importer<'a> {
         let hidden = numbers(prim, "invisibleIds").iter().copied().chain(inactive);
         let hidden: HashSet<u64> = hidden.map(f64::to_bits).collect();
         if positions.len() < which.len() {
-            return told(format!("{} positions of {} instances", positions.len(), which.len()));
+            return told(format!("{} positions for {} instances; expected one each", positions.len(), which.len()));
         }
         let targets = prim.relation("prototypes").map_or(&[][..], |relation| &relation.targets);
         for (number, prototype) in which.iter().enumerate() {
@@ -189,10 +189,10 @@ impl<'a> Importer<'a> {
                 continue;
             }
             let Some(path) = targets.get(*prototype) else {
-                return told(format!("an instance of prototype {prototype}, of {}", targets.len()));
+                return told(format!("an instance refers to prototype {prototype}, and there are {}", targets.len()));
             };
             let Some(found) = self.paths.prim(path) else {
-                self.scenery.report.note(format!("the prototype <{path}> is not there, or a class or an over"));
+                self.scenery.report.note(format!("the prototype <{path}> does not exist, or is a class or an over"));
                 continue;
             };
             let [w, x, y, z] = turns.get(number).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
@@ -203,14 +203,14 @@ impl<'a> Importer<'a> {
                 translation: DVec3::from_array(positions[number]),
             };
             if !own.is_finite() {
-                return told(format!("instance {number} stands at no finite place"));
+                return told(format!("the transform of instance {number} is not finite"));
             }
             let mut inner = state.clone();
             (inner.to_world, inner.depth) = (state.to_world * own, state.depth + 1);
             self.prim(found, &inner)?;
         }
         self.scenery.report.at(prim.path.clone());
-        self.scenery.report.note("instances are copies, a mesh for each");
+        self.scenery.report.note("instances become copies, one mesh each");
         self.note_unused(prim);
         Ok(())
     }

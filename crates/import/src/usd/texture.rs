@@ -101,7 +101,9 @@ impl<'a> Importer<'a> {
             }
         }
         if found.len() > 1 {
-            self.scenery.report.note(format!("of several texture coordinates of a surface \"{}\" are used", found[0]));
+            self.scenery
+                .report
+                .note(format!("of several texture coordinates of a surface only \"{}\" are used", found[0]));
         }
         let usual = if has_pictures { "st" } else { "" };
         found.first().copied().unwrap_or(usual).into()
@@ -112,7 +114,7 @@ impl<'a> Importer<'a> {
         let of = of.trim_start_matches("inputs:");
         let id = self.plain_text(node, "info:id").unwrap_or_default();
         if id != "UsdUVTexture" {
-            self.scenery.report.note(format!("\"{of}\" of a node \"{id}\" is not understood: 0.5 in its place"));
+            self.scenery.report.note(format!("\"{of}\" of a node \"{id}\" is not supported: 0.5 is used instead"));
             return Ok(Picture::Even([0.5; 3]));
         }
         let channel = ["r", "g", "b", "a"].iter().position(|name| *name == output);
@@ -127,8 +129,8 @@ impl<'a> Importer<'a> {
         let is_read = ending.as_deref().is_some_and(|ending| ENDINGS.contains(&ending));
         let Some(asset) = asset.filter(|asset| asset.file.is_some() && is_read) else {
             let shown = asset.map_or("", |asset| asset.stated.as_str());
-            let why = if is_read { "is not there" } else { "is of a kind that is not read; convert it to PNG or EXR" };
-            self.scenery.report.note(format!("the picture `{shown}` {why}: its fallback in its place"));
+            let why = if is_read { "does not exist" } else { "has an unsupported format; convert it to PNG or EXR" };
+            self.scenery.report.note(format!("the image `{shown}` {why}: its fallback is used instead"));
             return Ok(Picture::Even(match channel {
                 Some(channel) => [fallback[channel]; 3],
                 None => [fallback[0], fallback[1], fallback[2]],
@@ -157,7 +159,7 @@ impl<'a> Importer<'a> {
         let offset = self.plain_tuple::<2>(inner, "inputs:translation").unwrap_or([0.0; 2]);
         let degrees = self.plain_number(inner, "inputs:rotation").unwrap_or(0.0);
         if degrees != 0.0 || scale.iter().any(|v| *v <= 0.0) {
-            self.scenery.report.note("a picture that is turned or mirrored by a UsdTransform2d lies as without it");
+            self.scenery.report.note("a UsdTransform2d that rotates or mirrors an image is not used");
             return none;
         }
         [scale, offset]
@@ -244,7 +246,7 @@ impl<'a> Importer<'a> {
                 self.unpacked.insert(name.clone(), written.clone());
                 Ok(written)
             }
-            None => Err(format!("the picture `{}` is not there", asset.stated)),
+            None => Err(format!("the image `{}` does not exist", asset.stated)),
         }
     }
 
@@ -253,7 +255,7 @@ impl<'a> Importer<'a> {
         let read = match &asset.file {
             Some(UsdFile::Plain(path)) => read_picture(path),
             Some(UsdFile::Packed(name, bytes)) => decode_picture(Path::new(name), bytes),
-            None => return Err(format!("the picture `{}` is not there", asset.stated)),
+            None => return Err(format!("the image `{}` does not exist", asset.stated)),
         };
         read.map_err(|error| error.to_string())
     }
@@ -343,7 +345,7 @@ impl<'a> Importer<'a> {
         let [s, t] =
             ["inputs:wrapS", "inputs:wrapT"].map(|name| Outside::of(self.plain_text(node, name).unwrap_or("")));
         if s != t {
-            self.scenery.report.note("of two ways in which a picture goes on, that along s holds for both");
+            self.scenery.report.note("wrapS and wrapT of an image differ: wrapS is used for both");
         }
         match s {
             Outside::Black => (Wrap::Clamp, true),
@@ -353,7 +355,8 @@ impl<'a> Importer<'a> {
 
     /// Notes that a shape shows the outside of an image that is black there.
     pub(super) fn note_outside(&mut self) {
-        let told = "a picture that is black outside of u, v = 0 … 1 (so where wrapS and wrapT say nothing, or useMetadata), of which the shape shows some, has its edge there";
+        let told = "an image with wrap mode black (also if wrapS and wrapT are not stated or useMetadata) is clamped to its edge outside u, v = 0 … 1, \
+            which the shape shows";
         self.scenery.report.note(told);
     }
 }

@@ -23,7 +23,7 @@ pub(super) fn transform_of(prim: &UsdPrim) -> Result<(DAffine3, bool), String> {
         let (own, is_inverse) = name.strip_prefix(INVERSE).map_or((name.as_str(), false), |own| (own, true));
         let operation = operation(prim, own)?;
         if is_inverse && operation.matrix3.determinant() == 0.0 {
-            return Err(format!("{}: \"{name}\" of a transform without an inverse", prim.path));
+            return Err(format!("{}: \"{name}\" inverts a singular transform", prim.path));
         }
         made *= if is_inverse { operation.inverse() } else { operation };
     }
@@ -70,14 +70,16 @@ fn operation(prim: &UsdPrim, name: &str) -> Result<DAffine3, String> {
                 DAffine3::from_mat3(made)
             })
         }
-        other => return Err(format!("{}: \"{name}\": no transform is called \"{other}\"", prim.path)),
+        other => return Err(format!("{}: \"{name}\": unknown transform \"{other}\"", prim.path)),
     };
     // An operation without a value is ignored.
     let made = made.unwrap_or(DAffine3::IDENTITY);
     let size = made.matrix3.to_cols_array().iter().fold(made.translation.length(), |most, v| most.max(v.abs()));
     match size < 1e12 {
         true => Ok(made),
-        false => Err(format!("{}: \"{name}\" of {size:e}; expected lengths and scales below 1e12", prim.path)),
+        false => {
+            Err(format!("{}: \"{name}\" has an entry of {size:e}; expected lengths and scales below 1e12", prim.path))
+        }
     }
 }
 

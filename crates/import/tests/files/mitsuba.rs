@@ -47,27 +47,27 @@ fn refused(text: &str, told: &str) {
 fn faults_have_their_line() {
     refused(
         "<scene version=\"3.0.0\">\n<shape type=\"sphere\">",
-        "a.xml:1: no well-formed XML: the root node was opened but never close …",
+        "a.xml:1: not well-formed XML: the root node was opened but never close …",
     );
-    refused("<scene/>", "a.xml:1: no \"version\" of the root element: no scene of Mitsuba 3, which has it");
-    refused("<scene version=\"4.0\"/>", "a.xml:1: version \"4.0\"; expected one up to 3, as \"3.0.0\"");
+    refused("<scene/>", "a.xml:1: the root element has no \"version\": not a Mitsuba 3 scene");
+    refused("<scene version=\"4.0\"/>", "a.xml:1: unsupported version \"4.0\"; expected at most 3, such as \"3.0.0\"");
     refused(
         "<bsdf version=\"3.0.0\" type=\"diffuse\"/>",
-        "a.xml:1: <bsdf> where a whole scene is expected: a file whose root is <scene>",
+        "a.xml:1: the root element is <bsdf>; expected <scene>",
     );
-    refused("<scene version=\"3.0.0\">\n<mesh/></scene>", "a.xml:2: <mesh> is no element of Mitsuba's scenes");
-    refused("<scene version=\"3.0.0\">\nred</scene>", "a.xml:1: text within <scene>; expected elements alone");
+    refused("<scene version=\"3.0.0\">\n<mesh/></scene>", "a.xml:2: unknown element <mesh>: Mitsuba scenes do not have it");
+    refused("<scene version=\"3.0.0\">\nred</scene>", "a.xml:1: text in <scene>; expected only elements");
     refused(
         "<scene version=\"3.0.0\">\n<float name=\"a\" value=\"$spp\"/></scene>",
-        "a.xml:2: no <default name=\"spp\" …> stands before \"$spp\": add it, with a value, or give one by -D spp=…",
+        "a.xml:2: \"$spp\" has no <default name=\"spp\" …> before it; add one, or give a value by -D spp=…",
     );
     refused("<scene version=\"3.0.0\">\n<default name=\"a\"/></scene>", "a.xml:2: <default> without \"value\"");
     refused(
         "<scene version=\"3.0.0\"><include filename=\"a.xml\"/></scene>",
-        "a.xml:1: files include one another more than 16 deep; include less, or each once",
+        "a.xml:1: includes are nested more than 16 levels deep; check for files that include each other",
     );
     let deep = format!("<scene version=\"3.0.0\">\n{}{}</scene>", "<bsdf>".repeat(64), "</bsdf>".repeat(64));
-    refused(&deep, "a.xml:2: elements stand more than 64 deep in one another");
+    refused(&deep, "a.xml:2: elements are nested more than 64 levels deep");
 }
 
 /// Parameters that double thirty times do not become a gigabyte.
@@ -123,14 +123,14 @@ fn values_that_are_given_hold_in_place_of_defaults() {
         (
             format!("{two}<default name=\"q\" value=\"0\"/>{}", ball("$r")),
             &[("r", "5"), ("q", "5")][..],
-            "a.xml: a value is given to the parameter \"q\", and no \"$q\" stands in the scene: it names $r",
+            "a.xml: a value is given to the parameter \"q\", and \"$q\" does not occur in the scene: it names $r",
         ),
         (
             ball("1"),
             &[("r", "5")],
-            "a.xml: a value is given to the parameter \"r\", and no \"$r\" stands in the scene: it names no parameter",
+            "a.xml: a value is given to the parameter \"r\", and \"$r\" does not occur in the scene: it names no parameter",
         ),
-        (ball("$r"), &[("r", "5"), ("r", "6")], "a.xml: two values are given to the parameter \"r\"; give one"),
+        (ball("$r"), &[("r", "5"), ("r", "6")], "a.xml: the parameter \"r\" has two values; give one"),
     ] {
         assert_eq!(read_given(&[("a.xml", &scene(&body))], given).expect_err("refused"), told, "{body}");
     }
@@ -181,11 +181,11 @@ fn folders_that_are_not_there_are_refused() {
     for (body, told) in [
         (
             "<path value=\"none\"/>",
-            "a.xml:1: <path value=\"none\">: there is no such folder beside the file, or in a <path> before; correct it, or remove it",
+            "a.xml:1: <path value=\"none\">: no such folder next to the file or in an earlier <path>; correct it, or remove it",
         ),
         (
             "<shape type=\"sphere\"><path value=\".\"/></shape>",
-            "a.xml:1: <path> within another element; expected it in the scene itself",
+            "a.xml:1: <path> is in another element; expected it at the top level of the scene",
         ),
         ("<path/>", "a.xml:1: <path> without \"value\""),
     ] {
@@ -194,6 +194,6 @@ fn folders_that_are_not_there_are_refused() {
     let many = "<path value=\".\"/>".repeat(65);
     refused(
         &format!("<scene version=\"3.0.0\">{many}</scene>"),
-        "a.xml:1: more than 64 <path>; expected fewer folders",
+        "a.xml:1: more than 64 <path> elements; use fewer folders",
     );
 }

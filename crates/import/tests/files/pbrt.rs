@@ -56,28 +56,28 @@ fn refused(text: &str, told: &str) {
 
 #[test]
 fn faults_have_their_line() {
-    refused("\nSurfaceIntegrator \"path\"", "a.pbrt:2: `SurfaceIntegrator` is no directive of pbrt-v4");
+    refused("\nSurfaceIntegrator \"path\"", "a.pbrt:2: unknown directive `SurfaceIntegrator`: pbrt-v4 does not have it");
     refused("Translate 1 2", "a.pbrt:1: `Translate` has 2 numbers; expected 3");
-    refused("Translate 1 2 x", "a.pbrt:1: `x` where a number is expected");
+    refused("Translate 1 2 x", "a.pbrt:1: expected a number, found `x`");
     refused("Scale 1 2 inf", "a.pbrt:1: `inf` is not finite");
     refused("Transform [ 1 2 3", "a.pbrt:1: `Transform` has 3 numbers; expected 16");
-    refused("Shape sphere", "a.pbrt:1: `Shape` expects a quoted name here");
+    refused("Shape sphere", "a.pbrt:1: `Shape` expects a quoted string here");
     refused("Shape", "a.pbrt:1: the file ends within `Shape`: it may be truncated");
-    refused("Shape \"sphere", "a.pbrt:1: a quoted text without its end on the same line");
+    refused("Shape \"sphere", "a.pbrt:1: a quoted string is not closed on its line");
     refused("Shape \"sphere\" \"radius\" 1", "a.pbrt:1: \"radius\": expected a parameter of the form \"type name\"");
-    refused("Shape \"sphere\" \"float radius\"", "a.pbrt:1: \"radius\" without its values: the file may be truncated");
+    refused("Shape \"sphere\" \"float radius\"", "a.pbrt:1: \"radius\" has no values: the file may be truncated");
     refused(
         "Shape \"sphere\" \"float radius\" [ 1",
-        "a.pbrt:1: \"radius\" without its values: the file may be truncated",
+        "a.pbrt:1: \"radius\" has no values: the file may be truncated",
     );
-    refused("Shape \"sphere\"\n\"float radius\" [ 1 \"a\" ]", "a.pbrt:2: numbers, texts and truths in one list");
-    refused("[ 1 ]", "a.pbrt:1: a value where a directive is expected, such as `Shape`");
+    refused("Shape \"sphere\"\n\"float radius\" [ 1 \"a\" ]", "a.pbrt:2: numbers, strings and booleans are mixed in one list");
+    refused("[ 1 ]", "a.pbrt:1: expected a directive such as `Shape`, found a value");
     refused("Include \"none.pbrt\"", "none.pbrt: no such scene file; check the path");
     let own = read(&[("a.pbrt", "Include \"a.pbrt\"")]).expect_err("endless");
-    assert_eq!(own, "a.pbrt:1: files include one another more than 16 deep; include less, or each once");
+    assert_eq!(own, "a.pbrt:1: includes are nested more than 16 levels deep; check for files that include each other");
     refused(
         "Include \"a.pbrt.gz\"",
-        "a.pbrt:1: `Include \"a.pbrt.gz\"`: compressed files are not read; unpack it and change the name",
+        "a.pbrt:1: `Include \"a.pbrt.gz\"`: compressed files are not supported; decompress it and change the name",
     );
 }
 

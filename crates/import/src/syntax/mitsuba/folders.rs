@@ -45,7 +45,7 @@ impl Folders {
         is_folder: impl Fn(&Path) -> Result<bool, String>,
     ) -> Result<(), String> {
         if self.now.len() + self.ended.len() > MAX_FOLDERS {
-            return Err(format!("more than {MAX_FOLDERS} <path>; expected fewer folders"));
+            return Err(format!("more than {MAX_FOLDERS} <path> elements; use fewer folders"));
         }
         for folder in std::iter::once(folder_of(file)).chain(self.now.iter().rev().cloned()) {
             let path = folder.join(name);
@@ -55,7 +55,7 @@ impl Folders {
             }
         }
         Err(format!(
-            "<path value=\"{name}\">: there is no such folder beside the file, or in a <path> before; correct it, or remove it"
+            "<path value=\"{name}\">: no such folder next to the file or in an earlier <path>; correct it, or remove it"
         ))
     }
 

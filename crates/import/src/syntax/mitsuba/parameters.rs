@@ -31,7 +31,7 @@ impl Parameters {
             made.lengths.insert(name.len());
             let value = Value { text: text.clone(), is_given: true, is_used: false };
             if made.values.insert(name.clone(), value).is_some() {
-                return Err(format!("two values are given to the parameter \"{name}\"; give one"));
+                return Err(format!("the parameter \"{name}\" has two values; give one"));
             }
         }
         Ok(made)
@@ -74,11 +74,13 @@ impl Parameters {
         };
         let used: Vec<String> = self.values.iter().filter(|(_, v)| v.is_used).map(|(n, _)| format!("${n}")).collect();
         let known = match used.len() {
-            0 => "it names no parameter".to_owned(),
-            n if n > MAX_TOLD => format!("it names {}, …", used[..MAX_TOLD].join(", ")),
-            _ => format!("it names {}", used.join(", ")),
+            0 => "the scene has no parameters".to_owned(),
+            n if n > MAX_TOLD => format!("its parameters are {}, …", used[..MAX_TOLD].join(", ")),
+            _ => format!("its parameters are {}", used.join(", ")),
         };
-        Err(format!("a value is given to the parameter \"{name}\", and no \"${name}\" stands in the scene: {known}"))
+        Err(format!(
+            "a value is given to the parameter \"{name}\", and \"${name}\" does not occur in the scene: {known}"
+        ))
     }
 }
 
@@ -94,9 +96,7 @@ fn check_name(name: &str) -> Result<(), String> {
 fn unknown(after: &str) -> String {
     let word: String = after.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
     let word = shortened(&word);
-    format!(
-        "no <default name=\"{word}\" …> stands before \"${word}\": add it, with a value, or give one by -D {word}=…"
-    )
+    format!("\"${word}\" has no <default name=\"{word}\" …> before it; add one, or give a value by -D {word}=…")
 }
 
 /// Elements of the format.

@@ -53,7 +53,7 @@ impl<'a> Reading<'a> {
         let root = self.file(file, 0)?;
         if root.tag != "scene" {
             let tag = root.tag;
-            return Err(root.fault(format!("<{tag}> where a whole scene is expected: a file whose root is <scene>")));
+            return Err(root.fault(format!("the root element is <{tag}>; expected <scene>")));
         }
         self.parameters.check_used().map_err(|told| Error::new(file, told))?;
         Ok(MitsubaScene { root, folders: self.folders.all() })
@@ -65,19 +65,20 @@ impl<'a> Reading<'a> {
         limits::DESCRIPTION.check_unpacked(self.bytes).map_err(|message| Error::new(file, message))?;
         let text = decode_text(file, &bytes)?;
         let document = Document::parse(text).map_err(|e| {
-            let message = format!("no well-formed XML: {}", shortened(&e.to_string()));
+            let message = format!("not well-formed XML: {}", shortened(&e.to_string()));
             Error::at(file, e.pos().row as usize, message)
         })?;
         let root = document.root_element();
         let mut open = OpenFile { path: file.into(), lines: Lines::of(text), is_old: false, includes };
         let version = root.attribute("version").ok_or_else(|| {
-            open.fault(&root, "no \"version\" of the root element: no scene of Mitsuba 3, which has it".to_owned())
+            open.fault(&root, "the root element has no \"version\": not a Mitsuba 3 scene".to_owned())
         })?;
         let major = version.split('.').next().and_then(|major| major.trim().parse::<u32>().ok());
         open.is_old = match major {
             Some(major @ 0..=3) => major < 2,
             _ => {
-                let message = format!("version \"{}\"; expected one up to 3, as \"3.0.0\"", shortened(version));
+                let message =
+                    format!("unsupported version \"{}\"; expected at most 3, such as \"3.0.0\"", shortened(version));
                 return Err(open.fault(&root, message));
             }
         };
@@ -86,14 +87,16 @@ impl<'a> Reading<'a> {
 
     fn element(&mut self, node: &Node<'_, '_>, file: &OpenFile, depth: usize) -> Result<MitsubaElement, Error> {
         if depth >= MAX_DEPTH {
-            return Err(file.fault(node, format!("elements stand more than {MAX_DEPTH} deep in one another")));
+            return Err(file.fault(node, format!("elements are nested more than {MAX_DEPTH} levels deep")));
         }
         let word = match node.tag_name().name() {
             "lookAt" => "lookat",
             word => word,
         };
         let Some(&tag) = TAGS.iter().find(|tag| **tag == word) else {
-            return Err(file.fault(node, format!("<{}> is no element of Mitsuba's scenes", shortened(word))));
+            return Err(
+                file.fault(node, format!("unknown element <{}>: Mitsuba scenes do not have it", shortened(word)))
+            );
         };
         let attributes = node
             .attributes()
@@ -114,7 +117,7 @@ impl<'a> Reading<'a> {
             if child.is_element() {
                 self.child(&child, file, depth, &mut element.children)?;
             } else if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {
-                return Err(file.fault(&child, format!("text within <{tag}>; expected elements alone")));
+                return Err(file.fault(&child, format!("text in <{tag}>; expected only elements")));
             }
         }
         if file.is_old && tag == "bsdf" && element.kind() == "diffuse" {
@@ -133,7 +136,7 @@ impl<'a> Reading<'a> {
     ) -> Result<(), Error> {
         let element = self.element(node, file, depth + 1)?;
         let needed = |name: &str| {
-            let told = || element.fault(format!("<{}> without \"{name}\"", element.tag));
+            let told = || element.fault(format!("<{}> has no \"{name}\"", element.tag));
             element.attribute(name).map(str::to_owned).ok_or_else(told)
         };
         match element.tag {
@@ -142,7 +145,7 @@ impl<'a> Reading<'a> {
                 self.parameters.default(name, value).map_err(|told| element.fault(told))?;
             }
             "path" if depth > 0 => {
-                return Err(element.fault("<path> within another element; expected it in the scene itself"));
+                return Err(element.fault("<path> is in another element; expected it at the top level of the scene"));
             }
             "path" => {
                 let is_folder =
@@ -167,8 +170,9 @@ impl<'a> Reading<'a> {
         let path = self.folders.find(name);
         self.sandbox.check(&path).map_err(|why| at.fault(format!("<include filename=\"{name}\">: {why}")))?;
         if file.includes + 1 >= MAX_INCLUDES {
-            let message =
-                format!("files include one another more than {MAX_INCLUDES} deep; include less, or each once");
+            let message = format!(
+                "includes are nested more than {MAX_INCLUDES} levels deep; check for files that include each other"
+            );
             return Err(at.fault(message));
         }
         let included = self.file(&path, file.includes + 1);

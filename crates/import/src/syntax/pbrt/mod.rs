@@ -65,12 +65,12 @@ impl Reading<'_, '_> {
         self.sandbox.check(&path).map_err(|why| message(format!("`Include \"{name}\"`: {why}")))?;
         if depth + 1 >= MAX_DEPTH {
             return Err(message(format!(
-                "files include one another more than {MAX_DEPTH} deep; include less, or each once"
+                "includes are nested more than {MAX_DEPTH} levels deep; check for files that include each other"
             )));
         }
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz")) {
             return Err(message(format!(
-                "`Include \"{name}\"`: compressed files are not read; unpack it and change the name"
+                "`Include \"{name}\"`: compressed files are not supported; decompress it and change the name"
             )));
         }
         self.file(&path, depth + 1)

@@ -84,10 +84,10 @@ impl<'a> Parser<'a> {
     pub(super) fn next(&mut self) -> Result<Option<(usize, PbrtDirective)>, Fault> {
         let Some((line, token)) = self.tokens.take()? else { return Ok(None) };
         let Token::Word(word) = token else {
-            return Err((line, "a value where a directive is expected, such as `Shape`".to_owned()));
+            return Err((line, "expected a directive such as `Shape`, found a value".to_owned()));
         };
         let Some((name, form)) = DIRECTIVES.iter().find(|(name, _)| *name == word) else {
-            return Err((line, format!("`{}` is no directive of pbrt-v4", shortened(word))));
+            return Err((line, format!("unknown directive `{}`: pbrt-v4 does not have it", shortened(word))));
         };
         self.arguments(name, *form, line).map(|directive| Some((line, directive)))
     }
@@ -110,12 +110,12 @@ impl<'a> Parser<'a> {
             }
             Form::Setting => {
                 let setting = self.parameter()?;
-                PbrtDirective::Setting(setting.ok_or_else(|| (line, "`Option` without a parameter".to_owned()))?)
+                PbrtDirective::Setting(setting.ok_or_else(|| (line, "`Option` has no parameter".to_owned()))?)
             }
             Form::Include => PbrtDirective::Include(self.text(name)?.to_owned()),
             Form::Word => match self.tokens.take()? {
                 Some((_, Token::Word(word) | Token::Text(word))) => PbrtDirective::Named(name, word.to_owned()),
-                _ => return Err((line, format!("`{name}` without its word"))),
+                _ => return Err((line, format!("`{name}` has no argument"))),
             },
         })
     }
@@ -123,7 +123,7 @@ impl<'a> Parser<'a> {
     fn text(&mut self, of: &str) -> Result<&'a str, Fault> {
         match self.tokens.take()? {
             Some((_, Token::Text(text))) => Ok(text),
-            Some((line, _)) => Err((line, format!("`{of}` expects a quoted name here"))),
+            Some((line, _)) => Err((line, format!("`{of}` expects a quoted string here"))),
             None => Err((self.tokens.line(), format!("the file ends within `{of}`: it may be truncated"))),
         }
     }
@@ -171,7 +171,7 @@ impl<'a> Parser<'a> {
     }
 
     fn values(&mut self, name: &str, line: usize) -> Result<PbrtValues, Fault> {
-        let truncated = || (line, format!("\"{}\" without its values: the file may be truncated", shortened(name)));
+        let truncated = || (line, format!("\"{}\" has no values: the file may be truncated", shortened(name)));
         let (first_line, first) = self.tokens.take()?.ok_or_else(truncated)?;
         if first != Token::Open {
             let mut values = Collected::default();
@@ -192,7 +192,7 @@ fn number(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(_) => Err(format!("`{}` is not finite", shortened(word))),
-        Err(_) => Err(format!("`{}` where a number is expected", shortened(word))),
+        Err(_) => Err(format!("expected a number, found `{}`", shortened(word))),
     }
 }
 
@@ -211,12 +211,12 @@ impl Collected {
             Token::Text("false") | Token::Word("false") => self.flags.push(false),
             Token::Text(text) => self.texts.push(text.to_owned()),
             Token::Word(word) => self.numbers.push(number(word)?),
-            Token::Open | Token::Close => return Err("a bracket where a value is expected".to_owned()),
+            Token::Open | Token::Close => return Err("expected a value, found a bracket".to_owned()),
         }
         let sorts = [!self.numbers.is_empty(), !self.texts.is_empty(), !self.flags.is_empty()];
         match sorts.iter().filter(|some| **some).count() {
             1 => Ok(()),
-            _ => Err("numbers, texts and truths in one list".to_owned()),
+            _ => Err("numbers, strings and booleans are mixed in one list".to_owned()),
         }
     }
 

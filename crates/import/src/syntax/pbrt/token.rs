@@ -69,7 +69,7 @@ impl<'a> Tokens<'a> {
             '"' => {
                 let inside = &self.rest[1..];
                 let end = inside.find(['"', '\n']).filter(|end| inside[*end..].starts_with('"'));
-                let end = end.ok_or_else(|| (line, "a quoted text without its end on the same line".to_owned()))?;
+                let end = end.ok_or_else(|| (line, "a quoted string is not closed on its line".to_owned()))?;
                 self.rest = &inside[end + 1..];
                 Token::Text(&inside[..end])
             }

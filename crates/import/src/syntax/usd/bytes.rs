@@ -22,12 +22,15 @@ impl<'a> Bytes<'a> {
     }
 
     pub(super) fn go(&mut self, at: u64) -> Result<(), String> {
-        self.at = usize::try_from(at).ok().filter(|at| *at <= self.all.len()).ok_or("it leads beyond its end")?;
+        self.at = usize::try_from(at)
+            .ok()
+            .filter(|at| *at <= self.all.len())
+            .ok_or("an offset is beyond the end of the file")?;
         Ok(())
     }
 
     pub(super) fn take(&mut self, count: u64) -> Result<&'a [u8], String> {
-        let count = usize::try_from(count).ok().filter(|_| count <= self.left()).ok_or("it ends too early")?;
+        let count = usize::try_from(count).ok().filter(|_| count <= self.left()).ok_or("the file is truncated")?;
         let taken = &self.all[self.at..self.at + count];
         self.at += count;
         Ok(taken)
@@ -60,7 +63,7 @@ impl<'a> Bytes<'a> {
         let count = self.u64()?;
         match count.checked_mul(size.max(1)).is_some_and(|bytes| bytes <= self.left()) {
             true => Ok(count),
-            false => Err(format!("it says {count} entries where it has {} bytes left", self.left())),
+            false => Err(format!("{count} entries are stated, and {} bytes remain", self.left())),
         }
     }
 }

@@ -39,7 +39,9 @@ pub(super) fn check_crate(bytes: &[u8]) -> Result<(), String> {
     let version = [reader.u8()?, reader.u8()?, reader.u8()?];
     if version < [0, 4, 0] {
         let [a, b, c] = version;
-        return Err(format!("a crate of version {a}.{b}.{c}; expected 0.4.0 or later: save it anew with usdcat"));
+        return Err(format!(
+            "unsupported crate version {a}.{b}.{c}; expected 0.4.0 or later: save it again with usdcat"
+        ));
     }
     reader.go(16)?;
     let table = reader.u64()?;
@@ -108,16 +110,16 @@ impl<'a> Crate<'a> {
     fn unpacked(&mut self, reader: &mut Bytes<'_>, most: u64) -> Result<Vec<u8>, String> {
         let size = reader.count(1)?;
         let packed = reader.take(size)?;
-        let [chunks, block @ ..] = packed else { return Err("a packed block without bytes".to_owned()) };
+        let [chunks, block @ ..] = packed else { return Err("a compressed block is empty".to_owned()) };
         if *chunks != 0 {
-            return Err("a packed block of more than 2 GiB, which is not read".to_owned());
+            return Err("a compressed block has more than 2 GiB, which is not supported".to_owned());
         }
         // The block cannot give more than this, so no more is allocated.
         let most = most.min((block.len() as u64).saturating_mul(MAX_RATIO));
         self.spend(most, 1)?;
-        let mut unpacked = vec![0; usize::try_from(most).map_err(|_| "a packed block is too large")?];
+        let mut unpacked = vec![0; usize::try_from(most).map_err(|_| "a compressed block is too large")?];
         let size =
-            lz4_flex::block::decompress_into(block, &mut unpacked).map_err(|e| format!("a packed block: {e}"))?;
+            lz4_flex::block::decompress_into(block, &mut unpacked).map_err(|e| format!("a compressed block: {e}"))?;
         unpacked.truncate(size);
         Ok(unpacked)
     }
@@ -136,7 +138,7 @@ impl<'a> Crate<'a> {
         let size = reader.count(1)?;
         match count / 4 <= size.saturating_mul(MAX_RATIO) {
             true => Ok(()),
-            false => Err(format!("it says {count} integers in {size} bytes, which cannot hold them")),
+            false => Err(format!("{count} integers are stated in {size} bytes, which cannot contain them")),
         }
     }
 
@@ -146,7 +148,7 @@ impl<'a> Crate<'a> {
         self.spend(count, OVERHEAD)?;
         let packed = Bytes::new(self.bytes).with_place(reader.at).count(1)?;
         if size > packed.saturating_mul(MAX_RATIO) {
-            return Err(format!("it says {size} bytes of tokens in {packed} bytes, which cannot hold them"));
+            return Err(format!("{size} bytes of tokens are stated in {packed} bytes, which cannot contain them"));
         }
         self.spend(size, 1)?;
         let texts = self.unpacked(&mut reader, size)?;
@@ -189,7 +191,7 @@ impl<'a> Crate<'a> {
         let mut pending = if jumps.is_empty() { Vec::new() } else { vec![(0_usize, None, 0)] };
         while let Some((mut at, mut parent, mut depth)) = pending.pop() {
             loop {
-                let fault = || format!("the tree of its paths is damaged at entry {at}");
+                let fault = || format!("the path tree is damaged at entry {at}");
                 if std::mem::replace(seen.get_mut(at).ok_or_else(fault)?, true) || depth > MAX_DEPTH {
                     return Err(fault());
                 }

@@ -44,7 +44,7 @@ impl Crate<'_> {
     pub(super) fn check_value(&mut self, value: u64, depth: usize) -> Result<(), String> {
         self.spend(1, OVERHEAD)?;
         if depth > MAX_DEPTH {
-            return Err(format!("values stand more than {MAX_DEPTH} deep in one another, or hold themselves"));
+            return Err(format!("values are nested more than {MAX_DEPTH} levels deep, or form a cycle"));
         }
         let (kind, place) = (value >> 48 & 0xff, value & PAYLOAD);
         if value & INLINED != 0 {
@@ -97,7 +97,7 @@ impl Crate<'_> {
         if !is_packed {
             return match count.checked_mul(size).is_some_and(|bytes| bytes <= reader.left()) {
                 true => Ok(()),
-                false => Err(format!("it says an array of {count} elements, which it has no room for")),
+                false => Err(format!("an array of {count} elements is stated, and the file is too small for it")),
             };
         }
         if matches!(kind, 7..=9 | 56) && reader.u8()? == b't' {
@@ -130,7 +130,7 @@ impl Crate<'_> {
                 Indexed::String => self.strings.get(index).and_then(|token| self.tokens.get(*token as usize)),
                 Indexed::Path => self.paths.get(index),
             };
-            let length = *length.ok_or("a text that it names is not there")?;
+            let length = *length.ok_or("an index refers to a missing string, token or path")?;
             self.spend(1, OVERHEAD + length)?;
         }
         Ok(())
@@ -140,7 +140,10 @@ impl Crate<'_> {
     fn followed(reader: &mut Bytes<'_>) -> Result<(), String> {
         let at = reader.at as i64;
         let offset = reader.u64()? as i64;
-        let to = at.checked_add(offset).and_then(|to| u64::try_from(to).ok()).ok_or("it leads before its beginning")?;
+        let to = at
+            .checked_add(offset)
+            .and_then(|to| u64::try_from(to).ok())
+            .ok_or("an offset is before the beginning of the file")?;
         reader.go(to)
     }
 

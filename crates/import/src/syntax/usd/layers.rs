@@ -74,7 +74,7 @@ impl Layers {
         }
         let package = Package::new(self.read(file)?).map_err(|told| Error::new(file, told))?;
         if package.layers().next().is_none() {
-            return Err(Error::new(file, format!("a package without a layer; it has {}", package.shown())));
+            return Err(Error::new(file, format!("the package has no layer; it contains {}", package.shown())));
         }
         let package = Rc::new(package);
         self.0.packages.borrow_mut().insert(file.to_owned(), package.clone());
@@ -87,7 +87,7 @@ impl Layers {
             Some((package, name)) if is_package_relative_path(resolved) => {
                 let file = PathBuf::from(package);
                 let found = self.package(&file)?.file(&name).map(<[u8]>::to_vec);
-                let found = found.ok_or_else(|| Error::new(&file, format!("no file \"{name}\" in this package")))?;
+                let found = found.ok_or_else(|| Error::new(&file, format!("the package has no file \"{name}\"")))?;
                 (file, found)
             }
             _ if Path::new(resolved).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("usdz")) => {
@@ -102,7 +102,7 @@ impl Layers {
         limits::MESH.check_unpacked(self.0.bytes.get()).map_err(|told| Error::new(&file, told))?;
         let checked = if bytes.starts_with(CRATE) { check_crate(&bytes) } else { check_text(&bytes) };
         let checked = checked.and_then(|()| self.check_arcs(&bytes));
-        checked.map_err(|told| Error::new(&file, format!("damaged, or no scene that is read: {told}")))?;
+        checked.map_err(|told| Error::new(&file, format!("damaged, or not a supported scene: {told}")))?;
         self.0.seen.borrow_mut().insert(resolved.to_owned());
         Ok(bytes)
     }

@@ -29,7 +29,7 @@ pub(super) struct Package {
 impl Package {
     /// Parses a package.
     pub(super) fn new(bytes: Vec<u8>) -> Result<Self, String> {
-        let entries = entries(&bytes).map_err(|told| format!("no package that can be read: {told}"))?;
+        let entries = entries(&bytes).map_err(|told| format!("the package cannot be read: {told}"))?;
         Ok(Self { bytes, entries })
     }
 
@@ -98,11 +98,11 @@ fn is_layer(name: &str) -> bool {
 fn entries(bytes: &[u8]) -> Result<Vec<Entry>, String> {
     // Offsets have 32 bits.
     if u32::try_from(bytes.len()).is_err() {
-        return Err("it has 4 GiB or more".to_owned());
+        return Err("its size is 4 GiB or more".to_owned());
     }
     let from = bytes.len().saturating_sub(END_SIZES[1]);
-    let last = bytes.len().checked_sub(END_SIZES[0]).ok_or("it is no ZIP archive")?;
-    let end = (from..=last).rev().find(|at| bytes[*at..].starts_with(&END)).ok_or("it is no ZIP archive")?;
+    let last = bytes.len().checked_sub(END_SIZES[0]).ok_or("it is not a ZIP archive")?;
+    let end = (from..=last).rev().find(|at| bytes[*at..].starts_with(&END)).ok_or("it is not a ZIP archive")?;
     let mut reader = Bytes::new(bytes);
     reader.go(end as u64 + 8)?;
     let count = reader.u16()?;
@@ -117,7 +117,7 @@ fn entries(bytes: &[u8]) -> Result<Vec<Entry>, String> {
     // Overlapping files would decompress to more than the package.
     match found.iter().map(|entry| (entry.to - entry.from) as u64).sum::<u64>() <= bytes.len() as u64 {
         true => Ok(found),
-        false => Err("its files are larger than itself".to_owned()),
+        false => Err("its files are larger than the package".to_owned()),
     }
 }
 
@@ -136,7 +136,9 @@ fn entry(bytes: &[u8], reader: &mut Bytes<'_>) -> Result<Entry, String> {
     let name = String::from_utf8_lossy(reader.take(name.into())?).into_owned();
     reader.take(u64::from(extra) + u64::from(comment))?;
     if flags & 1 != 0 || method != 0 || packed != size {
-        return Err(format!("\"{name}\" is compressed or encrypted, which packages are not; pack it anew with usdzip"));
+        return Err(format!(
+            "\"{name}\" is compressed or encrypted, which is not allowed in a package; create it again with usdzip"
+        ));
     }
     let mut head = Bytes::new(bytes);
     head.go(local.into())?;

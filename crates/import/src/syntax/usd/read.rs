@@ -48,7 +48,7 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     fn fault(&self, told: impl std::fmt::Display) -> Error {
-        Error::new(self.file, format!("no scene that can be read: {told}"))
+        Error::new(self.file, format!("the scene cannot be read: {told}"))
     }
 
     fn stage(mut self, real: &Path) -> Result<UsdStage, Error> {
@@ -60,7 +60,7 @@ impl Reading<'_> {
         self.time = stage.start_time_code();
         let metres = number(&stage, "metersPerUnit");
         if let Some(wrong) = metres.filter(|m| !(*m > 0.0 && m.is_finite())) {
-            let message = format!("\"metersPerUnit\" of {wrong}; expected a finite number above 0");
+            let message = format!("\"metersPerUnit\" is {wrong}; expected a finite number above 0");
             return Err(Error::new(self.file, message));
         }
         let up = match stage.stage_metadata("upAxis") {
@@ -88,12 +88,12 @@ impl Reading<'_> {
         let mut parser = Parser::new(&text);
         let cause = parser.parse().err()?;
         let line = parser.last_error_highlight()?.line;
-        Some(Error::at(self.file, line, format!("no text of USD: {cause:#}")))
+        Some(Error::at(self.file, line, format!("invalid USD text: {cause:#}")))
     }
 
     fn children(&mut self, prim: &Prim, depth: usize) -> Result<Vec<UsdPrim>, Error> {
         if depth > MAX_DEPTH {
-            return Err(self.fault(format!("prims stand more than {MAX_DEPTH} deep in one another")));
+            return Err(self.fault(format!("prims are nested more than {MAX_DEPTH} levels deep")));
         }
         let children = prim.children().map_err(|cause| self.fault(words(cause)))?;
         let mut made = Vec::new();
@@ -112,7 +112,7 @@ impl Reading<'_> {
         self.prims += 1;
         if self.prims > MAX_PRIMS {
             return Err(self.fault(format!(
-                "it has more than {MAX_PRIMS} prims, instances counted each; make it smaller, or import parts of it"
+                "it has more than {MAX_PRIMS} prims, counting each instance; make it smaller, or import parts of it"
             )));
         }
         made.children = self.children(prim, depth + 1)?;

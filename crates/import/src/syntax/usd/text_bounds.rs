@@ -20,7 +20,7 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
                 check_expression(inner)?;
                 words.read_up_to(text, at);
                 if words.name_prim() && !is_balanced(inner) {
-                    return Err(format!("line {}: a prim whose name has braces", line(at)));
+                    return Err(format!("line {}: the name of a prim contains braces", line(at)));
                 }
                 at = end;
                 continue;
@@ -29,7 +29,7 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
                 let end =
                     text[at..].iter().position(|byte| matches!(byte, b'>' | b'\n')).map_or(text.len(), |n| at + n);
                 if !is_balanced(&text[at..end]) {
-                    return Err(format!("line {}: a path whose braces are no variant's", line(at)));
+                    return Err(format!("line {}: a path contains braces that do not belong to a variant", line(at)));
                 }
                 at = end;
             }
@@ -37,7 +37,7 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
                 depths[kind] += 1;
                 let most = if kind == 0 { MAX_DEPTH } else { MAX_LISTS };
                 if depths[kind] > most {
-                    let message = format!("prims and values stand more than {most} deep in one another");
+                    let message = format!("prims and values are nested more than {most} levels deep");
                     return Err(format!("line {}: {message}", line(at)));
                 }
             }
@@ -124,7 +124,7 @@ pub(super) fn check_expression(text: &[u8]) -> Result<(), String> {
             _ => {}
         }
         if depth > MAX_DEPTH {
-            return Err(format!("an expression is more than {MAX_DEPTH} deep"));
+            return Err(format!("an expression is nested more than {MAX_DEPTH} levels deep"));
         }
     }
     Ok(())

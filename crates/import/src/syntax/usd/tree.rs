@@ -196,10 +196,10 @@ impl Arcs {
 
     fn chain<'a>(&'a self, own: &'a str, depth: usize, known: &mut HashMap<&'a str, usize>) -> Result<usize, String> {
         match known.get(own) {
-            Some(0) => return Err(format!("<{own}> inherits from itself in a circle")),
+            Some(0) => return Err(format!("<{own}> inherits from itself")),
             Some(length) if depth + length <= MAX_CHAIN => return Ok(*length),
             None if depth < MAX_CHAIN => {}
-            _ => return Err(format!("more than {MAX_CHAIN} classes in a row inherit from one another at <{own}>")),
+            _ => return Err(format!("the inheritance chain at <{own}> has more than {MAX_CHAIN} classes")),
         }
         known.insert(own, 0);
         let mut longest = 0;

@@ -44,7 +44,7 @@ fn collections_and_other_relationships_are_said() {
          rel collection:red:includes = </a> rel proxyPrim = </a> rel skel:skeleton = </a> }}\n",
         plain(&["Outer"])
     ));
-    assert!(made.says("materials that are bound to collections are not used"), "{}", made.told);
+    assert!(made.says("material bindings of collections are not used"), "{}", made.told);
     assert!(made.says("Mesh: the relationship \"skel:skeleton\" is not used (/a)"), "{}", made.told);
     assert_eq!(made.told.matches("relationship").count(), 1, "{}", made.told);
 }

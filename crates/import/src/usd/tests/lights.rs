@@ -52,5 +52,5 @@ fn a_mesh_light_is_normalised_by_all_of_its_faces() {
     for (object, luminance) in [("plain", 40.0), ("plain-2", 40.0), ("even", 5.0), ("even-2", 5.0)] {
         near(made.luminance(object), luminance);
     }
-    assert!(made.says("a mesh shines, 40 cd/m², its own emission apart (2 times"), "{}", made.told);
+    assert!(made.says("mesh light: 40 cd/m², in addition to the emission of its material (2 times"), "{}", made.told);
 }

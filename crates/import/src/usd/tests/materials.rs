@@ -27,7 +27,7 @@ fn opacity_that_is_presence_makes_no_glass() {
         assert!(!glass.says("opacityMode"), "{}", glass.told);
         let thin = ball(&format!("float inputs:opacity = 0.7 {mode}"));
         assert_eq!(opacity(&thin), Some(0.7));
-        assert!(thin.says("opacity is the share of the surface that is there, its highlights with it"), "{mode}");
+        assert!(thin.says("opacity is the fraction of the surface that is present, including its specular reflection"), "{mode}");
     }
 }
 
@@ -37,11 +37,11 @@ fn an_index_beyond_those_of_coats_is_the_nearest() {
         let made = ball(&format!("float inputs:ior = {stated}"));
         let Surface::Coated(coated) = &made.material("a").surface.0 else { panic!("{stated}: {}", made.told) };
         assert_eq!(coated.index.as_ref().map(|index| index.value), Some(expected));
-        let told = format!("the refractive index {stated} of \"ior\" is taken as {expected}: expected 1.1 … 4");
+        let told = format!("the refractive index {stated} of \"ior\" is limited to {expected}: expected 1.1 … 4");
         assert_eq!(made.says(&told), expected.to_string() != stated, "{}", made.told);
     }
     let sheet = ball("float inputs:opacity = 0.1 float inputs:ior = 5");
-    assert!(sheet.says("the refractive index 5 of \"ior\" is taken as 4: expected 1 … 4"), "{}", sheet.told);
+    assert!(sheet.says("the refractive index 5 of \"ior\" is limited to 4: expected 1 … 4"), "{}", sheet.told);
     // An index of 1 reflects nothing.
     let made = ball("float inputs:ior = 1");
     assert!(matches!(made.material("a").surface.0, Surface::Diffuse(_)) && !made.says("refractive"), "{}", made.told);
