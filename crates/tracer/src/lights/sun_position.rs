@@ -256,10 +256,10 @@ mod tests {
     fn what_is_no_time_or_place_is_told() {
         let error = |date, time| UtcTime::new(date, time).expect_err("a fault").to_string();
         assert!(error(date(1899, 1, 1), time(0, 0, 0.0)).starts_with("year 1899 is outside 1900 to 2100"));
-        assert!(error(date(2023, 2, 29), time(0, 0, 0.0)).starts_with("2023-02-29 is not a date"));
-        assert!(error(date(2100, 2, 29), time(0, 0, 0.0)).starts_with("2100-02-29 is not a date"));
-        assert!(error(date(2024, 13, 1), time(0, 0, 0.0)).starts_with("2024-13-01 is not a date"));
-        assert!(error(date(2024, 4, 0), time(0, 0, 0.0)).starts_with("2024-04-00 is not a date"));
+        assert!(error(date(2023, 2, 29), time(0, 0, 0.0)).starts_with("2023-02-29 is not a calendar date"));
+        assert!(error(date(2100, 2, 29), time(0, 0, 0.0)).starts_with("2100-02-29 is not a calendar date"));
+        assert!(error(date(2024, 13, 1), time(0, 0, 0.0)).starts_with("2024-13-01 is not a calendar date"));
+        assert!(error(date(2024, 4, 0), time(0, 0, 0.0)).starts_with("2024-04-00 is not a calendar date"));
         assert!(error(date(2024, 4, 1), time(24, 0, 0.0)).starts_with("24:00:0 is not a time"));
         assert!(error(date(2024, 4, 1), time(12, 0, f64::NAN)).starts_with("12:00:NaN is not a time"));
         let noon = utc(date(2024, 6, 21), time(12, 0, 0.0));
