@@ -92,7 +92,7 @@ fn light_that_no_number_holds() {
     uniform("luminance_cd_m2 = 1e300\nilluminant = \"D65\"");
     let spoilt = Spoilt::new();
     spoilt.spoil("small.toml", "luminance_cd_m2_per_unit = 2000", "luminance_cd_m2_per_unit = 1e300");
-    spoilt.render(&[]).refused(&["small.toml:", "brighter than 1e30"]);
+    spoilt.render(&[]).refused(&["small.toml:", "exceeds the maximum of 1e30"]);
 }
 
 /// A lamp so near to a wall that 32 bits do not hold the irradiance under it: detected only during rendering.

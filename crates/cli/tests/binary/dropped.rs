@@ -87,7 +87,7 @@ fn a_remark_that_concerns_many_things_is_told_once() {
     fs::write(place.path().join("job.toml"), job).expect("written");
     fs::write(place.path().join("m.obj"), OBJ).expect("written");
     let plan = etendue(["plan", &text(&place.path().join("job.toml"))]).ok().out;
-    let told: Vec<&str> = plan.lines().filter(|line| line.contains("R_A is held")).collect();
+    let told: Vec<&str> = plan.lines().filter(|line| line.contains("R_A is constant")).collect();
     assert_eq!(told.len(), 1, "{plan}");
     assert!(told[0].contains("materials.a, ") && told[0].contains("materials.b: "), "{plan}");
 }

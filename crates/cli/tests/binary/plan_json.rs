@@ -80,6 +80,6 @@ fn equal_remarks_are_told_once_with_their_number() {
     let signs = remarks.iter().find(|r| r["about"].as_array().is_some_and(|a| a.len() == 8)).expect("of eight signs");
     assert_eq!((&signs["count"], &signs["weight"]), (&8.into(), &"note".into()));
     let text = etendue(["plan", job]).ok().out;
-    let lines: Vec<_> = text.lines().filter(|line| line.contains("R_A is held below")).collect();
+    let lines: Vec<_> = text.lines().filter(|line| line.contains("R_A is constant below")).collect();
     assert!(lines.len() == 1 && lines[0].ends_with("(8 times)"), "{lines:?}");
 }

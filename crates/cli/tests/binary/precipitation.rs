@@ -105,8 +105,8 @@ fn what_does_not_fall() {
     };
     refused("type = \"rain\", rate_mm_h = 0", &["rate_mm_h", "found 0", "above 0"]);
     refused("type = \"rain\", rate_mm_h = -2", &["rate_mm_h", "found -2"]);
-    refused("type = \"rain\", rate_mm_h = 151", &["a rate of 151 mm/h", "0.1 to 150 mm/h"]);
-    refused("type = \"snow\", rate_mm_h = 4", &["a rate of 4 mm/h", "0.1 to 3 mm/h"]);
+    refused("type = \"rain\", rate_mm_h = 151", &["the rate is 151 mm/h", "0.1 to 150 mm/h"]);
+    refused("type = \"snow\", rate_mm_h = 4", &["the rate is 4 mm/h", "0.1 to 3 mm/h"]);
     refused("type = \"hail\", rate_mm_h = 4", &["type", "\"rain\"", "\"snow\""]);
     refused("type = \"rain\"", &["rate_mm_h"]);
     refused("type = \"rain\", rate_mm_h = 4, crystals = \"rimed\"", &["crystals"]);

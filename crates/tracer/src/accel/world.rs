@@ -12,7 +12,7 @@ use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum WorldError {
     /// An instance names a mesh that does not exist.
-    #[error("instance {instance} shows mesh {mesh}, but the world has {meshes} meshes; add the mesh first")]
+    #[error("instance {instance} refers to mesh {mesh}, but the world has {meshes} meshes; add the mesh first")]
     UnknownMesh {
         /// Index of the instance, from 0.
         instance: usize,
@@ -22,7 +22,9 @@ pub enum WorldError {
         meshes: usize,
     },
     /// An instance has fewer materials than its shape has slots.
-    #[error("instance {instance} has {found} materials, but its shape uses {expected} slots; give one material a slot")]
+    #[error(
+        "instance {instance} has {found} materials, but its shape has {expected} material slots; give one material for each slot"
+    )]
     MissingMaterials {
         /// Index of the instance, from 0.
         instance: usize,
@@ -32,15 +34,15 @@ pub enum WorldError {
         expected: usize,
     },
     /// An instance's transform cannot be inverted or is not finite.
-    #[error("instance {instance} has a transform that is not finite or flattens its shape; correct its scale")]
+    #[error("the transform of instance {instance} is not finite or has a scale of 0; correct it")]
     Transform {
         /// Index of the instance, from 0.
         instance: usize,
     },
     /// The motion of an instance takes a scale to zero or through it.
     #[error(
-        "instance {instance} is flattened at some time of its motion; give its scale one sign along each axis at all keys, and \
-         keys near zero so close in time that smooth interpolation does not pass through it"
+        "the scale of instance {instance} is 0 at some time of its motion; keep its sign along each axis equal at all keys, and \
+         place keys of small scale so close in time that smooth interpolation does not pass through 0"
     )]
     Flattened {
         /// Index of the instance, from 0.
@@ -48,8 +50,8 @@ pub enum WorldError {
     },
     /// A mesh's own unit is too small for the distances of the scene.
     #[error(
-        "rays may start {reach:e} units of its own frame away from instance {instance}, but at most 1e12 can be traced; \
-         scale it less, give its mesh a larger unit, or bring camera and objects nearer to each other"
+        "rays may start {reach:e} units (of the mesh's frame) from instance {instance}, but at most 1e12 can be traced; scale it \
+         less, give its mesh a larger unit, or move camera and objects nearer to each other"
     )]
     Reach {
         /// Index of the instance, from 0.
@@ -59,8 +61,8 @@ pub enum WorldError {
     },
     /// A mesh is so large that rounding moves the camera in front of it into it.
     #[error(
-        "the camera is {away:.3} units before the box of instance {instance} and moves by {moved:.3} units when it is rounded \
-         to the 32 bits of the mesh's frame; make the mesh smaller, cut it, or put its origin near the camera"
+        "the camera is {away:.3} units from the bounding box of instance {instance}, but rounding to 32 bits in the mesh's frame \
+         moves it by {moved:.3} units; make the mesh smaller, split it, or put its origin near the camera"
     )]
     Rounding {
         /// Index of the instance, from 0.
@@ -72,8 +74,8 @@ pub enum WorldError {
     },
     /// A sphere is farther away than distances can be resolved.
     #[error(
-        "instance {instance} is a sphere that reaches {reach_m:e} m from the camera, but at most 1e12 m can be traced; bring \
-         it nearer or make it smaller"
+        "the sphere of instance {instance} extends to {reach_m:e} m from the camera, but at most 1e12 m can be traced; move it \
+         nearer or make it smaller"
     )]
     Sphere {
         /// Index of the instance, from 0.
@@ -82,7 +84,7 @@ pub enum WorldError {
         reach_m: f64,
     },
     /// A sphere's radius is not a positive number.
-    #[error("instance {instance} is a sphere of radius {radius_m} m; a radius must be positive and finite")]
+    #[error("the sphere of instance {instance} has a radius of {radius_m} m; it must be positive and finite")]
     Radius {
         /// Index of the instance, from 0.
         instance: usize,

@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MeshError {
     /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names vertex {vertex}, but the mesh has {vertices} vertices; correct its indices")]
+    #[error("triangle {triangle} refers to vertex {vertex}, but the mesh has {vertices} vertices; correct its indices")]
     IndexOutOfRange {
         /// Index of the triangle, from 0.
         triangle: usize,
@@ -34,7 +34,7 @@ pub enum MeshError {
         vertex: usize,
     },
     /// Normals or texture coordinates do not match the vertices, or slots the triangles.
-    #[error("the mesh has {found} {what}, but {expected} are needed (or none)")]
+    #[error("the mesh has {found} {what}; it must have {expected} or none")]
     Count {
         /// The counted quantity.
         what: &'static str,
@@ -44,14 +44,15 @@ pub enum MeshError {
         expected: usize,
     },
     /// More triangles than the tree can index.
-    #[error("the mesh has {triangles} triangles, but at most 536870911 are possible; split it")]
+    #[error("the mesh has {triangles} triangles, more than the maximum of 536870911; split it")]
     TooManyTriangles {
         /// Number of triangles.
         triangles: usize,
     },
     /// Vertices that move have too few frames, or times that do not fit them.
     #[error(
-        "{frames} frames of vertices at {times} times; give two frames or more, rising finite times, one a frame, and of a loop one more"
+        "{frames} frames of vertices have {times} times; give at least two frames and a rising, finite time for each, and for a \
+         loop one more time"
     )]
     FrameTimes {
         /// Number of frames.
@@ -60,7 +61,7 @@ pub enum MeshError {
         times: usize,
     },
     /// Frames of moving vertices differ in their numbers of vertices or normals.
-    #[error("frame {frame} has other numbers of vertices or normals than frame 0; all must be of one mesh")]
+    #[error("frame {frame} differs from frame 0 in its number of vertices or normals; all frames must be of one mesh")]
     UnequalFrames {
         /// Index of the frame, from 0.
         frame: usize,

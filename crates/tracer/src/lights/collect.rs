@@ -17,7 +17,9 @@ use crate::{MaterialId, render_space::RenderSpace};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LightError {
     /// An instance names a material that does not exist.
-    #[error("instance {instance} names material {material}, but there are {materials}; add the material first")]
+    #[error(
+        "instance {instance} refers to material {material}, but there are {materials} materials; add the material first"
+    )]
     UnknownMaterial {
         /// Index of the instance, from 0.
         instance: usize,
@@ -28,15 +30,15 @@ pub enum LightError {
     },
     /// The surface of a lamp's opening does not match the opening.
     #[error(
-        "instance {instance} is not the surface of a lamp's opening, which its lamp takes it for; place the opening's own mesh, or a \
-         sphere, of one material that does not glow"
+        "instance {instance} does not match the opening of its light; place the opening's mesh, or a sphere, with one material \
+         that does not emit"
     )]
     Opening {
         /// Index of the instance, from 0.
         instance: u32,
     },
     /// More emitting triangles than can be indexed.
-    #[error("the scene has more than four thousand million glowing triangles; let fewer glow")]
+    #[error("the scene has more than 4 294 967 294 emitting triangles; use fewer")]
     TooMany,
 }
 

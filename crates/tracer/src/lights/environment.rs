@@ -71,7 +71,7 @@ impl Environment {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum EnvironmentError {
     /// The texels do not fill the image.
-    #[error("a picture of {width} × {height} needs as many texels, but {found} were given; check its size")]
+    #[error("the environment map has {found} texels, but its size is {width} × {height}; correct its size")]
     Size {
         /// Columns.
         width: usize,
@@ -81,17 +81,18 @@ pub enum EnvironmentError {
         found: usize,
     },
     /// A texel is negative or not finite.
-    #[error("texel {texel} of the surroundings is negative or not a finite number; correct the picture")]
+    #[error("texel {texel} of the environment map is negative or not a finite number; correct the image")]
     Texel {
         /// Index of the texel, by rows from the top.
         texel: usize,
     },
     /// All texels are black.
-    #[error("the picture of the surroundings is black everywhere; leave it out")]
+    #[error("the environment map is black everywhere; remove it")]
     Black,
     /// Luminance above [`BRIGHTEST`].
     #[error(
-        "texels up to {texel:e} times {scale:e} cd/m² are brighter than 1e30, the most that can be traced; lower the scale"
+        "the brightest texel of the environment map, {texel:e} times {scale:e} cd/m², exceeds the maximum of 1e30; lower the \
+         scale"
     )]
     Bright {
         /// Maximum component of a texel.
@@ -100,7 +101,7 @@ pub enum EnvironmentError {
         scale: f64,
     },
     /// The scale or the rotation is not a usable number.
-    #[error("the scale of the surroundings must be positive and finite and their rotation finite; correct them")]
+    #[error("the scale of the environment map must be positive and finite, and its rotation finite")]
     Placement,
 }
 

@@ -23,26 +23,24 @@ use crate::materials::{EmissionQuery, choice_level};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LampError {
     /// The position is not finite.
-    #[error("a lamp's position must be three finite numbers; correct it")]
+    #[error("the position of a light must be three finite numbers")]
     Position,
     /// The axes are no rotation.
-    #[error(
-        "a lamp's axes must be three unit vectors at right angles, right-handed (x forward, y left, z up); correct them"
-    )]
+    #[error("the axes of a light must be three orthogonal unit vectors, right-handed (x forward, y left, z up)")]
     Axes,
     /// The intensity is negative or not finite.
-    #[error("a lamp's intensity must be 0 to 1e30 at every wavelength; correct it")]
+    #[error("the intensity of a light must be 0 to 1e30 at every wavelength")]
     Intensity,
     /// The attenuation coefficient is negative or not finite.
-    #[error("an attenuation of {per_m} 1/m was given, but it must be 0 or more and finite; correct it")]
+    #[error("the attenuation is {per_m} 1/m; it must be finite and 0 or more")]
     Attenuation {
         /// Value given, 1/m.
         per_m: f64,
     },
     /// Attenuation of a lamp with an opening.
     #[error(
-        "an attenuation of {per_m} 1/m was given to a lamp with an opening, whose radiance is the same at every distance; remove one \
-         of the two"
+        "a light with an opening has an attenuation ({per_m} 1/m), but its radiance is the same at every distance; remove one of \
+         the two"
     )]
     AttenuatedOpening {
         /// Value given, 1/m.
@@ -50,7 +48,7 @@ pub enum LampError {
     },
     /// The opening is too bright.
     #[error(
-        "the opening would have a radiance of {radiance:e} W·m⁻²·sr⁻¹·nm⁻¹, at most 1e30 can be traced; give less light"
+        "the opening has a radiance of {radiance:e} W·m⁻²·sr⁻¹·nm⁻¹, more than the maximum of 1e30; lower the intensity"
     )]
     OpeningRadiance {
         /// Maximum radiance, W·m⁻²·sr⁻¹·nm⁻¹.

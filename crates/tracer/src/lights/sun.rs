@@ -24,16 +24,16 @@ type Limb = [[f32; 6]; BANDS];
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SunError {
     /// The direction has no length.
-    #[error("the direction to the sun must be a finite vector that is not zero; give it one")]
+    #[error("the direction to the sun must be a finite vector other than zero")]
     Direction,
     /// The diameter is out of range.
-    #[error("a sun of {degrees} degrees was given, but its angular diameter must be between 0.001 and 90; correct it")]
+    #[error("the sun's angular diameter is {degrees}°; it must be between 0.001° and 90°")]
     Diameter {
         /// Value given.
         degrees: f64,
     },
     /// The radiance is negative or not finite.
-    #[error("the sun's radiance or irradiance must be 0 to 1e30 at every wavelength; correct it")]
+    #[error("the sun's radiance or irradiance must be 0 to 1e30 at every wavelength")]
     Radiance,
 }
 

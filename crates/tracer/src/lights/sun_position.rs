@@ -33,13 +33,13 @@ pub struct SunPosition {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SunPositionError {
     /// A year beyond the formulas.
-    #[error("year {found} is outside 1900 to 2100: the Sun's place is not computed for others")]
+    #[error("year {found} is outside 1900 to 2100, for which the Sun's position is computed")]
     Year {
         /// The year given.
         found: i32,
     },
     /// A month or day that is not in the calendar.
-    #[error("{year}-{month:02}-{day:02} is not a date of the calendar: give year, month 1 to 12 and day of the month")]
+    #[error("{year}-{month:02}-{day:02} is not a calendar date: give year, month 1 to 12 and day of the month")]
     Date {
         /// The year given.
         year: i32,
@@ -49,9 +49,7 @@ pub enum SunPositionError {
         day: u32,
     },
     /// An invalid time of day.
-    #[error(
-        "{hour:02}:{minute:02}:{second} is not a time of the day: give hour 0 to 23, minute 0 to 59, second below 60"
-    )]
+    #[error("{hour:02}:{minute:02}:{second} is not a time of day: give hour 0 to 23, minute 0 to 59, second below 60")]
     Time {
         /// The hour given.
         hour: u32,
@@ -62,7 +60,8 @@ pub enum SunPositionError {
     },
     /// A place that does not exist on the Earth.
     #[error(
-        "latitude {latitude_deg}°, longitude {longitude_deg}° is not a place: give −90 to 90 (north is positive) and −180 to 180 (east is positive)"
+        "latitude {latitude_deg}°, longitude {longitude_deg}° is not a position on Earth: give −90 to 90 (north is positive) and \
+         −180 to 180 (east is positive)"
     )]
     Place {
         /// The latitude given, degrees.
@@ -257,10 +256,10 @@ mod tests {
     fn what_is_no_time_or_place_is_told() {
         let error = |date, time| UtcTime::new(date, time).expect_err("a fault").to_string();
         assert!(error(date(1899, 1, 1), time(0, 0, 0.0)).starts_with("year 1899 is outside 1900 to 2100"));
-        assert!(error(date(2023, 2, 29), time(0, 0, 0.0)).starts_with("2023-02-29 is not a date"));
-        assert!(error(date(2100, 2, 29), time(0, 0, 0.0)).starts_with("2100-02-29 is not a date"));
-        assert!(error(date(2024, 13, 1), time(0, 0, 0.0)).starts_with("2024-13-01 is not a date"));
-        assert!(error(date(2024, 4, 0), time(0, 0, 0.0)).starts_with("2024-04-00 is not a date"));
+        assert!(error(date(2023, 2, 29), time(0, 0, 0.0)).starts_with("2023-02-29 is not a calendar date"));
+        assert!(error(date(2100, 2, 29), time(0, 0, 0.0)).starts_with("2100-02-29 is not a calendar date"));
+        assert!(error(date(2024, 13, 1), time(0, 0, 0.0)).starts_with("2024-13-01 is not a calendar date"));
+        assert!(error(date(2024, 4, 0), time(0, 0, 0.0)).starts_with("2024-04-00 is not a calendar date"));
         assert!(error(date(2024, 4, 1), time(24, 0, 0.0)).starts_with("24:00:0 is not a time"));
         assert!(error(date(2024, 4, 1), time(12, 0, f64::NAN)).starts_with("12:00:NaN is not a time"));
         let noon = utc(date(2024, 6, 21), time(12, 0, 0.0));

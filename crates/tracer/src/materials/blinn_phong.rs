@@ -97,7 +97,7 @@ impl SurfaceModel for BlinnPhong {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum BlinnPhongError {
     /// The exponent is out of range.
-    #[error("an exponent of {exponent} was given, but it must lie between 0 and {MAX_EXPONENT}; correct it")]
+    #[error("the exponent is {exponent}; it must be between 0 and {MAX_EXPONENT}")]
     Exponent {
         /// Value given.
         exponent: f64,

@@ -219,19 +219,19 @@ impl SurfaceModel for CarPaint {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CarPaintError {
     /// The flakes' roughness is out of range.
-    #[error("flakes of roughness α = {alpha} were given, but it must lie between 0.05 and 1; correct it")]
+    #[error("the flakes' roughness α is {alpha}; it must be between 0.05 and 1")]
     FlakeAlpha {
         /// Value given.
         alpha: f64,
     },
     /// The coverage is out of range.
-    #[error("a coverage by flakes of {coverage} was given, but it must lie between 0 and 1; correct it")]
+    #[error("the flakes' coverage is {coverage}; it must be between 0 and 1")]
     Coverage {
         /// Value given.
         coverage: f64,
     },
     /// The flakes' reflectance is out of range.
-    #[error("the reflectance of the flakes leaves the range 0 to 1 at some wavelength; scale it")]
+    #[error("the flakes' reflectance is outside 0 to 1 at some wavelength; scale it")]
     Flakes,
     /// The coat is invalid.
     #[error(transparent)]

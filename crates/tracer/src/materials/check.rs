@@ -23,7 +23,7 @@ pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTe
     if let Some(opacity) = material.opacity {
         check.parameter(Parameter::Factor(opacity, "an opacity"))?;
         if let (Some(_), Some(id)) = (&material.emission, opacity.texture()) {
-            check.laid_by_uv("an opacity beside its emission", id)?;
+            check.laid_by_uv("an opacity together with an emission", id)?;
         }
     }
     if let Some(map) = material.normal_map {

@@ -96,13 +96,13 @@ impl SurfaceModel for Cloth {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ClothError {
     /// The sheen's roughness is out of range.
-    #[error("a sheen of roughness α = {alpha} was given, but it must lie between 0.1 and 1; correct it")]
+    #[error("the sheen's roughness α is {alpha}; it must be between 0.1 and 1")]
     Alpha {
         /// Value given.
         alpha: f64,
     },
     /// The sheen's colour is out of range.
-    #[error("the colour of the sheen leaves the range 0 to 1 at some wavelength; scale it")]
+    #[error("the sheen's colour is outside 0 to 1 at some wavelength; scale it")]
     Colour,
 }
 

@@ -4,13 +4,13 @@
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MaterialError {
     /// A roughness is outside its range.
-    #[error("a roughness α of {alpha} was given, but it must lie between 0 (mirror) and 1; correct it")]
+    #[error("roughness α is {alpha}; it must be between 0 (mirror) and 1")]
     Roughness {
         /// Value given.
         alpha: f64,
     },
     /// A length of ground under water is outside its range.
-    #[error("a {what} of {value} mm was given, but it must be a finite length above 0 (a level may be 0); correct it")]
+    #[error("the {what} is {value} mm; it must be finite and above 0 (a level may be 0)")]
     WaterLength {
         /// The length concerned.
         what: &'static str,
@@ -18,49 +18,49 @@ pub enum MaterialError {
         value: f64,
     },
     /// A rate of rain is outside its range.
-    #[error("rain of {rain_mm_h} mm/h was given, but it must lie between 0 and 150; correct it")]
+    #[error("the rain rate is {rain_mm_h} mm/h; it must be between 0 and 150")]
     Rain {
         /// Value given, mm/h.
         rain_mm_h: f64,
     },
     /// A coat's refractive index is outside its range.
-    #[error("a coat of refractive index {n} was given, but it must lie between 1.1 and 4; correct it")]
+    #[error("the coat's refractive index is {n}; it must be between 1.1 and 4")]
     CoatIndex {
         /// Value given.
         n: f64,
     },
     /// A transparent substance's refractive index is outside its range.
-    #[error("glass of refractive index {n} was given, but it must lie between 1 and 4; correct it")]
+    #[error("the refractive index is {n}; it must be between 1 and 4")]
     GlassIndex {
         /// Value given.
         n: f64,
     },
     /// An absorption coefficient is negative.
-    #[error("an absorption of {value} 1/m was given, but it must be 0 or more everywhere; correct it")]
+    #[error("the absorption is {value} 1/m; it must be 0 or more at every wavelength")]
     Absorption {
         /// Value found.
         value: f32,
     },
     /// An internal transmittance leaves 0–1.
-    #[error("an internal transmittance of {value} was given, but it must lie between 0 and 1; scale it")]
+    #[error("the internal transmittance is {value}; it must be between 0 and 1; scale it")]
     Transmittance {
         /// Value found.
         value: f32,
     },
     /// A thickness is not a positive length.
-    #[error("a transmittance was given for a thickness of {thickness_m} m, but that must be above 0; correct it")]
+    #[error("the thickness of the internal transmittance is {thickness_m} m; it must be above 0")]
     Thickness {
         /// Value given, m.
         thickness_m: f64,
     },
     /// A metal's index is not a substance's.
-    #[error("the complex index at {nm} nm is not a substance's: n and k must be 0 or more, not both 0, and finite")]
+    #[error("the complex refractive index at {nm} nm is invalid: n and k must be finite, 0 or more, and not both 0")]
     Index {
         /// Wavelength, nm.
         nm: u16,
     },
     /// An interface's real index is out of range.
-    #[error("the refractive index is {n} at {nm} nm, but it must lie between 1 and 4 at every wavelength; correct it")]
+    #[error("the refractive index is {n} at {nm} nm; it must be between 1 and 4 at every wavelength")]
     RealIndex {
         /// Wavelength, nm.
         nm: u16,
@@ -68,13 +68,13 @@ pub enum MaterialError {
         n: f32,
     },
     /// The strength of a normal map is outside its range.
-    #[error("a normal map of strength {strength} was given, but it must lie between 0 and 10; correct it")]
+    #[error("the strength of the normal map is {strength}; it must be between 0 and 10")]
     NormalStrength {
         /// Value given.
         strength: f64,
     },
     /// A reflectance leaves the range 0–1.
-    #[error("material {material} has a reflectance of {value}, but it must lie between 0 and 1; scale it")]
+    #[error("material {material} has a reflectance of {value}; it must be between 0 and 1; scale it")]
     Reflectance {
         /// Index of the material.
         material: usize,
@@ -82,9 +82,7 @@ pub enum MaterialError {
         value: f32,
     },
     /// A leaf reflects and transmits more than arrives.
-    #[error(
-        "material {material} reflects and transmits {value} of what arrives, but both must sum to at most 1; scale them"
-    )]
+    #[error("material {material} has reflectance + transmittance = {value}; the sum must be at most 1; scale them")]
     LeafSum {
         /// Index of the material.
         material: usize,
@@ -92,7 +90,7 @@ pub enum MaterialError {
         value: f32,
     },
     /// A roughness, opacity or mix weight leaves the range 0–1.
-    #[error("material {material} has {quantity} of {value}, but it must lie between 0 and 1; scale it")]
+    #[error("material {material} has {quantity} of {value}; it must be between 0 and 1; scale it")]
     Factor {
         /// Index of the material.
         material: usize,
@@ -110,7 +108,7 @@ pub enum MaterialError {
         gain: EnergyGain,
     },
     /// An emission is negative or not finite.
-    #[error("material {material} emits {value} W.m^-2.sr^-1.nm^-1, but radiance must be 0 to 1e30")]
+    #[error("material {material} emits {value} W·m⁻²·sr⁻¹·nm⁻¹; radiance must be 0 to 1e30")]
     Radiance {
         /// Index of the material.
         material: usize,
@@ -118,7 +116,9 @@ pub enum MaterialError {
         value: f32,
     },
     /// A material names a texture that does not exist.
-    #[error("material {material} names texture {texture}, but there are {textures}; add the texture first")]
+    #[error(
+        "material {material} refers to texture {texture}, but there are {textures} textures; add the texture first"
+    )]
     UnknownTexture {
         /// Index of the material.
         material: usize,
@@ -129,7 +129,7 @@ pub enum MaterialError {
     },
     /// A triplanar (three-sided) texture is used where texture coordinates are needed.
     #[error(
-        "material {material} has {what} laid on from three sides, but that needs texture coordinates; lay it on by them"
+        "material {material} has {what} with triplanar mapping, but this requires texture coordinates; use UV mapping"
     )]
     Projected {
         /// Index of the material.
@@ -146,7 +146,7 @@ pub enum MaterialError {
         texture: u32,
     },
     /// A mix names a material that does not exist.
-    #[error("material {material} mixes material {part}, but there are {materials}; add the material first")]
+    #[error("material {material} mixes material {part}, but there are {materials} materials; add the material first")]
     UnknownMaterial {
         /// Index of the mix.
         material: usize,
@@ -156,13 +156,13 @@ pub enum MaterialError {
         materials: usize,
     },
     /// A mix contains itself.
-    #[error("material {material} is mixed of itself, directly or by way of other mixes; take it out of its own parts")]
+    #[error("material {material} contains itself, directly or through other mixes; remove it from its own parts")]
     Circle {
         /// Index of the mix.
         material: usize,
     },
     /// A part of a mix has a property that counts only on the mix.
-    #[error("material {material} mixes material {part}, which has {what} of its own; give that to the mix instead")]
+    #[error("material {material} mixes material {part}, which has {what}; give that to the mix instead")]
     Part {
         /// Index of the mix.
         material: usize,
@@ -172,7 +172,7 @@ pub enum MaterialError {
         what: &'static str,
     },
     /// A mix has a normal map.
-    #[error("material {material} is a mix with a normal map, which would bend nothing; give it to the parts instead")]
+    #[error("material {material} is a mix with a normal map, which has no effect; give the map to the parts instead")]
     MixNormal {
         /// Index of the mix.
         material: usize,
@@ -214,8 +214,8 @@ impl MaterialError {
 /// A surface that would reflect more light than arrives.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "lit at {incidence_deg:.1}° from its normal, the surface would send back {albedo:.4} of the light at {wavelength_nm} \
-     nm, but none sends back more than arrives (1); lower its reflectances or weights to {:.4} of what they are",
+    "at an incidence of {incidence_deg:.1}° the surface reflects {albedo:.4} of the light at {wavelength_nm} nm, more than the \
+     maximum of 1; multiply its reflectances or weights by {:.4}",
     1.0 / albedo
 )]
 pub struct EnergyGain {

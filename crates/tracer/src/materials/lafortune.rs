@@ -182,15 +182,15 @@ impl SurfaceModel for Lafortune {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LafortuneError {
     /// More lobes than a model may have.
-    #[error("{lobes} lobes were given, but a Lafortune model has at most {MAX_LOBES}; leave out the weakest")]
+    #[error("the Lafortune model has {lobes} lobes; the maximum is {MAX_LOBES}; remove the weakest")]
     TooMany {
         /// Number of lobes given.
         lobes: usize,
     },
     /// A lobe's factors give no direction.
     #[error(
-        "lobe {lobe} has the factors C_t = {tangential} and C_n = {normal}, but they must be finite, not both 0, and C_n \
-         0 or more; mirror lobes have C_t = −C_n, retro lobes C_t = C_n"
+        "lobe {lobe} has C_t = {tangential} and C_n = {normal}; they must be finite, not both 0, and C_n 0 or more; a mirror \
+         lobe has C_t = −C_n, a retro-reflective lobe C_t = C_n"
     )]
     Factors {
         /// Index of the lobe.
@@ -201,7 +201,7 @@ pub enum LafortuneError {
         normal: f64,
     },
     /// An exponent is out of range.
-    #[error("lobe {lobe} has the exponent {exponent}, but it must lie between 0 and {MAX_EXPONENT}; correct it")]
+    #[error("lobe {lobe} has an exponent of {exponent}; it must be between 0 and {MAX_EXPONENT}")]
     Exponent {
         /// Index of the lobe.
         lobe: usize,
@@ -209,7 +209,7 @@ pub enum LafortuneError {
         exponent: f64,
     },
     /// A weight is negative or not a number.
-    #[error("lobe {lobe} has a weight that is negative or not finite at some wavelength; weights must be 0 or more")]
+    #[error("the weight of lobe {lobe} is negative or not finite at some wavelength; it must be 0 or more")]
     Weight {
         /// Index of the lobe.
         lobe: usize,

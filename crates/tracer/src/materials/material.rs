@@ -112,7 +112,7 @@ pub struct Mix {
 
 impl Mix {
     pub(super) fn parameters(&self) -> Vec<Parameter<'_>> {
-        vec![Parameter::Factor(self.weight, "a share")]
+        vec![Parameter::Factor(self.weight, "a weight")]
     }
 }
 

@@ -15,19 +15,19 @@ use super::{noise::Noise, phase::Phase, shape::Shape};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MediumError {
     /// An extinction is negative or too large.
-    #[error("an extinction of {value} 1/m was given, but it must be 0 to 1e6 at every wavelength; correct it")]
+    #[error("the extinction is {value} 1/m; it must be 0 to 1e6 at every wavelength")]
     Extinction {
         /// Value given, 1/m.
         value: f32,
     },
     /// An albedo is out of range.
-    #[error("an albedo of {value} was given, but it must be 0 to 1 at every wavelength; correct it")]
+    #[error("the albedo is {value}; it must be 0 to 1 at every wavelength")]
     Albedo {
         /// Value given.
         value: f32,
     },
     /// The motion takes a scale to zero.
-    #[error("the medium's transform is not finite or flattens its shape; correct its scale")]
+    #[error("the medium's transform is not finite or has a scale of 0; correct it")]
     Transform,
 }
 

@@ -18,7 +18,8 @@ const LEAF: usize = 4;
 pub enum SolidError {
     /// Edges that an odd number of triangles share.
     #[error(
-        "the mesh is open: {open} of its {all} edges belong to an odd number of triangles; close its holes, so that it has an inside"
+        "the mesh is not closed: {open} of its {all} edges belong to an odd number of triangles; close its holes, so that it has \
+         an interior"
     )]
     Open {
         /// Number of such edges.
@@ -27,7 +28,7 @@ pub enum SolidError {
         all: usize,
     },
     /// No triangles, or a vertex that is not finite.
-    #[error("the mesh has no triangles, or vertices that are not finite; give one that encloses a volume")]
+    #[error("the mesh has no triangles, or vertices that are not finite; give a mesh that encloses a volume")]
     Empty,
 }
 

@@ -10,7 +10,7 @@ use etendue_core::maths::f64::{cbrt, exp, exp_m1, ln_1p, pow};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SizeLawError {
     /// A rate beyond the measurements that a law was fitted to.
-    #[error("a rate of {rate_mm_h} mm/h was given, but the law of sizes holds from {low} to {high} mm/h; correct it")]
+    #[error("the rate is {rate_mm_h} mm/h; the drop size distribution is valid from {low} to {high} mm/h")]
     Rate {
         /// Value given, mm/h of water.
         rate_mm_h: f64,

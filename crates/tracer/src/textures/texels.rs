@@ -178,7 +178,7 @@ impl Channel {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TextureError {
     /// The texels do not fill the image.
-    #[error("a picture of {width} × {height} needs as many texels, but {found} were given; check its size")]
+    #[error("the texture has {found} texels, but its size is {width} × {height}; correct its size")]
     Size {
         /// Columns.
         width: u32,
@@ -188,16 +188,16 @@ pub enum TextureError {
         found: usize,
     },
     /// A texel is not a finite number.
-    #[error("texel {texel} of the picture is not a finite number; correct the file")]
+    #[error("texel {texel} of the texture is not a finite number; correct the file")]
     NonFinite {
         /// Index of the texel, by rows from the top.
         texel: usize,
     },
     /// The size or sharpness of a projection from three sides is out of range.
-    #[error("a picture laid on from three sides needs a size above 0 m and a sharpness of 1 to 64; correct them")]
+    #[error("triplanar mapping requires a size above 0 m and a sharpness of 1 to 64")]
     Projection,
     /// Scale or offset are not finite numbers.
-    #[error("the texture's scale and offset must be finite numbers; correct them")]
+    #[error("the texture's scale and offset must be finite numbers")]
     Placement,
 }
 

@@ -25,8 +25,8 @@ const AROUND: u32 = 3600;
 pub enum OpeningError {
     /// An extent is out of range.
     #[error(
-        "an opening of {} × {} × {} m (along the lamp's x, y, z) was given, but its extents must lie between 0.0001 and 100 m, and at \
-         most one of a flat one may be 0: correct them",
+        "the opening is {} × {} × {} m (along the light's x, y, z); each extent must be between 0.0001 and 100 m, or 0 for one \
+         extent of a flat opening",
         extents_m[0], extents_m[1], extents_m[2]
     )]
     Extents {
@@ -35,8 +35,8 @@ pub enum OpeningError {
     },
     /// The lamp emits along the plane of its opening.
     #[error(
-        "the lamp sends {:.1} % of its light along the plane of its flat opening, where the opening has no area to send it from: \
-         turn the opening towards the light, or give a body (sphere, tube)",
+        "{:.1} % of the light is emitted along the plane of the flat opening, where the opening has no projected area: turn the \
+         opening towards the emission, or give a body (sphere, tube)",
         100.0 * share
     )]
     EdgeOn {

@@ -25,8 +25,8 @@ pub struct Cone {
 pub enum ConeError {
     /// The angles are out of order or of range.
     #[error(
-        "half field angles of {inner_rad} and {outer_rad} rad were given, but 0 ≤ inner ≤ outer ≤ π and outer > 0 must \
-         hold; correct them"
+        "the cone's half angles are {inner_rad} (inner) and {outer_rad} rad (outer); expected 0 ≤ inner ≤ outer ≤ π and outer > \
+         0"
     )]
     Angles {
         /// The inner half angle, rad.

@@ -16,7 +16,7 @@ use super::spread::{GAUSS, Node, Spread};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MaskImageError {
     /// The texels do not fill the image.
-    #[error("a mask of {width} × {height} needs as many texels, but {found} were given; check its size")]
+    #[error("the mask has {found} texels, but its size is {width} × {height}; correct its size")]
     Size {
         /// Columns.
         width: usize,
@@ -26,14 +26,14 @@ pub enum MaskImageError {
         found: usize,
     },
     /// A texel is negative or not finite.
-    #[error("texel {texel} of the mask is negative or not a finite number; correct the picture")]
+    #[error("texel {texel} of the mask is negative or not a finite number; correct the image")]
     Texel {
         /// Index of the texel, by rows from the top.
         texel: usize,
     },
     /// The field is out of range.
     #[error(
-        "a field of {}° × {}° was given, but both angles must lie between 0° and 180°; correct them",
+        "the mask's field is {}° × {}°; both angles must be between 0° and 180°",
         horizontal_rad.to_degrees(),
         vertical_rad.to_degrees()
     )]

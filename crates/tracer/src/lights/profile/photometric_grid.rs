@@ -72,10 +72,7 @@ struct GridCell {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PhotometricGridError {
     /// Angles are missing, out of order or out of range.
-    #[error(
-        "the {which} angles of the grid must rise and lie between {low}° and {high}°, within a span of {span}°; correct \
-         them"
-    )]
+    #[error("the {which} angles of the grid must rise, lie between {low}° and {high}°, and span at most {span}°")]
     Angles {
         /// "vertical" or "horizontal".
         which: &'static str,
@@ -88,7 +85,7 @@ pub enum PhotometricGridError {
     },
     /// The values do not fill the grid.
     #[error(
-        "{found} values were given for a grid of {vertical} vertical × {horizontal} horizontal angles; give one each"
+        "the grid of {vertical} vertical × {horizontal} horizontal angles has {found} values; give one for each pair of angles"
     )]
     Size {
         /// Vertical angles.

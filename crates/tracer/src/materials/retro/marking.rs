@@ -151,9 +151,7 @@ impl SurfaceModel for RoadMarking {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MarkingError {
     /// The coefficient is below that of the marking's own colour.
-    #[error(
-        "an R_L of {r_l} mcd/m²/lx was given, but the marking's matt reflectance alone gives {least:.2}; give at least that"
-    )]
+    #[error("R_L is {r_l} mcd/m²/lx, but the marking's diffuse reflectance alone gives {least:.2}; give at least that")]
     Coefficient {
         /// Value given, mcd·m⁻²·lx⁻¹.
         r_l: f64,
@@ -162,20 +160,22 @@ pub enum MarkingError {
     },
     /// The reflectance by day is out of range.
     #[error(
-        "by day the marking would reflect {reflectance:.3}, but that must lie between 0 and 1; Q_d is at most 318 mcd/m²/lx"
+        "the marking's diffuse reflectance would be {reflectance:.3}; it must be between 0 and 1; Q_d is at most 318 mcd/m²/lx"
     )]
     Day {
         /// The reflectance.
         reflectance: f64,
     },
     /// The spread is out of range.
-    #[error("a spread of {spread_deg}° was given, but it must lie between 0.5° and 30°; correct it")]
+    #[error("the spread is {spread_deg}°; it must be between 0.5° and 30°")]
     Spread {
         /// Value given, degrees.
         spread_deg: f64,
     },
     /// The colour is negative or dark.
-    #[error("the marking's colour is negative or dark; give a spectrum of 0 or more that has light in it")]
+    #[error(
+        "the marking's colour is negative or 0 everywhere; give a spectrum of 0 or more, above 0 at some visible wavelength"
+    )]
     Colour,
     /// The marking reflects more than arrives.
     #[error(transparent)]

@@ -98,10 +98,10 @@ impl Sheeting {
         let (alpha, beta) = (self.table.observation_deg(), self.table.entrance_deg());
         let (first, last, deepest) = (alpha[0], alpha[alpha.len() - 1], beta[beta.len() - 1]);
         let cut = self.cut_off_deg();
-        let why = if cut < WIDEST_DEG - 0.01 { ", all that its energy allows" } else { "" };
+        let why = if cut < WIDEST_DEG - 0.01 { " (limited by energy conservation)" } else { "" };
         format!(
-            "R_A is held below an observation angle of {first}° and from {last}° to {cut:.2}°{why}; beyond it is 0. It is \
-             held beyond an entrance angle of {deepest}°, up to {}° from the normal, where it begins to fall",
+            "R_A is constant below an observation angle of {first}° and from {last}° to {cut:.2}°{why}, and 0 beyond. It is \
+             constant beyond an entrance angle of {deepest}°, up to {}° from the normal, where it begins to fall",
             deepest.max(GRAZING_DEG)
         )
     }
@@ -169,11 +169,14 @@ fn luminous(of: &Spectrum) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SheetingError {
     /// The base is invalid.
-    #[error("the sheeting's reflectance by day is negative or not finite somewhere; it must lie between 0 and 1")]
+    #[error(
+        "the sheeting's diffuse reflectance is negative or not finite at some wavelength; it must be between 0 and 1"
+    )]
     Base,
     /// The colour is negative or dark.
     #[error(
-        "the colour of the retro-reflected light is negative or dark; give a spectrum of 0 or more that has light in it"
+        "the colour of the retro-reflected light is negative or 0 everywhere; give a spectrum of 0 or more, above 0 at some \
+         visible wavelength"
     )]
     Colour,
     /// The table is invalid.

@@ -130,7 +130,7 @@ pub enum RetroTableError {
         kind: &'static str,
     },
     /// An angle is out of range.
-    #[error("an {kind} angle of {deg}° was given, but it must lie between 0° and {most_deg}°; correct it")]
+    #[error("an {kind} angle is {deg}°; it must be between 0° and {most_deg}°")]
     Range {
         /// Kind of the angle.
         kind: &'static str,
@@ -150,13 +150,13 @@ pub enum RetroTableError {
         second: f64,
     },
     /// An observation angle next to 0 is too small.
-    #[error("an observation angle of {deg}° follows another, but only the first may be below {MIN_DEG}°; leave it out")]
+    #[error("an observation angle of {deg}° follows another, but only the first may be below {MIN_DEG}°; remove it")]
     TooFine {
         /// Value given, degrees.
         deg: f64,
     },
     /// The number of values does not fit the angles.
-    #[error("the table has {found} values, but its angles ask for {expected}; give one for each pair of angles")]
+    #[error("the table has {found} values, but its angles require {expected}; give one for each pair of angles")]
     Count {
         /// Number of values.
         found: usize,
@@ -164,7 +164,7 @@ pub enum RetroTableError {
         expected: usize,
     },
     /// A value is negative or no number.
-    #[error("a coefficient of {value} cd/lx/m² was given, but it must be 0 or more and finite; correct it")]
+    #[error("a coefficient is {value} cd/lx/m²; it must be finite and 0 or more")]
     Value {
         /// Value given.
         value: f64,

@@ -86,6 +86,6 @@ fn what_glows_has_no_gaps_laid_on_from_three_sides() {
     let glow =
         Emission { radiance: Spectrum::constant(1.0), factor: None, sides: EmissionSides::Both, modulation: None };
     assert_eq!(of(None), None);
-    let refused = MaterialError::Projected { material: 0, what: "an opacity beside its emission" };
+    let refused = MaterialError::Projected { material: 0, what: "an opacity together with an emission" };
     assert_eq!(of(Some(glow)), Some(refused));
 }

@@ -162,7 +162,7 @@ fn limits_are_told_in_words() {
     let bright = RetroTable::new(&[0.2, 2.0], &[5.0], &[250.0, 40.0]).expect("a table");
     let white = Spectrum::constant(1.0);
     let sheeting = Sheeting::new(white.scaled(0.3), &white, bright.clone()).expect("a sheeting");
-    assert!(sheeting.cut_off_deg() < 9.0 && sheeting.limits().contains("all that its energy allows"));
+    assert!(sheeting.cut_off_deg() < 9.0 && sheeting.limits().contains("limited by energy conservation"));
     let error = Sheeting::new(white.scaled(0.3), &white, bright.scaled(20.0)).expect_err("it gains");
     assert!(matches!(error, SheetingError::Energy(gain) if gain.albedo > 1.0), "{error}");
 }
