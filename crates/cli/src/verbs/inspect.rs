@@ -35,7 +35,7 @@ impl Inspect {
             let Some(preview) = &report.preview else {
                 return Err(Error::coded(
                     ErrorCode::UnsuitableFile,
-                    format!("{}: no picture can be made of it", self.file.display()),
+                    format!("{}: it cannot be shown as an image", self.file.display()),
                 ));
             };
             let bytes = preview.to_png().map_err(|error| Error::Run(error.to_string()))?;

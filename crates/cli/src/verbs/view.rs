@@ -29,7 +29,7 @@ impl View {
         let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };
         let page = view(&self.request, self.output.as_deref(), existing, console.observer())?;
         if !self.no_open && console.is_terminal() && !browser::open(&page) {
-            console.tell("no browser could be started; open the page in one\n");
+            console.tell("no browser could be started; open the page manually\n");
         }
         print_paths(console, &[page]);
         Ok(())

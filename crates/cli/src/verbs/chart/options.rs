@@ -158,7 +158,7 @@ impl Series {
         }
         let Some(count) = self.exposures.or(usual) else {
             return self.idle().map_or(Ok(None), |(name, value)| {
-                Err(ChartError::option(name, value, "has no effect without `exposures`; give how many"))
+                Err(ChartError::option(name, value, "has no effect without `exposures`; give their number"))
             });
         };
         let spacing = self.spacing.unwrap_or(Spacing::Log);

@@ -63,8 +63,8 @@ impl Record for SurfaceSource {
 
     fn forms() -> Vec<Form> {
         let models = Surface::forms();
-        let about = "A ready material (see the list of presets below). Keys of its type that are given beside it take the place \
-                     of its own.";
+        let about = "A ready material (see the list of presets below). Keys of its type that are given with it \
+                     override its own.";
         let mut preset = Form::only_with("preset", about, json!({ "enum": preset::names() }));
         for key in models.iter().flat_map(|form| &form.keys).filter(|key| key.name != "type") {
             preset = preset.or_with(key);
@@ -94,7 +94,7 @@ fn check(material: &Material, faults: &mut Faults) {
     }
     let bent = matches!(material.surface.0, Surface::Emitter(_) | Surface::Mix(_));
     if let (Some(map), true) = (&material.normal_map, bent) {
-        let problem = "\"normal_map\" has no effect on a surface that does not reflect by itself";
-        faults.add(ErrorCode::NoEffect, &map.place, problem, "remove it; of a mix, give it to the parts");
+        let problem = "\"normal_map\" has no effect on this material, which does not reflect on its own";
+        faults.add(ErrorCode::NoEffect, &map.place, problem, "remove it; for a mix, give it to the parts");
     }
 }
