@@ -129,7 +129,7 @@ fn irradiance_w_m2(text: &str) -> Result<f64, String> {
 
 fn photons(text: &str) -> Result<f64, String> {
     let n = text.parse().ok().filter(|n: &f64| n.is_finite() && *n >= 0.0);
-    n.ok_or_else(|| format!("expected 0 photons a pixel or more, not '{text}'"))
+    n.ok_or_else(|| format!("expected 0 photons per pixel or more, not '{text}'"))
 }
 
 /// Uniform monochromatic illumination on a camera's bare sensor.
@@ -171,7 +171,7 @@ impl FlatRequest {
         check_number("wavelength_nm", self.wavelength_nm, WAVELENGTHS_NM, "nm")?;
         match self.source {
             FlatSource::Irradiance { w_m2 } => check_number("irradiance_w_m2", w_m2, 0.0..=f64::MAX, "W/m²"),
-            FlatSource::Photons { per_pixel } => check_number("photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
+            FlatSource::Photons { per_pixel } => check_number("photons", per_pixel, 0.0..=f64::MAX, "photons per pixel"),
             FlatSource::PhotonTransfer { levels, stack } => {
                 check_whole("photon_transfer", levels, LEVELS)?;
                 check_whole("stack", stack, LEVELS)
@@ -269,7 +269,7 @@ impl Task<'_> {
         files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
-            let why = format!("makes {most:.1e} electrons a pixel, and at most {MAX_E:.0e} can be counted: give less");
+            let why = format!("gives {most:.1e} electrons per pixel, but at most {MAX_E:.0e} can be counted: give less light");
             return Err(Error::coded(ErrorCode::OutOfRange, format!("{given}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
@@ -297,7 +297,7 @@ impl Task<'_> {
     fn series(&self, series: &PhotonTransfer, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let channels = self.sensor.parameters().channels.len();
         if channels > 1 {
-            let sentence = format!("the sensor has {channels} kinds of pixel: measure each kind by itself");
+            let sentence = format!("the sensor has {channels} kinds of pixel: measure each kind separately");
             self.observer.message(Message::Warning(&sentence));
         }
         let (mut columns, mut rows) = (0, 0);
@@ -354,7 +354,7 @@ impl Task<'_> {
             camera: writer.prefix.clone(),
             frame: 0,
             time_s: 0.0,
-            geometry: "even light on the bare sensor, pixel centres at +0.5, x right, y down".to_owned(),
+            geometry: "uniform illumination of the bare sensor, pixel centres at +0.5, x right, y down".to_owned(),
             camera_to_world: None,
             further: BTreeMap::new(),
         }
@@ -369,7 +369,7 @@ impl Task<'_> {
             "light": {
                 "wavelength_nm": light.wavelength_nm,
                 "irradiance_w_m2": light.irradiance_w_m2,
-                "convention": "even light of one wavelength on the bare sensor, along its normal; photons on the whole square of a pixel",
+                "convention": "uniform monochromatic illumination of the bare sensor, along its normal; photons on the full area of a pixel",
             },
             "sensor": camera_facts::sensor(self.body),
         })

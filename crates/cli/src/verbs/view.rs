@@ -12,7 +12,7 @@ use std::path::PathBuf;
 pub struct View {
     #[command(flatten)]
     pub request: ViewRequest,
-    /// Folder for the page, or the name of one file that ends in .html and holds everything [default: the folder `view` in FOLDER, where an existing
+    /// Folder for the page, or the name of one file that ends in .html and contains everything [default: the folder `view` in FOLDER, where an existing
     /// page is replaced]
     #[arg(short, long, value_name = "DIR|PAGE.html")]
     pub output: Option<PathBuf>,
