@@ -129,7 +129,7 @@ fn irradiance_w_m2(text: &str) -> Result<f64, String> {
 
 fn photons(text: &str) -> Result<f64, String> {
     let n = text.parse().ok().filter(|n: &f64| n.is_finite() && *n >= 0.0);
-    n.ok_or_else(|| format!("expected 0 photons per pixel or more, not '{text}'"))
+    n.ok_or_else(|| format!("expected 0 photons a pixel or more, not '{text}'"))
 }
 
 /// Uniform monochromatic illumination on a camera's bare sensor.
@@ -171,7 +171,7 @@ impl FlatRequest {
         check_number("wavelength_nm", self.wavelength_nm, WAVELENGTHS_NM, "nm")?;
         match self.source {
             FlatSource::Irradiance { w_m2 } => check_number("irradiance_w_m2", w_m2, 0.0..=f64::MAX, "W/m²"),
-            FlatSource::Photons { per_pixel } => check_number("photons", per_pixel, 0.0..=f64::MAX, "photons per pixel"),
+            FlatSource::Photons { per_pixel } => check_number("photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
             FlatSource::PhotonTransfer { levels, stack } => {
                 check_whole("photon_transfer", levels, LEVELS)?;
                 check_whole("stack", stack, LEVELS)
@@ -269,7 +269,7 @@ impl Task<'_> {
         files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
-            let why = format!("gives {most:.1e} electrons per pixel, but at most {MAX_E:.0e} can be counted: give less light");
+            let why = format!("gives {most:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light");
             return Err(Error::coded(ErrorCode::OutOfRange, format!("{given}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
