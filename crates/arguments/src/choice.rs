@@ -21,5 +21,5 @@ where
     let listed: Vec<PossibleValue> =
         words.iter().map(|(_, word, help)| PossibleValue::new(*word).help(*help)).collect();
     let meant = move |typed: String| words.iter().find(|(_, word, _)| *word == typed).map(|(value, ..)| *value);
-    PossibleValuesParser::new(listed).map(move |typed| meant(typed).expect("clap admits listed words only"))
+    PossibleValuesParser::new(listed).map(move |typed| meant(typed).expect("clap accepts listed words only"))
 }

@@ -27,7 +27,7 @@ pub fn frames(text: &str) -> Result<Range<u32>, String> {
     let range = number(first)?..number(end)?;
     match range.len() {
         0 => Err(expected()),
-        count if count > MAX_FRAMES => Err(format!("{count} frames; one run takes at most {MAX_FRAMES}")),
+        count if count > MAX_FRAMES => Err(format!("{count} frames; one run can have at most {MAX_FRAMES}")),
         _ => Ok(range),
     }
 }

@@ -29,7 +29,7 @@ where
 /// The text has another form; the error states the expected one.
 pub fn not_negative(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v >= 0.0);
-    number.ok_or_else(|| format!("expected a number from 0, not '{text}'"))
+    number.ok_or_else(|| format!("expected a number of 0 or more, not '{text}'"))
 }
 
 /// Parses a finite number above 0.

@@ -120,7 +120,7 @@ fn usage(told: &clap::Error) -> u8 {
 #[must_use]
 pub fn refuse_closed_stdout() -> u8 {
     output::print_message(
-        "error[unwritable-output]: the standard output is closed, where results are printed; leave it open, or redirect it to a file or to /dev/null\n",
+        "error[unwritable-output]: standard output, which receives the results, is closed; leave it open, or redirect it to a file or to /dev/null\n",
     );
     2
 }

@@ -25,7 +25,7 @@ fn write_results(text: &str) {
 /// The error message of results that cannot be written.
 pub fn unwritten(cause: &io::Error) -> String {
     format!(
-        "error: the results cannot be written to the standard output: {cause}; files that have their names are whole\n"
+        "error: the results cannot be written to standard output: {cause}; files with their final names are complete\n"
     )
 }
 

@@ -6,8 +6,8 @@ use etendue::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Message after a panic.
-const FAULT: &str = "error: a fault in the program ended this run, where the lines above say; files that have their final names are whole. \
-    Please report those lines with the job";
+const FAULT: &str = "error: an internal error ended this run, at the place stated above; files with their final \
+    names are complete. Please report the lines above with the job";
 
 /// Prints the messages of panics, except those of decoders, which become errors of the file.
 pub fn quieten_decoders() {

@@ -63,7 +63,7 @@ impl Bar {
 fn unit(unit: Unit) -> &'static str {
     match unit {
         Unit::Tiles => "tiles",
-        Unit::Pictures => "pictures",
+        Unit::Pictures => "images",
         Unit::Pilots => "pilots",
     }
 }

@@ -61,22 +61,22 @@ words! {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TrackError {
     /// No key.
-    #[error("a track without keys is nowhere; give it one key at least")]
+    #[error("the track has no keys; give at least one")]
     Empty,
     /// A number is infinite or NaN, or so large that a velocity is.
-    #[error("key {key} of the track is not finite, or motion from it to the next is faster than numbers can say")]
+    #[error("key {key} of the track is not finite, or the motion from it to the next is too fast for floating-point numbers")]
     NotFinite {
         /// The key.
         key: usize,
     },
     /// A quaternion of length 0.
-    #[error("key {key} of the track has a rotation quaternion of length 0; give it the length 1")]
+    #[error("key {key} of the track has a rotation quaternion of length 0; give a unit quaternion")]
     NoRotation {
         /// The key.
         key: usize,
     },
     /// A key before its predecessor.
-    #[error("key {key} of the track is at {time_s} s, before key {} at {before_s} s; give the keys in the order of time", .key - 1)]
+    #[error("key {key} of the track is at {time_s} s, before key {} at {before_s} s; give the keys in order of time", .key - 1)]
     Unordered {
         /// The later key of the two.
         key: usize,
@@ -86,7 +86,7 @@ pub enum TrackError {
         before_s: f64,
     },
     /// Two keys at the same time.
-    #[error("keys {} and {key} of the track are both at {time_s} s; leave one out", .key - 1)]
+    #[error("keys {} and {key} of the track are both at {time_s} s; remove one", .key - 1)]
     Repeated {
         /// The later key of the two.
         key: usize,

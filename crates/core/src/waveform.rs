@@ -73,8 +73,8 @@ pub enum WaveformError {
     },
     /// The edges do not fit.
     #[error(
-        "half of the rise and the fall together take {edges_s} s, which must fit into the pulse and into the pause, {room_s} s; make \
-         them faster"
+        "half of the rise time plus half of the fall time is {edges_s} s, more than the shorter of pulse and pause, \
+         {room_s} s; make the edges faster"
     )]
     Edges {
         /// Half of both, s.
@@ -95,10 +95,10 @@ pub enum WaveformError {
         level: f64,
     },
     /// All levels are 0.
-    #[error("the light is dark at every time; give one level above 0")]
+    #[error("the light is dark at all times; give at least one level above 0")]
     Dark,
     /// There are no levels.
-    #[error("there are no levels; give one at least")]
+    #[error("there are no levels; give at least one")]
     Empty,
     /// Times are out of order, or not finite.
     #[error("the time {time_s} s follows {before_s} s; give the times in rising order")]
@@ -116,7 +116,7 @@ pub enum WaveformError {
     },
     /// The table does not fit into the period.
     #[error(
-        "the table lasts {length_s} s, and its period is {period_s} s; with steps the period must be longer, else at least as long"
+        "the table lasts {length_s} s, but its period is {period_s} s; the period must be longer with steps, else at least as long"
     )]
     Period {
         /// Length from the table's first time to its last, s.

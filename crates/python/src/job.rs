@@ -177,19 +177,19 @@ impl Job {
     ) -> PyResult<Vec<PathBuf>> {
         let existing = match (overwrite, resume) {
             (true, true) => {
-                return Err(PyValueError::new_err("overwrite and resume exclude one another; give one of them"));
+                return Err(PyValueError::new_err("overwrite and resume exclude each other; give one of them"));
             }
             (false, true) => Existing::Resume,
             (overwrite, false) => existing(overwrite),
         };
         if resume && shard.is_some() {
-            return Err(PyValueError::new_err("a shard does not resume; render it again with overwrite=True"));
+            return Err(PyValueError::new_err("a shard cannot be resumed; render it again with overwrite=True"));
         }
         if films.is_some() && shard.is_none() {
-            return Err(PyValueError::new_err("films: a shard has films; give shard=(i, n), or leave it out"));
+            return Err(PyValueError::new_err("films: has no effect without a shard; give shard=(i, n), or omit it"));
         }
         if films.as_ref().is_some_and(Vec::is_empty) {
-            return Err(PyValueError::new_err("films: expected one name or more; None takes all of them"));
+            return Err(PyValueError::new_err("films: expected one name or more; None selects all of them"));
         }
         let options = options(py, frames)?;
         let threads = counted(py, threads)?;
@@ -215,7 +215,7 @@ fn source(description: &Bound<'_, PyAny>, folder: Option<PathBuf>) -> PyResult<(
         return Ok((folder.unwrap_or_default().join(MADE), Some(toml::file(&keys)?)));
     }
     if folder.is_some() {
-        return Err(PyValueError::new_err("folder: has no effect on a job file, which has its own; leave it out"));
+        return Err(PyValueError::new_err("folder: has no effect on a job file, which has its own; omit it"));
     }
     let is_path = description.is_instance_of::<PyString>() || description.hasattr("__fspath__")?;
     match is_path {
@@ -245,7 +245,7 @@ fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
 /// A frame, or a range of consecutive ones; frame 0 if none is named.
 fn range(frames: Option<&Bound<'_, PyAny>>) -> PyResult<Range<u32>> {
     let told = || {
-        PyTypeError::new_err("frames: expected a frame's number, or a range of consecutive frames that is not empty")
+        PyTypeError::new_err("frames: expected a frame number, or a non-empty range of consecutive frames")
     };
     let Some(frames) = frames else { return Ok(0..1) };
     if let Ok(frame) = frames.extract::<u32>() {

@@ -22,7 +22,7 @@ pub(crate) fn files(
         let text = match toml::mapping(&text)? {
             Some(keys) => toml::file(&keys)?,
             None if text.is_instance_of::<PyString>() => text.extract()?,
-            None => return Err(PyTypeError::new_err(format!("files[{name:?}]: expected a dict or a text (TOML)"))),
+            None => return Err(PyTypeError::new_err(format!("files[{name:?}]: expected a dict or a str (TOML)"))),
         };
         files.add_text(folder.join(name), text);
     }
@@ -35,7 +35,7 @@ pub(crate) fn files(
 /// Items of an argument that is a mapping, by name.
 fn named<'py>(argument: &str, given: Option<&Bound<'py, PyAny>>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
     let Some(given) = given else { return Ok(Vec::new()) };
-    let told = || PyTypeError::new_err(format!("{argument}: expected a dict of names to what they name"));
+    let told = || PyTypeError::new_err(format!("{argument}: expected a dict from names to values"));
     let given = toml::mapping(given)?.ok_or_else(told)?;
     given.iter().map(|(name, thing)| Ok((name.extract().map_err(|_| told())?, thing))).collect()
 }
@@ -46,7 +46,7 @@ fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_,
     })?;
     if let Some(strange) = given.keys().iter().map(|key| key.to_string()).find(|key| !ARRAYS.contains(&key.as_str())) {
         return Err(PyValueError::new_err(format!(
-            "meshes[{name:?}]: there is no array {strange:?}; there are {}",
+            "meshes[{name:?}]: unknown array {strange:?}; expected {}",
             ARRAYS.join(", ")
         )));
     }
@@ -84,7 +84,7 @@ fn indices(NamedArray { array, told }: NamedArray<'_>) -> PyResult<Vec<[u32; 3]>
     if array.getattr("size")?.extract::<usize>()? > 0 {
         let legal = |method: &str| array.call_method0(method)?.extract::<i128>().map(|i| u32::try_from(i).is_ok());
         if !(legal("min")? && legal("max")?) {
-            return Err(PyValueError::new_err(format!("{told}: indices of vertices are 0 or more, and below 2^32")));
+            return Err(PyValueError::new_err(format!("{told}: expected vertex indices from 0 to 2^32 − 1")));
         }
     }
     let bytes = bytes(&array, "uint32")?;

@@ -94,7 +94,7 @@ impl Results {
         };
         let place = self.results.cameras().iter().position(of).ok_or_else(|| {
             let frame = frame.map(|frame| format!(" with frame {frame}")).unwrap_or_default();
-            PyKeyError::new_err(format!("no camera {name:?}{frame}; there are {}", self.names().join(", ")))
+            PyKeyError::new_err(format!("there is no camera {name:?}{frame}; available: {}", self.names().join(", ")))
         })?;
         Ok(self.cameras[place].clone_ref(py))
     }

@@ -45,7 +45,7 @@ pub(crate) fn file(keys: &Bound<'_, PyDict>) -> PyResult<String> {
 pub(crate) fn changes(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
     let Some(set) = set else { return Ok(Vec::new()) };
     let Some(keys) = mapping(set)? else {
-        let told = "set: expected a dict of keys to values, or a list of texts \"key=value\"";
+        let told = "set: expected a dict of keys to values, or a list of str \"key=value\"";
         return match set.is_instance_of::<PyString>() {
             true => Err(PyTypeError::new_err(told)),
             false => set.extract().map_err(|_| PyTypeError::new_err(told)),
@@ -64,7 +64,7 @@ pub(crate) fn changes(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
 }
 
 fn key_of(key: &Bound<'_, PyAny>, within: &str) -> PyResult<String> {
-    key.extract().map_err(|_| PyTypeError::new_err(format!("{}: a key is a text", named(within))))
+    key.extract().map_err(|_| PyTypeError::new_err(format!("{}: expected a str as key", named(within))))
 }
 
 fn named(key: &str) -> &str {
@@ -73,13 +73,13 @@ fn named(key: &str) -> &str {
 
 fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str, depth: usize) -> PyResult<()> {
     let Some(depth) = depth.checked_sub(1) else {
-        return Err(PyValueError::new_err(format!("{}: values lie more than {DEPTH} deep in one another", named(key))));
+        return Err(PyValueError::new_err(format!("{}: values are nested more than {DEPTH} deep", named(key))));
     };
     if let Ok(value) = value.cast::<PyBool>() {
         text.push_str(if value.is_true() { "true" } else { "false" });
     } else if value.is_instance_of::<PyInt>() {
         // An enumeration's number, not its name.
-        let message = |_| PyValueError::new_err(format!("{}: a whole number of a description has 64 bits", named(key)));
+        let message = |_| PyValueError::new_err(format!("{}: a whole number of a description must fit into 64 bits", named(key)));
         text.push_str(&value.extract::<i64>().map_err(message)?.to_string());
     } else if let Ok(value) = value.cast::<PyFloat>() {
         let _ = write!(text, "{}", number(value.value()));
@@ -93,11 +93,11 @@ fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str, depth: usize) -
         write(text, &value.call_method0("tolist")?, key, depth)?;
     } else if let Some(path) = value.hasattr("__fspath__")?.then(|| value.extract::<PathBuf>()).transpose()? {
         let path =
-            path.to_str().ok_or_else(|| PyValueError::new_err(format!("{}: a path that is no text", named(key))))?;
+            path.to_str().ok_or_else(|| PyValueError::new_err(format!("{}: the path is not valid Unicode", named(key))))?;
         text.push_str(&quoted(path));
     } else {
         let message = format!(
-            "{}: a {} is no value of a description: expected a number, text, bool, list, dict, path or array",
+            "{}: a {} is not a value of a description: expected a number, str, bool, list, dict, path or array",
             named(key),
             value.get_type().name()?
         );

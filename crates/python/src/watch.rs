@@ -13,7 +13,7 @@ const PAUSE: Duration = Duration::from_millis(10);
 const FIRST_PAUSE: Duration = Duration::from_micros(100);
 
 /// Message after a panic, which the panic's own lines on stderr explain.
-const FAULT: &str = "a fault in the program ended this run, where stderr says; files that have their final names are whole. Please report those lines";
+const FAULT: &str = "an internal error ended this run, at the place stated on stderr; files with their final names are complete. Please report those lines";
 
 /// Messages of the task that the calling thread passes on.
 pub(crate) struct Watch {

@@ -58,7 +58,7 @@ pub fn develop(request: &DevelopRequest, folder: &Path, existing: Existing) -> R
         let file = request.camera.display();
         Error::coded(
             ErrorCode::MissingKey,
-            format!("{file}: the camera has no [isp], so nothing says how a picture is made: add it"),
+            format!("{file}: the camera has no [isp], so the image processing is not defined: add it"),
         )
     })?;
     let name = camera_stem(&request.camera);
@@ -92,7 +92,7 @@ fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<
         let name = Files::picture(stored.address.frame, camera.development.format);
         if files.contains_key(&name) {
             let told =
-                format!("{}: another raw is frame {}, too: develop them apart", file.display(), stored.address.frame);
+                format!("{}: another raw is also frame {}: develop them separately", file.display(), stored.address.frame);
             return Err(Error::coded(ErrorCode::Duplicate, told));
         }
         writer.claim(&name)?;
@@ -172,11 +172,11 @@ fn read_raw(
     let photograph = read_photograph(file).map_err(|error| error.to_string())?;
     let found = match (&photograph.raw, levels) {
         (None, Some(levels)) => by_levels(&photograph, levels, number, sensor),
-        (Some(_), Some(_)) => Err("camera.json beside it states its levels: leave `levels` out".to_owned()),
+        (Some(_), Some(_)) => Err("camera.json next to it states its levels: omit `levels`".to_owned()),
         (Some(facts), None) => by_side_car(&photograph, facts, sensor),
         (None, None) => {
-            Err("no camera.json beside it lists it as raw, and nothing states its levels: put the side-car \
-                             beside it, or give `levels` BLACK..WHITE"
+            Err("no camera.json next to it lists it as raw, so its levels are unknown: put the side-car next to it, \
+                             or give `levels` BLACK..WHITE"
                 .to_owned())
         }
     };
@@ -186,8 +186,8 @@ fn read_raw(
 fn by_levels(photograph: &Photograph, levels: Levels, number: u32, sensor: &Sensor) -> Result<StoredRaw, String> {
     if sensor.parameters().hdr.companding.is_some() {
         return Err(
-            "the camera's numbers are companded, and `levels` are those of numbers that are not: a raw of this \
-                    camera needs its side-car"
+            "the camera's digital numbers are companded, but `levels` applies to linear ones: a raw of this camera \
+                    needs its side-car"
                 .to_owned(),
         );
     }
@@ -203,13 +203,13 @@ fn by_levels(photograph: &Photograph, levels: Levels, number: u32, sensor: &Sens
 }
 
 fn by_side_car(photograph: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Result<StoredRaw, String> {
-    let former = "camera.json beside it is of a former version and does not say which frame this is: render again";
+    let former = "camera.json next to it is from an earlier version and does not state the frame number: render again";
     let frame = facts.frame.as_ref().ok_or(former)?;
     same_filters(&facts.filters, sensor)?;
     same_companding(frame, sensor)?;
     let plane = numbers(photograph)?;
     if let Some(dn) = plane.samples().iter().find(|dn| u64::from(**dn) >> frame.bits.min(63) != 0) {
-        return Err(format!("it holds the number {dn}, beyond the {} bits that camera.json states", frame.bits));
+        return Err(format!("it contains the number {dn}, which exceeds the {} bits that camera.json states", frame.bits));
     }
     let point = OperatingPoint { exposure_s: facts.exposure_s, analogue_gain: 1.0 };
     let raw = raw(plane, [facts.black_level_dn, facts.white_level_dn], frame.picture_px, point, sensor);
@@ -245,12 +245,12 @@ fn raw(
 fn numbers(photograph: &Photograph) -> Result<Plane<DigitalNumber>, String> {
     let ([channel], Some(_)) = (&photograph.channels[..], photograph.full_scale) else {
         let names = photograph.names().join(", ");
-        return Err(format!("a raw is a grey picture of whole numbers (PNG, TIFF, DNG); this one has {names}"));
+        return Err(format!("a raw is a greyscale image of whole numbers (PNG, TIFF, DNG); this one has {names}"));
     };
     // Floats represent whole numbers exactly up to here.
     const LARGEST: f32 = 16_777_215.0;
     if let Some(beyond) = channel.samples.iter().find(|v| **v > LARGEST) {
-        return Err(format!("it holds the number {beyond}, beyond the 24 bits of raws"));
+        return Err(format!("it contains the number {beyond}, which exceeds the 24 bits of raws"));
     }
     let samples = channel.samples.iter().map(|v| *v as u32).collect();
     Ok(Plane::from_samples(photograph.width, photograph.height, samples).expect("as many samples as pixels"))
@@ -266,7 +266,7 @@ fn same_filters(stated: &FilterTile, sensor: &Sensor) -> Result<(), String> {
     }
     let (stated, own) = (words(stated), words(&own));
     Err(format!(
-        "its filters are {stated}, says camera.json, and the camera file's are {own}: give the camera that took it"
+        "its colour filters are {stated} in camera.json, but {own} in the camera file: give the camera that captured it"
     ))
 }
 
@@ -275,7 +275,7 @@ fn same_companding(frame: &RawFrame, sensor: &Sensor) -> Result<(), String> {
     if own == frame.companding_knees_dn.as_ref() && frame.bits == sensor.delivered_bits() {
         return Ok(());
     }
-    Err("bits or companding differ between camera.json beside it and the camera file: give the camera that took it"
+    Err("bits or companding differ between camera.json next to it and the camera file: give the camera that captured it"
         .to_owned())
 }
 
@@ -285,14 +285,14 @@ fn fitting(stored: StoredRaw, body: &CameraBody, sensor: &Sensor) -> Result<Stor
     let inside = |from: usize, length: usize, all: usize| from.checked_add(length).is_some_and(|end| end <= all);
     if !(inside(x, width, plane.width()) && inside(y, height, plane.height())) {
         return Err(format!(
-            "camera.json beside it puts a picture of {width} × {height} pixels at column {x}, row {y}, and the raw has {} × {}",
+            "camera.json next to it states an image of {width} × {height} pixels at column {x}, row {y}, but the raw has {} × {}",
             plane.width(),
             plane.height()
         ));
     }
     let own = sensor.picture_size(body.raster.width(), body.raster.height());
     if own != (width, height) {
-        return Err(format!("its picture has {width} × {height} pixels, and the camera file's {} × {}", own.0, own.1));
+        return Err(format!("its image has {width} × {height} pixels, but that of the camera file {} × {}", own.0, own.1));
     }
     Ok(stored)
 }

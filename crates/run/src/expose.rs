@@ -92,16 +92,17 @@ fn check_shutter(
         return Err(Error::coded(
             ErrorCode::NotModelled,
             format!(
-                "{radiance} through {camera}: its light depends on time and is the mean over one exposure of {stored_s} s, and the camera reads its rows \
-             in turn; give it a \"global\" shutter, or render the job through the lens"
+                "{radiance} through {camera}: its light depends on time and is the mean over one exposure of \
+             {stored_s} s, but the camera has a rolling shutter; give it a \"global\" shutter, or render the job \
+             through the lens"
             ),
         ));
     }
     let exposure = &body.exposure;
     if exposure.exposure_s != stored_s || exposure.distinct_captures().len() > 1 {
         observer.message(Message::Warning(&format!(
-            "{radiance}: its light depends on time and is the mean over {stored_s} s; motion and flicker stay those of that exposure, whatever \
-             exposures {camera} takes"
+            "{radiance}: its light depends on time and is the mean over {stored_s} s; motion and flicker remain \
+             those of that exposure, whatever the exposure of {camera}"
         )));
     }
     Ok(())
@@ -164,8 +165,8 @@ fn margin(body: &CameraBody) -> String {
     match body.effects.margin_px() {
         [0, 0] => String::new(),
         [x, y] => format!(
-            "; the camera's [effects] need {x} columns and {y} rows beyond its picture: give them a smaller \"margin\", or \
-             render with more \"overscan\""
+            "; the camera's [effects] need {x} columns and {y} rows beyond its image: give them a smaller \
+             \"margin\", or render with more \"overscan\""
         ),
     }
 }
@@ -184,14 +185,14 @@ fn depth_of_field(
         Some(_) if stored.distance.is_none() => Err(Error::coded(
             ErrorCode::UnsuitableFile,
             format!(
-                "{file}: it has no distances (channel distance.Z), which depth of field needs: render it anew, or give \
-             `depth_of_field` none"
+                "{file}: it has no distances (channel distance.Z), which depth of field needs: render it again, or \
+             give `depth_of_field` none"
             ),
         )),
         Some(DepthOfField::Physical) if !blurs => Err(Error::argument(
             "depth_of_field",
             format!(
-                "`depth_of_field` physical has no effect: to the lens of {} everything is sharp",
+                "`depth_of_field` physical has no effect: the lens of {} has no defocus",
                 request.camera.display()
             ),
         )
@@ -200,7 +201,7 @@ fn depth_of_field(
         None if blurs && stored.distance.is_some() => Ok(DepthOfField::Physical),
         None => {
             if blurs {
-                let sentence = format!("{file} has no distances (channel distance.Z): defocus is left out");
+                let sentence = format!("{file} has no distances (channel distance.Z): defocus is omitted");
                 observer.message(Message::Warning(&sentence));
             }
             Ok(DepthOfField::None)
@@ -219,8 +220,8 @@ fn warn_of_margin(
     let held = held_margin_px(&stored.projection, body, stored.radiance.bands(), depth_of_field)?;
     if held < wanted {
         observer.message(Message::Warning(&format!(
-            "depth of field needs {wanted} px around the picture and the image holds {held}: blurs are cut off at its edges; render with \
-             more overscan"
+            "depth of field needs {wanted} px around the image, but the file has {held}: blur is cut off at its \
+             edges; render with more overscan"
         )));
     }
     Ok(())
@@ -330,7 +331,7 @@ fn blend(keys: &str) -> Result<FastBlend, String> {
     }
     let blur_px = blur_px.ok_or("the diameter of the blur is missing: add blur_px=NUMBER")?;
     if near.is_none() && far.is_none() {
-        return Err("nothing is blurred by this: add near_m=FROM..TO or far_m=FROM..TO".to_owned());
+        return Err("this blurs nothing: add near_m=FROM..TO or far_m=FROM..TO".to_owned());
     }
     let (blurred_near_m, sharp_near_m) = near.unwrap_or((0.0, 0.0));
     let (sharp_far_m, blurred_far_m) = far.unwrap_or((f64::INFINITY, f64::INFINITY));

@@ -109,10 +109,10 @@ impl FilmOrigin<'_> {
         ];
         let (name, expected, found) = pairs.into_iter().find(|(_, expected, found)| expected != found)?;
         if name == "plan" {
-            return Some("it is of a run of another plan".to_owned());
+            return Some("it belongs to a run of another plan".to_owned());
         }
         let stated = if found.is_empty() { format!("no {name}") } else { format!("the {name} {found}") };
-        Some(format!("its header states {stated}, where {expected} is expected"))
+        Some(format!("its header states {stated}; expected {expected}"))
     }
 
     /// Describes an error in the numbers of a film.
@@ -123,11 +123,11 @@ impl FilmOrigin<'_> {
         // Passes over a subset of the pixels leave some pixels without samples.
         let is_whole = self.camera.passes.as_ref().is_none_or(|passes| passes.list().is_empty() || passes.spp() > 0);
         if is_whole && !own.iter().flat_map(|tile| tile.pixels()).all(|pixel| sampled(pixel.x, pixel.y)) {
-            return Some("pixels of its tiles have no samples: it is not complete".to_owned());
+            return Some("pixels of its tiles have no samples: it is incomplete".to_owned());
         }
         let inside = own.iter().flat_map(|tile| tile.pixels()).filter(|pixel| sampled(pixel.x, pixel.y)).count();
         if film.samples.samples().iter().filter(|samples| **samples > 0).count() != inside {
-            return Some("pixels outside its tiles have samples: it is of another shard".to_owned());
+            return Some("pixels outside its tiles have samples: it belongs to another shard".to_owned());
         }
         let is_finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
         // A single replicate gives no variance; a large variance may exceed the range of 32 bits.
@@ -146,7 +146,7 @@ impl FilmOrigin<'_> {
             .is_none_or(|light| is_finite(light.mean.samples()) && is_variance(light.variance.samples()));
         let is_good = bands && electrons && watched && is_finite(film.weight.samples());
         (!is_good || film.not_finite_samples() > 0)
-            .then(|| "it holds numbers that are not finite, or variances below 0: it is damaged".to_owned())
+            .then(|| "it contains numbers that are not finite, or variances below 0: it is damaged".to_owned())
     }
 }
 
@@ -258,7 +258,7 @@ pub(crate) fn check_state(folder: &OutputFolder, existing: Existing) -> Result<(
     Err(Error::coded(
         ErrorCode::OtherRun,
         format!(
-            "{}: a run that was interrupted left its state here; go on with `resume`, or begin anew with `overwrite`",
+            "{}: an interrupted run left its state here; continue with `resume`, or start again with `overwrite`",
             folder.path().join(STATE_FOLDER).display()
         ),
     ))
@@ -285,7 +285,7 @@ pub(crate) fn read_state(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Optio
         }
         _ => Err(Error::coded(
             ErrorCode::OtherRun,
-            format!("{}: its header states no passes that were done; {remedy}", path.display()),
+            format!("{}: its header states no completed passes; {remedy}", path.display()),
         )),
     }
 }

@@ -269,7 +269,7 @@ impl Task<'_> {
         files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
-            let why = format!("makes {most:.1e} electrons a pixel, and at most {MAX_E:.0e} can be counted: give less");
+            let why = format!("gives {most:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light");
             return Err(Error::coded(ErrorCode::OutOfRange, format!("{given}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
@@ -297,7 +297,7 @@ impl Task<'_> {
     fn series(&self, series: &PhotonTransfer, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let channels = self.sensor.parameters().channels.len();
         if channels > 1 {
-            let sentence = format!("the sensor has {channels} kinds of pixel: measure each kind by itself");
+            let sentence = format!("the sensor has {channels} kinds of pixel: measure each kind separately");
             self.observer.message(Message::Warning(&sentence));
         }
         let (mut columns, mut rows) = (0, 0);
@@ -354,7 +354,7 @@ impl Task<'_> {
             camera: writer.prefix.clone(),
             frame: 0,
             time_s: 0.0,
-            geometry: "even light on the bare sensor, pixel centres at +0.5, x right, y down".to_owned(),
+            geometry: "uniform illumination of the bare sensor, pixel centres at +0.5, x right, y down".to_owned(),
             camera_to_world: None,
             further: BTreeMap::new(),
         }
@@ -369,7 +369,7 @@ impl Task<'_> {
             "light": {
                 "wavelength_nm": light.wavelength_nm,
                 "irradiance_w_m2": light.irradiance_w_m2,
-                "convention": "even light of one wavelength on the bare sensor, along its normal; photons on the whole square of a pixel",
+                "convention": "uniform monochromatic illumination of the bare sensor, along its normal; photons on the full area of a pixel",
             },
             "sensor": camera_facts::sensor(self.body),
         })

@@ -42,7 +42,7 @@ pub struct JobRequest {
     /// be resumed.
     #[arg(skip)]
     pub progressive: bool,
-    /// Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel in place of
+    /// Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and mean level, with one pixel instead of
     /// K × K; sets sensor.scale of all cameras
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[arg(long, value_name = "1/K")]
@@ -164,7 +164,7 @@ impl JobRequest {
             return Err(Error::argument(
                 "time_s",
                 format!(
-                    "`time_s` {time_s}: a time of {MIN_TIME_S} s or more is kept; give `time_s` {MIN_TIME_S} or samples with `spp`"
+                    "`time_s` {time_s}: the time must be {MIN_TIME_S} s or more; give `time_s` {MIN_TIME_S}, or samples with `spp`"
                 ),
             ).with_code(ErrorCode::OutOfRange));
         }
@@ -172,7 +172,7 @@ impl JobRequest {
             (None, None) => Ok(()),
             _ => Err(Error::argument(
                 "time_s",
-                "`time_s` decides the samples, and `spp` or `noise` would, too; give one of them",
+                "`time_s` excludes `spp` and `noise`, which also determine the samples; give one of them",
             )
             .with_code(ErrorCode::Contradiction)),
         }
@@ -220,7 +220,7 @@ impl JobRequest {
             return Err(Error::argument(
                 "camera",
                 format!(
-                    "`camera` {name}: {} has no camera of that name; give one of {}",
+                    "`camera` {name}: {} has no camera of this name; give one of {}",
                     self.job.display(),
                     known.join(", ")
                 ),
@@ -232,7 +232,7 @@ impl JobRequest {
             return Err(Error::argument(
                 "camera",
                 format!(
-                    "`camera` {name}: its disparity_to names camera {}, which is then not in the run; render both, or leave the key out with `set`",
+                    "`camera` {name}: its disparity_to refers to camera {}, which is not in this run; render both, or remove the key with `set`",
                     right.name
                 ),
             ).with_code(ErrorCode::Contradiction));

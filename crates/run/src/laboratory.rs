@@ -111,7 +111,7 @@ pub fn laboratory(
     let has_isp = camera.isp.is_some();
     let body = compiled(&camera)?;
     let declared = folder.join(DECLARED);
-    let head = "The camera that photographed this laboratory folder: nothing reads it here.";
+    let head = "The camera that captured this laboratory folder; no program reads this copy.";
     write_file(&declared, File::new(camera.to_table()).head(head).to_string().as_bytes(), existing)?;
     let sensor = bare(&body).and_then(|bare| bare.sensor).ok_or_else(|| lacks(request))?;
     let bench = Bench { request, folder, existing, declared, has_frame_period, has_isp, observer };

@@ -100,14 +100,14 @@ fn frame(mesh: &Triangles<'_>, hash: [u8; 32]) -> MeshFrameAsset {
 fn check(mesh: &Triangles<'_>) -> Result<(), String> {
     let vertices = mesh.positions.len();
     if mesh.triangles.is_empty() {
-        return Err("no triangles".to_owned());
+        return Err("the mesh has no triangles".to_owned());
     }
     if let Some(i) = mesh.triangles.as_flattened().iter().find(|i| **i as usize >= vertices) {
-        return Err(format!("a triangle names vertex {i}, and there are {vertices}"));
+        return Err(format!("a triangle refers to vertex {i}, but there are {vertices}"));
     }
     for (name, count) in [("normals", mesh.normals.len()), ("texture coordinates", mesh.uvs.len())] {
         if count != 0 && count != vertices {
-            return Err(format!("{count} {name} for {vertices} vertices: expected none or one a vertex"));
+            return Err(format!("{count} {name} for {vertices} vertices: expected none or one per vertex"));
         }
     }
     let numbers = [mesh.positions.as_flattened(), mesh.normals.as_flattened(), mesh.uvs.as_flattened()];

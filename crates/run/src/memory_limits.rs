@@ -40,7 +40,7 @@ impl MemoryLimit {
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Process => "within the address space of the process (ulimit -v)",
-            Self::ControlGroup => "within the memory of its control group",
+            Self::ControlGroup => "within the memory limit of its control group",
             Self::Machine => "on this machine",
             Self::Stated => "by `memory_mb`",
         }
@@ -83,7 +83,7 @@ pub(crate) fn check(plan: &Plan, memory: &RunMemory, limits: &MemoryLimits) -> R
     Err(Error::coded(
         ErrorCode::NotEnoughMemory,
         format!(
-            "the run needs {:.0} MB of memory beside the program, and {:.0} MB are free {} ({}); {}",
+            "the run needs {:.0} MB of memory in addition to the program, but {:.0} MB are free {} ({}); {}",
             memory.beyond_program() / 1e6,
             free as f64 / 1e6,
             limit.words(),
@@ -110,7 +110,8 @@ fn remedies(camera: &CameraPlan) -> String {
     let bands = spectra.then(|| "a larger render.band_width_nm".to_owned());
     let keys: Vec<String> = [size].into_iter().chain(bands).chain(product_keys).collect();
     format!(
-        "reduce it with {}; keep more of films and textures on the disk with `film_memory_mb` and `texture_memory_mb`; run fewer `threads`; or give the run more memory (`memory_mb` 0 omits this check)",
+        "reduce it with {}; store more of films and textures on disk with `film_memory_mb` and `texture_memory_mb`; \
+         use fewer `threads`; or give the run more memory (`memory_mb` 0 omits this check)",
         keys.join(", ")
     )
 }
@@ -133,8 +134,8 @@ fn check_room(plan: &Plan, camera: &CameraPlan) -> Result<(), Error> {
     let bytes = plan.film_bytes(camera).memory;
     Vec::<u8>::new().try_reserve_exact(bytes as usize).map_err(|_| {
         Error::run(format!(
-            "camera {}: the system does not give the {:.0} MB of memory that its film takes; make room, render fewer pixels or bands, or keep more of it on \
-             the disk with `film_memory_mb`",
+            "camera {}: the system cannot provide the {:.0} MB of memory that its film needs; free memory, render \
+             fewer pixels or bands, or store more of it on disk with `film_memory_mb`",
             camera.name,
             bytes / 1e6
         ))

@@ -69,7 +69,7 @@ fn rig_files(plan: &Plan, cameras: &[&CameraPlan], frames: &Range<u32>) -> RigFi
     for camera in cameras {
         match calibration(&camera.body) {
             Ok(calibration) => found.push(Calibrated { plan: camera, calibration }),
-            Err(why) => rig.left_out.push(format!("calibration files leave camera {} out: {why}", camera.name)),
+            Err(why) => rig.left_out.push(format!("calibration files omit camera {}: {why}", camera.name)),
         }
     }
     let none = rig.left_out.clone();
@@ -111,7 +111,7 @@ fn add_ros(plan: &Plan, cameras: &[&CameraPlan], found: &[Calibrated<'_>], rig: 
 
 /// Reason for which a camera has no fixed pose.
 fn moves(parent: &str) -> String {
-    format!("it moves in \"{parent}\", so that no fixed transform holds it; let a frame carry it")
+    format!("it moves in \"{parent}\", so no fixed transform describes it; attach it to a frame")
 }
 
 /// Baseline: distance of the right camera of a rectified pair to the right of the left one, m; 0 if the camera is no right camera or its distance varies.
@@ -226,12 +226,12 @@ const PLACES: u32 = 9;
 /// There is none: the rest of a sentence that begins with the camera.
 fn calibration(body: &CameraBody) -> Result<Calibration, String> {
     if let Some(optic) = body.front.as_ref().and_then(Front::optic) {
-        return Err(format!("it looks by a {}, which no calibration file describes", optic.name()));
+        return Err(format!("its view is through a {}, which no calibration file describes", optic.name()));
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
     if layout.is_some_and(|layout| !layout.is_whole()) {
         return Err(
-            "its pictures are a region, or of binned or skipped pixels, whose grid is not the lens's".to_owned()
+            "its images are cropped, binned or subsampled, so their pixel grid is not that of the full sensor".to_owned()
         );
     }
     let found = match &body.lens {
@@ -239,12 +239,12 @@ fn calibration(body: &CameraBody) -> Result<Calibration, String> {
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) => paraxial(body)?,
         Lens::Prescription(_) => {
             return Err(
-                "its lens is traced surface by surface; \"etendue calibrate\" fits a model to pictures of a chart"
+                "its lens is traced surface by surface; \"etendue calibrate\" fits a model to images of a chart"
                     .to_owned(),
             );
         }
         Lens::RayTransfer(_) => {
-            return Err("its lens is known by ray-transfer functions; \"etendue calibrate\" fits a model to pictures of a chart".to_owned());
+            return Err("its lens is described by ray-transfer functions; \"etendue calibrate\" fits a model to images of a chart".to_owned());
         }
         Lens::Telecentric(_) => return Err("its rays are parallel".to_owned()),
     };
@@ -263,7 +263,7 @@ fn pinhole(body: &CameraBody) -> Result<CameraMatrix, String> {
     let straight = Perspective::new(DistortionTerms::default(), [0.0; 2]).map_err(|error| error.to_string())?;
     match found.model() {
         Model::Perspective(model) if *model == straight => Ok(found.matrix()),
-        _ => Err("its pictures are distorted, and the format knows a camera matrix alone".to_owned()),
+        _ => Err("its images are distorted, but the format has only a camera matrix".to_owned()),
     }
 }
 
@@ -275,8 +275,8 @@ fn paraxial(body: &CameraBody) -> Result<Calibration, String> {
     if let Some(distortion) = lens.distortion() {
         if distortion.sense() == Sense::ObservedToIdeal {
             return Err(
-                "its distortion is a polynomial from observed to ideal points, and calibration files have the other \
-                        direction"
+                "its distortion is a polynomial from observed to ideal points, but calibration files use the \
+                        opposite direction"
                     .to_owned(),
             );
         }

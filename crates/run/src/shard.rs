@@ -105,7 +105,7 @@ impl Job {
         if self.request().progressive || self.request().time_s.is_some() {
             return Err(Error::coded(
                 ErrorCode::Contradiction,
-                "a shard is rendered in the passes of its job: give them by the key render.passes in the place of `progressive` or `time_s`",
+                "a shard is rendered in the passes of its job: set render.passes instead of `progressive` or `time_s`",
             ));
         }
         let names = self.asked_films(asked)?;
@@ -148,7 +148,7 @@ impl Job {
                 names.len().checked_sub(MAX_TOLD + 1).map(|n| format!(" and {} more", n + 1)).unwrap_or_default();
             return Err(Error::argument(
                 "films",
-                format!("`films` {unknown}: no film of these frames; there are {some}{more}"),
+                format!("`films` {unknown}: no film of these frames; available: {some}{more}"),
             )
             .with_code(ErrorCode::UnknownName));
         }
@@ -203,11 +203,11 @@ impl Manifest {
     fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(MANIFEST);
         let explain = |why: String| {
-            Error::coded(ErrorCode::OtherRun, format!("{}: {why}; give folders made by render `shard`", path.display()))
+            Error::coded(ErrorCode::OtherRun, format!("{}: {why}; give folders written by render `shard`", path.display()))
         };
         let text = read_text(&path).map_err(|problem| explain(problem.words))?;
         let manifest: Self = serde_json::from_str(&text)
-            .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))?;
+            .map_err(|error| explain(format!("this is not a shard manifest of this version ({error})")))?;
         match manifest.fault() {
             Some(why) => Err(explain(why)),
             None => Ok(manifest),
@@ -218,14 +218,14 @@ impl Manifest {
     fn fault(&self) -> Option<String> {
         let Self { index, count, frames, tile_px, .. } = self;
         if index >= count {
-            return Some(format!("it states shard {index} of {count}, where a number below the count is expected"));
+            return Some(format!("it states shard {index} of {count}; expected a number below the count"));
         }
         if frames.is_empty() || frames.len() > MAX_FRAMES {
             let (start, end) = (frames.start, frames.end);
-            return Some(format!("it states frames {start}..{end}, where 1 to {MAX_FRAMES} frames are expected"));
+            return Some(format!("it states frames {start}..{end}; expected 1 to {MAX_FRAMES} frames"));
         }
         let is_tiled = !tile_px.is_empty() && tile_px.iter().all(|side| *side > 0);
-        (!is_tiled).then(|| "it states no sides of tiles above 0".to_owned())
+        (!is_tiled).then(|| "it states no tile sizes above 0".to_owned())
     }
 
     /// Returns true if films of this shard are in the folder; refuses a folder of another shard, because films that are rendered separately belong together.
@@ -240,7 +240,7 @@ impl Manifest {
             false => Err(Error::coded(
                 ErrorCode::OtherRun,
                 format!(
-                    "{}: films of another run or shard are here; choose another output folder, or render the whole shard",
+                    "{}: this folder contains films of another run or shard; choose another output folder, or render the whole shard",
                     path.display()
                 ),
             )),
@@ -335,7 +335,7 @@ impl<'a> MergedShards<'a> {
         let mut shards: Vec<ShardFolder<'_>> = folders.iter().map(read).collect::<Result<_, Error>>()?;
         shards.sort_by_key(|shard| shard.manifest.index);
         let (Some(first), Some(last)) = (shards.first(), shards.last()) else {
-            return Err(Error::coded(ErrorCode::MissingArgument, "no shards: give the folders of all"));
+            return Err(Error::coded(ErrorCode::MissingArgument, "no shards: give the folders of all shards"));
         };
         if let Some(other) = shards.iter().find(|shard| !shard.manifest.is_of_run(&first.manifest)) {
             return Err(other.refused("it is a shard of another run; give the shards of one run"));
@@ -348,7 +348,7 @@ impl<'a> MergedShards<'a> {
             }
         }
         if shards.len() != count as usize {
-            let given = format!("{} of {count} shards are given; give the folders of all", shards.len());
+            let given = format!("{} of {count} shards are given; give the folders of all shards", shards.len());
             return Err(last.refused(&given));
         }
         Ok(Self { shards })

@@ -87,7 +87,7 @@ fn open(file: &Path) -> Result<Weather, Error> {
 fn seen(weather: &Weather, stored: &StoredRadiance, file: &Path) -> Result<Weathered, Error> {
     let refuse = |why: &str| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", file.display()));
     let pose = stored.provenance.camera_to_world.as_ref().map(CameraPose::from_rows).ok_or_else(|| {
-        refuse("it does not say where its camera stood, which decides what lies before it; render it with a camera that stands still")
+        refuse("it does not state the position of its camera, which the weather needs; render it with a camera that does not move")
     })?;
     let moment = TimeInterval::at(stored.provenance.time_s)
         .ok_or_else(|| refuse("its time is not finite; expected radiance that etendue rendered"))?;

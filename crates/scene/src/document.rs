@@ -130,7 +130,7 @@ pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
         faults.add(
             ErrorCode::InvalidToml,
             &place,
-            format!("this is not TOML: {}", error.message()),
+            format!("invalid TOML: {}", error.message()),
             "correct the syntax",
         );
     }
@@ -225,7 +225,7 @@ fn whole(v: &toml::de::DeInteger<'_>) -> Value {
         Ok(v) => Value::Whole(v),
         Err(error) => Value::Foreign(match error.kind() {
             IntErrorKind::PosOverflow | IntErrorKind::NegOverflow => "an integer too large for 64 bits",
-            _ => "an integer without proper digits",
+            _ => "an invalid integer",
         }),
     }
 }

@@ -29,19 +29,19 @@ const MIB: u64 = 1 << 20;
 /// Sizes of description files: a byte may take 256 in memory, as a tree of values that know their places.
 pub static DESCRIPTION: Limit = Limit::new(
     "description-mib",
-    "MiB of a file that describes: jobs, scenes, cameras, weather, data sheets, material libraries, lamps, lenses, calibrations, side-cars, descriptors",
+    "MiB of a description file: jobs, scenes, cameras, weather, data sheets, material libraries, lights, lenses, calibrations, side-cars, descriptors",
     16,
     4096,
 );
 
 /// Sizes of all other files.
 pub static FILE: Limit =
-    Limit::new("file-mib", "MiB of any other file: meshes, pictures, spectra, tables, trajectories", 8192, 1 << 20);
+    Limit::new("file-mib", "MiB of any other file: meshes, images, spectra, tables, trajectories", 8192, 1 << 20);
 
 /// Unpacked size of images.
 pub static PICTURE: Limit = Limit::new(
     "picture-mib",
-    "MiB that a picture may unpack to, where that is more than 8 times its file: its numbers as they are kept, 1 to 4 bytes each",
+    "MiB of an unpacked image, if that is more than 8 times its file: its values as stored in memory, 1 to 4 bytes each",
     1024,
     1 << 20,
 );
@@ -53,18 +53,20 @@ pub static CORNERS: Limit =
 /// Unpacked size of meshes with repeated nodes, and of imported scenes.
 pub static MESH: Limit = Limit::new(
     "mesh-mib",
-    "MiB that a glTF file may unpack to on its way to a mesh: nodes may show a mesh many times, primitives share vertices, materials pictures; that a layer of a USD stage may unpack to, and the tree of its values; text of a pbrt scene with what it includes; what is written of a scene of pbrt, Mitsuba or USD",
+    "MiB of a glTF file unpacked to a mesh: nodes may repeat a mesh, primitives share vertices, materials share \
+     images; of an unpacked layer of a USD stage, and of its tree of values; of the text of a pbrt scene with its \
+     included files; of the output for a pbrt, Mitsuba or USD scene",
     4096,
     1 << 20,
 );
 
 /// Length of a chain of files that extend one another.
-pub static BASES: Limit = Limit::new("bases", "files that are built one on the other by \"base\"", 16, 64);
+pub static BASES: Limit = Limit::new("bases", "files in a chain of \"base\" references", 16, 64);
 
 /// Sizes of folders of tiles.
 pub static TEXTURE_CACHE: Limit = Limit::new(
     "texture-cache-mib",
-    "MiB of the folder of tiles of large textures (`--cache`): files that were used longest ago are removed, and a job whose own tiles need more is refused",
+    "MiB of the folder of tiles of large textures (`--cache`): the least recently used files are removed, and a job whose own tiles need more is refused",
     2048,
     1 << 20,
 );
@@ -122,7 +124,7 @@ impl Limit {
             return Ok(());
         }
         let (size, most, remedy) = (bytes.div_ceil(MIB), self.most(), self.remedy_bytes(bytes.into()));
-        let words = format!("the file unpacks to {size} MiB, where {most} MiB are allowed; make it smaller, {remedy}");
+        let words = format!("the file unpacks to {size} MiB, but {most} MiB are allowed; make it smaller, {remedy}");
         Err(Problem::new(ErrorCode::TooLarge, words))
     }
 
@@ -137,7 +139,7 @@ impl Limit {
         let size = bytes.div_ceil(MIB);
         let (most, remedy) = (self.most(), self.remedy_bytes(bytes.into()));
         let words = format!(
-            "the file has {size} MiB, and files of its kind are read up to {most} MiB; make it smaller, {remedy}"
+            "the file has {size} MiB, but files of its kind may have at most {most} MiB; make it smaller, {remedy}"
         );
         Err(Problem::new(ErrorCode::TooLarge, words))
     }
@@ -152,7 +154,7 @@ pub fn set(text: &str) -> Result<(), String> {
     let (name, number) = text.split_once('=').ok_or_else(|| format!("expected NAME=N, one of {}", names.join(", ")))?;
     let limit = ALL.into_iter().find(|limit| limit.name == name.trim()).ok_or_else(|| {
         let hint = nearest(name, &names).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
-        format!("no limit is called \"{name}\"; {hint}the limits are {}", names.join(", "))
+        format!("unknown limit \"{name}\"; {hint}the limits are {}", names.join(", "))
     })?;
     let legal = number.trim().parse().ok().filter(|n| (1..=limit.highest).contains(n));
     let number = legal.ok_or_else(|| format!("expected a whole number from 1 to {}, not '{number}'", limit.highest))?;

@@ -172,7 +172,7 @@ fn note_no_pair(document: &Node, text: &Text, faults: &mut Faults) {
     faults.add(
         ErrorCode::InvalidChange,
         &place,
-        "this is no key=value",
+        "expected key=value",
         "give a dotted key, \"=\" and a value: render.spp=16",
     );
 }
@@ -185,7 +185,7 @@ const DEEPEST: usize = 80;
 
 fn note_too_deep(document: &Node, text: &Text, parts: usize, faults: &mut Faults) {
     let place = text.place(document.place.file(), "");
-    let problem = format!("this key has {parts} parts, and no description is deeper than {DEEPEST}");
+    let problem = format!("this key has {parts} parts; at most {DEEPEST} are possible");
     faults.add(ErrorCode::InvalidChange, &place, problem, "correct the key: render.spp=16");
 }
 
@@ -251,12 +251,12 @@ impl<'t> Change<'t> {
         };
         let hint = nearest(last, &names).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
         let within = if parent.is_empty() { String::new() } else { format!(" in \"{parent}\"") };
-        let problem = format!("there is no \"{last}\"{within} that could be taken out");
+        let problem = format!("there is no \"{last}\"{within} to remove");
         faults.add(
             ErrorCode::InvalidChange,
             &place,
             problem,
-            format!("{hint}correct the key, or leave the change out"),
+            format!("{hint}correct the key, or omit the change"),
         );
     }
 
@@ -300,7 +300,7 @@ impl<'t> Change<'t> {
             _ => faults.add(
                 ErrorCode::InvalidChange,
                 &place,
-                format!("there is no table that could hold \"{last}\""),
+                format!("there is no table for \"{last}\""),
                 "correct the key",
             ),
         }
@@ -346,5 +346,5 @@ fn note_no_entry(list: &[Node], part: &str, place: &Place, faults: &mut Faults) 
         0 => "the list is empty; remove the override".to_owned(),
         n => format!("{hint}give a number from 0 to {}{entries}", n - 1),
     };
-    faults.add(ErrorCode::UnknownName, place, format!("no entry is called \"{part}\""), remedy);
+    faults.add(ErrorCode::UnknownName, place, format!("there is no entry \"{part}\""), remedy);
 }

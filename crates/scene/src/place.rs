@@ -139,7 +139,7 @@ impl fmt::Display for Place {
                 Some((line, column)) => write!(f, "{}:{line}:{column}", by.file().display())?,
                 None => by.fmt(f)?,
             },
-            Spot::Unstated => return f.write_str("a value that no file states"),
+            Spot::Unstated => return f.write_str("a value not stated by any file"),
         }
         let key = self.key();
         if key.is_empty() { Ok(()) } else { write!(f, ": {key}") }

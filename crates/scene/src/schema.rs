@@ -72,8 +72,8 @@ fn whole<T: Record>() -> Json {
 
 /// A file merged over another: any part of it may be missing, so only the names of its keys are given.
 fn derived<T: Record>() -> Json {
-    let base = "The path of a file of this kind, over which this one is laid.";
-    let removed = "Dotted keys of entries that are taken out of the base: \"environment\", \"lights.sun\".";
+    let base = "The path of a file of this kind, which this file extends and overrides.";
+    let removed = "Dotted keys of entries that are removed from the base: \"environment\", \"lights.sun\".";
     let mut properties = json!({
         "format": format(),
         "base": { "type": "string", "description": base },

@@ -74,7 +74,7 @@ impl Display {
             Error::argument(
                 "display",
                 format!(
-                    "`display` {address}: {why}; start the viewer there first (tev listens at 127.0.0.1:14158), or leave it out"
+                    "`display` {address}: {why}; start the viewer there first (tev listens at 127.0.0.1:14158), or omit this argument"
                 ),
             )
         };
@@ -112,7 +112,7 @@ impl Display {
         self.shared.changed.notify_one();
         let done = self.done.into_inner().unwrap_or_else(PoisonError::into_inner);
         if done.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
-            warn(&self.address, "it is slow, and has not taken the last tiles");
+            warn(&self.address, "it is slow and did not receive the last tiles");
         }
     }
 }
@@ -124,7 +124,7 @@ fn send(mut stream: TcpStream, shared: &Shared, address: &str) {
             let mut state = shared.state();
             (state.is_lost, state.images) = (true, Images::default());
             drop(state);
-            return warn(address, &format!("it takes no more tiles ({cause}); the rendering goes on"));
+            return warn(address, &format!("it no longer accepts tiles ({cause}); rendering continues"));
         }
     }
 }

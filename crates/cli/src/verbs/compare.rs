@@ -81,7 +81,7 @@ fn as_table(compare: &Compare, findings: &[ChannelComparison], differ: bool) -> 
         }
         text.push('\n');
     }
-    text.push_str(if differ { "they differ\n" } else { "no difference is proven\n" });
+    text.push_str(if differ { "they differ\n" } else { "no significant difference\n" });
     text
 }
 

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// `etendue inspect`
 #[derive(Debug, Args)]
 pub struct Inspect {
-    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo), OBJ, tables (CSV), lamps (IES, EULUMDAT), JSON side-car
+    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo), OBJ, tables (CSV), lights (IES, EULUMDAT), JSON side-car
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Write its content as an image here
@@ -35,7 +35,7 @@ impl Inspect {
             let Some(preview) = &report.preview else {
                 return Err(Error::coded(
                     ErrorCode::UnsuitableFile,
-                    format!("{}: no picture can be made of it", self.file.display()),
+                    format!("{}: it cannot be shown as an image", self.file.display()),
                 ));
             };
             let bytes = preview.to_png().map_err(|error| Error::Run(error.to_string()))?;

@@ -11,7 +11,7 @@ use etendue::Error;
 pub struct Plan {
     #[command(flatten)]
     pub job: JobArgs,
-    /// Print one JSON document: cameras, settings, effects with their costs and the difference that omitting each would make, remarks (docs/plan.md)
+    /// Print one JSON document: cameras, settings, effects with their costs and the difference that omitting each would make, notes (docs/plan.md)
     #[arg(long)]
     pub json: bool,
     /// Print only the paths of the files that the job reads, including its own, one per line: the files needed to render it on another machine

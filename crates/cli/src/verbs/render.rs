@@ -18,7 +18,7 @@ pub struct Render {
     pub output: Output,
     #[command(flatten)]
     pub options: RenderOptions,
-    /// Resume an interrupted run of the same plan into this folder: whole frames of time-dependent light are kept, and passes of a progressive run;
+    /// Resume an interrupted run of the same plan into this folder: complete frames of time-dependent light are kept, and passes of a progressive run;
     /// everything else is rendered and replaced
     #[arg(long, conflicts_with_all = ["overwrite", "shard"])]
     pub resume: bool,

@@ -10,10 +10,10 @@ const KINDS: [Word<FileKind>; 7] = [
     (FileKind::Scene, "scene", "Geometry, materials, lights"),
     (FileKind::Camera, "camera", "Lens, sensor, processing"),
     (FileKind::Job, "job", "Scene, cameras, render and output settings"),
-    (FileKind::DataSheet, "datasheet", "What `etendue datasheet` reads"),
-    (FileKind::Variations, "variations", "What `etendue dataset` varies from sample to sample"),
-    (FileKind::Laboratory, "laboratory", "What `etendue characterise` reads beside pictures"),
-    (FileKind::Weather, "weather", "What `etendue weather` lays over stored radiance"),
+    (FileKind::DataSheet, "datasheet", "Input of `etendue datasheet`"),
+    (FileKind::Variations, "variations", "Variations between the samples of `etendue dataset`"),
+    (FileKind::Laboratory, "laboratory", "Input of `etendue characterise` in addition to images"),
+    (FileKind::Weather, "weather", "Weather that `etendue weather` applies to stored radiance"),
 ];
 
 /// `etendue schema`

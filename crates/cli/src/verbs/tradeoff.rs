@@ -102,7 +102,7 @@ impl Tradeoff {
         if self.mtf50 && !self.ablate && self.vary.is_empty() {
             return Err(Error::argument(
                 "mtf50",
-                "`mtf50` tells what changes do to the contrast transfer: give it with `ablate` or `vary`",
+                "`mtf50` reports the effect of changes on contrast transfer: give it with `ablate` or `vary`",
             )
             .with_code(ErrorCode::NoEffect));
         }
@@ -143,11 +143,11 @@ impl Tradeoff {
         let names = names.iter().map(|name| (*name).to_owned()).chain(pictures);
         for path in names.map(|name| folder.join(name)).filter(|path| path.exists()) {
             if existing == Existing::Refuse {
-                let problem = "is there already; give another folder, or `overwrite`";
+                let problem = "already exists; give another folder, or `overwrite`";
                 return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", path.display())));
             }
             if path.canonicalize().ok() == self.job.request.job.canonicalize().ok() {
-                let problem = "is the job that is studied, and would be replaced; give another folder";
+                let problem = "is the studied job and would be replaced; give another folder";
                 return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", path.display())));
             }
         }

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 pub struct View {
     #[command(flatten)]
     pub request: ViewRequest,
-    /// Folder for the page, or the name of one file that ends in .html and holds everything [default: the folder `view` in FOLDER, where an existing
+    /// Folder for the page, or the name of one file that ends in .html and contains everything [default: the folder `view` in FOLDER, where an existing
     /// page is replaced]
     #[arg(short, long, value_name = "DIR|PAGE.html")]
     pub output: Option<PathBuf>,
@@ -29,7 +29,7 @@ impl View {
         let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };
         let page = view(&self.request, self.output.as_deref(), existing, console.observer())?;
         if !self.no_open && console.is_terminal() && !browser::open(&page) {
-            console.tell("no browser could be started; open the page in one\n");
+            console.tell("no browser could be started; open the page manually\n");
         }
         print_paths(console, &[page]);
         Ok(())

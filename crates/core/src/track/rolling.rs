@@ -28,11 +28,11 @@ const MAX_PIECES: usize = 1 << 20;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RollingError {
     /// The hub never moves.
-    #[error("nothing moves the wheel; give its hub keys, or put it in a frame that moves")]
+    #[error("the wheel never moves; give its hub keys, or attach it to a moving frame")]
     Still,
     /// The wheel turns by more than can be followed.
     #[error(
-        "the wheel would turn by {turned_rad:.3e} rad, but at most 1e12 can be traced; give it a larger radius or a shorter way"
+        "the wheel would turn by {turned_rad:.3e} rad, but at most 1e12 can be traced; give it a larger radius or a shorter path"
     )]
     TooFar {
         /// Angle between two keys, rad, as far as it was computed.

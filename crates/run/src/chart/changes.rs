@@ -85,7 +85,7 @@ impl<'c> Changes<'c> {
             return Ok(());
         }
         self.0.iter().find(is_exposure).map_or(Ok(()), |change| {
-            let remedy = "the exposures of a series are set by the chart; give them with `exposures` or `levels`";
+            let remedy = "the chart sets the exposures of a series; give them with `exposures` or `levels`";
             Err(Error::argument("set", format!("`set` {change}: {remedy}")).with_code(ErrorCode::InvalidChange))
         })
     }

@@ -106,7 +106,7 @@ impl ChartRequest {
         }
         let white = self.white;
         if !(white.is_finite() && white > 0.0) {
-            return Err(ChartError::option("white", white, "expected a share of saturation above 0"));
+            return Err(ChartError::option("white", white, "expected a fraction of saturation above 0"));
         }
         let unit = named(1.0)?;
         let share = meter.map(|meter| meter.share(unit.radiance())).filter(|share| *share > 0.0);
@@ -119,7 +119,7 @@ impl ChartRequest {
         let share = meter.map(|meter| meter.share(&drawing.inks[0].radiance(light))).filter(|share| *share > 0.0);
         let (Some(meter), Some(share)) = (meter, share) else {
             let told = || {
-                "this camera has no electronics that respond to the light; give one with a sensor of its own".to_owned()
+                "this camera has no electronics that respond to the light; give a camera whose sensor has electronics".to_owned()
             };
             return match required {
                 false => Ok(Vec::new()),
@@ -130,8 +130,8 @@ impl ChartRequest {
         let longest_s = exposures_s.iter().copied().fold(0.0, f64::max);
         match meter.longest_s {
             Some(limit_s) if longest_s > limit_s => Err(ChartError::Camera(format!(
-                "the longest exposure would be {longest_s:.3e} s, more than the camera's frame period of {limit_s} s: give more light \
-                 by `luminance_cd_m2` or `white`, or a lower `highest`"
+                "the longest exposure would be {longest_s:.3e} s, more than the camera's frame period of {limit_s} \
+                 s: increase the light with `luminance_cd_m2` or `white`, or lower `highest`"
             ))),
             _ => Ok(exposures_s),
         }
@@ -282,7 +282,7 @@ fn bytes(contents: Contents) -> Result<Vec<u8>, Error> {
         Contents::Text(text) => Ok(text.into_bytes()),
         Contents::Grey16(width, height, values) => {
             let samples = values.into_iter().map(u32::from).collect();
-            let plane: Plane<DigitalNumber> = Plane::from_samples(width, height, samples).expect("one value a texel");
+            let plane: Plane<DigitalNumber> = Plane::from_samples(width, height, samples).expect("one value per texel");
             encode_raw16(&plane).map_err(Error::run)
         }
     }

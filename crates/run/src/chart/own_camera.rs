@@ -94,7 +94,7 @@ impl ChartBeforeCamera {
         let none = || {
             Error::coded(
                 ErrorCode::UnavailableOutput,
-                format!("camera {}: it makes no picture to measure", self.camera),
+                format!("camera {}: it produces no image to measure", self.camera),
             )
         };
         written.iter().find(is_picture).cloned().ok_or_else(none)

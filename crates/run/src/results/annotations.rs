@@ -178,11 +178,11 @@ fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxes]) -> Valu
         "height_px": height,
         "conventions": {
             "boxes": "left, top, right, bottom; raster coordinates, px: a pixel (x, y) fills x to x + 1 and y to y + 1",
-            "visible_box_px": "about the pixels that show the object; null: none",
-            "amodal_box_px": "about the whole object, also beyond the picture; where is_cut about the parts that have an image",
-            "amodal_box_in_picture_px": "about the part of the whole object's image within the picture, whatever hides it; null: none",
-            "visible_fraction": "pixels that show it over those that would if it were alone",
-            "truncated_fraction": "part of the amodal box's area outside the picture; null where is_cut",
+            "visible_box_px": "encloses the pixels that show the object; null: none",
+            "amodal_box_px": "encloses the whole object, also beyond the image; if is_cut, only the parts that are imaged",
+            "amodal_box_in_picture_px": "encloses the part of the whole object within the image, including occluded parts; null: none",
+            "visible_fraction": "visible pixels over the pixels of the unoccluded object",
+            "truncated_fraction": "fraction of the amodal box's area outside the image; null if is_cut",
             "box_3d": "along the object's axes (x forward, y left, z up) at time_s: size; centre and rotation (quaternion w, x, y, z) in the \
                        camera's frame (x right, y down, z forward) and in the world (x forward, y left, z up)",
             "id": "as instance.ID of the ground truth, the same in all frames",

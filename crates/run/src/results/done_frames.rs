@@ -40,13 +40,13 @@ impl DoneFrames {
         for camera in plan.cameras.iter().filter(|camera| camera.time != TimeDependence::None) {
             for frame in frames.clone() {
                 let path = folder.join(&camera.name).join(Files::frame(frame));
-                let Some(value) = written(&path, "this is not the file of a frame")? else { continue };
+                let Some(value) = written(&path, "this is not a frame file")? else { continue };
                 if value["plan_hash"] != plan.hash_text() {
                     let why = "it is a frame of another plan; choose another output folder, or `overwrite` it";
                     return Err(refused(&path, why));
                 }
                 if let Err(why) = metadata::check_whole(&value, frame, &folder.join(&camera.name)) {
-                    let sentence = format!("{}: {why}; frame {frame} of {} is made anew", path.display(), camera.name);
+                    let sentence = format!("{}: {why}; frame {frame} of {} is rendered again", path.display(), camera.name);
                     observer.message(Message::Note(&sentence));
                     continue;
                 }
@@ -93,7 +93,7 @@ fn check_sidecar(folder: &Path, plan: &Plan) -> Result<(), Error> {
     let path = folder.join(Files::SIDECAR);
     match written(&path, "this is not the side-car of a camera")? {
         Some(facts) if facts["plan_hash"] != plan.hash_text() => {
-            let why = "it is of a run of another plan; choose another output folder, or `overwrite` it";
+            let why = "it belongs to a run of another plan; choose another output folder, or `overwrite` it";
             Err(refused(&path, why))
         }
         _ => Ok(()),

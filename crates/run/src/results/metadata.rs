@@ -136,7 +136,7 @@ pub(crate) fn undistorted(twin: &RectifiedCamera) -> Value {
         "width_px": twin.body().raster.width(),
         "height_px": twin.body().raster.height(),
         "ground_truth": "traced along the twin's own rays from the centre of the entrance pupil",
-        "picture": "the camera's, resampled linearly in linear light; black where the camera does not look",
+        "picture": "the camera's, resampled linearly in linear light; black outside the camera's field of view",
     })
 }
 
@@ -199,7 +199,7 @@ pub(crate) fn pupil_geometry(
         let cube = face_px
             .and_then(|face_px| stated_cube(face_px, views))
             .filter(|c| (c.width(), c.height()) == (width, height));
-        let message = || format!("its geometry, {VIEWS} = \"{views}\", is not one that etendue writes");
+        let message = || format!("its geometry, {VIEWS} = \"{views}\", was not written by etendue");
         return Some(cube.map(PupilProjection::Cube).ok_or_else(message));
     }
     let principal = DVec2::new(number(PRINCIPAL_X_PX)?, number(PRINCIPAL_Y_PX)?);
@@ -250,17 +250,17 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
         "files": files,
         "ground_truth": {
             "ray.ID": "0: no ray passes the lens; 1: the principal ray; 2: that ray is clipped, the ray through the \
-                       centroid of the open pupil is taken",
-            "depth.Z": "m along the optical axis from the entrance pupil; +inf: sky; NaN: no ray, or one that does not look ahead",
+                       centroid of the unobstructed pupil is used",
+            "depth.Z": "m along the optical axis from the entrance pupil; +inf: sky; NaN: no ray, or one that does not point forwards",
             "distance.Z": "m along the pixel's principal ray (587.56 nm) from its origin; +inf: sky; NaN: no ray",
             "mirror": mirror(&camera.body),
             "N": "unit shading normal, world",
-            "P": "position, world, m, of 32 bits",
-            "P_low": "where there: what P is rounded by, m; P + P_low is the position",
+            "P": "position, world, m, 32 bits",
+            "P_low": "if present: rounding error of P, m; P + P_low is the position",
             "instances": plan.identities,
             "classes": plan.classes.iter().cloned().collect::<BTreeMap<String, u32>>(),
             "materials": plan.materials,
-            "ids": "instances and materials: place in the list, from 1; 0 is the background",
+            "ids": "instances and materials: index in the list, from 1; 0 is the background",
         },
     });
     add_time(&mut facts, &camera.timing, "time", camera.timing.frame_start(first));

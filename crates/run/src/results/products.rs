@@ -84,7 +84,7 @@ pub(super) const PRODUCT_FILES: &[ProductFiles] = &[
     },
     ProductFiles {
         entries: |p, files| {
-            let entry = entry("samples, variance of the mean by them and by the sensor", "1, e^2, e^2");
+            let entry = entry("samples; variance of the mean from Monte Carlo and from the sensor", "1, e^2, e^2");
             files.add(p.sampling, Files::SAMPLING, entry);
         },
         stage: Stage::Light,
@@ -118,18 +118,18 @@ const ANNOTATIONS: ProductFiles = ProductFiles {
 fn annotation_entries(products: &Products, files: &mut FileEntries) {
     let asked = &products.annotations;
     let flow = entry("optical flow to the next frame", "px");
-    let layers = "flow, visibility, image velocity, scene flow, velocity and time, as far as asked for";
+    let layers = "flow, visibility, image velocity, scene flow, velocity and time, as requested";
     files.add(asked.needs_neighbours(), Files::MOTION, entry(layers, "px, 1, px/s, m, m/s, s"));
     files.add(asked.optical_flow == Some(CorrespondenceFormat::Middlebury), Files::FLOW_FLO, flow.clone());
     files.add(asked.optical_flow == Some(CorrespondenceFormat::Kitti), Files::FLOW_PNG, flow);
     let disparity = asked.disparity.map(|asked| asked.format);
     files.add(disparity.is_some(), Files::DISPARITY, entry("disparity, visibility", "px, 1"));
-    let map = entry("disparity; infinite where it is not known", "px");
+    let map = entry("disparity; infinite where unknown", "px");
     files.add(disparity == Some(CorrespondenceFormat::Middlebury), Files::DISPARITY_PFM, map);
-    let picture = entry("disparity; 0 where it is not known", "1/256 px");
+    let picture = entry("disparity; 0 where unknown", "1/256 px");
     files.add(disparity == Some(CorrespondenceFormat::Kitti), Files::DISPARITY_PNG, picture);
-    files.add(asked.boxes, Files::BOXES, entry("boxes of objects in the picture and in space", "px, m"));
-    let ranked = "objects and materials of each pixel by falling coverage, Cryptomatte 1.2";
+    files.add(asked.boxes, Files::BOXES, entry("bounding boxes of objects in the image and in space", "px, m"));
+    let ranked = "objects and materials of each pixel by decreasing coverage, Cryptomatte 1.2";
     files.add(asked.cryptomatte, Files::CRYPTOMATTE, entry(ranked, "1"));
 }
 
@@ -174,7 +174,7 @@ impl Files {
         files.add(
             p.annotations.tracks,
             Self::TRACKS,
-            entry("boxes of objects over all frames, object by object", "px, m, s"),
+            entry("bounding boxes of objects over all frames, by object", "px, m, s"),
         );
         files.add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
         let twin = p.undistorted.is_some();
@@ -196,7 +196,7 @@ impl Files {
         let twin = p.undistorted.is_some();
         let format = body.picture_format();
         let picture = body.development.as_ref().map_or(Value::Null, Self::picture_entry);
-        let video = entry("pictures of all frames, Y'CbCr of BT.709 in limited range, 4:4:4", "8 bits");
+        let video = entry("images of all frames, Y'CbCr of BT.709 in limited range, 4:4:4", "8 bits");
         add(p.video, Self::VIDEO, video);
         let mut undistorted = picture.clone();
         undistorted["quantity"] = format!("undistorted {}", picture["quantity"].as_str().unwrap_or_default()).into();
@@ -206,7 +206,7 @@ impl Files {
             add(
                 p.signal_breakdown,
                 &Self::signal_breakdown(frame),
-                entry("causes of the digital number, one layer each", "e"),
+                entry("components of the digital number, one layer each", "e"),
             );
             add(p.picture, &Self::picture(frame, format), picture.clone());
         }
@@ -249,7 +249,7 @@ fn sampling_image<'a>(sampling: &'a SamplingPlanes, facts: &Provenance) -> ExrIm
 fn truth_entries(p: &Products, files: &mut FileEntries) {
     files.add(p.ground_truth, Files::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
     if let Some(per_m) = p.depth_png_per_m {
-        files.add(true, Files::DEPTH, entry("planar depth, 0 is invalid", &format!("1/{per_m} m")));
+        files.add(true, Files::DEPTH, entry("planar depth; 0: invalid", &format!("1/{per_m} m")));
     }
 }
 

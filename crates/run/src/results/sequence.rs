@@ -202,7 +202,7 @@ fn read_boxes(name: &str, folder: &OutputFolder) -> Result<Value, Error> {
     let path = folder.readable(name).map_err(Error::run)?;
     let unread = |why: String| Error::run(format!("{}: {why}", path.display()));
     let bytes = read_regular(&path, &DESCRIPTION).map_err(|cause| unread(format!("it cannot be read: {cause}")))?;
-    serde_json::from_slice(&bytes).map_err(|_| unread("this is not the file of a frame's boxes".to_owned()))
+    serde_json::from_slice(&bytes).map_err(|_| unread("this is not a file of a frame's bounding boxes".to_owned()))
 }
 
 /// Tracks read so far.
@@ -235,7 +235,7 @@ impl Tracks {
     fn into_json(mut self, camera: &CameraPlan) -> Value {
         let raster = &camera.body.raster;
         self.conventions["tracks"] = json!(
-            "an object has a place in \"frames\" for each frame in which it has pixels, or would if it stood alone"
+            "an object has an entry in \"frames\" for each frame in which it covers pixels, or would without occlusion"
         );
         let track = |(mut object, seen): (Value, Vec<Value>)| {
             object["frames"] = Value::Array(seen);
@@ -264,7 +264,7 @@ fn write_video(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFold
         for (i, file) in files.iter().enumerate() {
             let ImageAsset { width, height, pixels, .. } = read_picture(file).map_err(io::Error::other)?;
             let ImagePixels::Rgb8(pixels) = pixels else {
-                return Err(io::Error::other(format!("{}: expected a picture of 8 bits in colour", file.display())));
+                return Err(io::Error::other(format!("{}: expected an 8-bit colour image", file.display())));
             };
             if i == 0 {
                 let (width, height) = (width as usize, height as usize);

@@ -177,8 +177,8 @@ pub(crate) fn check_frames(plan: &Plan, frames: &Range<u32>) -> Result<(), Error
         Some(camera) if frames.end > 1 => Err(Error::coded(
             ErrorCode::MissingKey,
             format!(
-                "camera {}: its light depends on time, and nothing says when its frames after frame 0 are taken; add [sequence] with \
-             \"frame_rate_hz\" to the job, or render `frames` 0..1",
+                "camera {}: its light depends on time, and the times of the frames after frame 0 are unknown; add \
+             [sequence] with \"frame_rate_hz\" to the job, or render `frames` 0..1",
                 camera.name
             ),
         )),
@@ -196,8 +196,8 @@ pub(crate) fn check_finite(camera: &CameraPlan, film: &Film) -> Result<(), Error
     match film.not_finite_samples() {
         0 => Ok(()),
         count => Err(Error::Run(format!(
-            "camera {}: {count} samples of its light were not finite numbers, so nothing is delivered; a light is too bright \
-             or too near for 32-bit floats: lower it or move it",
+            "camera {}: {count} samples of its light are not finite, so no results are written; a light is too \
+             bright or too near for 32-bit floats: lower it or move it",
             camera.name
         ))),
     }

@@ -101,7 +101,7 @@ pub(super) fn report_noise(camera: &CameraPlan, shot: Shot, film: &Film, observe
     let of = if tolerance.sensor().is_some() { "the sensor's noise" } else { "the pixel's mean" };
     let (fewest, most) = reached.range_spp;
     observer.message(Message::Note(&format!(
-        "{place}: {:.1} samples a pixel ({fewest} to {most}); standard error {:.3} of {of} (root mean square; asked for {})",
+        "{place}: {:.1} samples a pixel ({fewest} to {most}); standard error {:.3} of {of} (root mean square; requested {})",
         reached.mean_spp,
         limit.threshold * reached.error,
         limit.threshold

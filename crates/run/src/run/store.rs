@@ -251,16 +251,16 @@ impl<'a> InterruptionNote<'a> {
     fn text(&self) -> String {
         let frames = match self.frames {
             0 => None,
-            1 => Some("1 frame that is whole".to_owned()),
-            n => Some(format!("{n} frames that are whole")),
+            1 => Some("1 complete frame".to_owned()),
+            n => Some(format!("{n} complete frames")),
         };
-        let light = holds_state(&self.root).then(|| "the light of the last whole pass".to_owned());
+        let light = holds_state(&self.root).then(|| "the light of the last complete pass".to_owned());
         let left: Vec<String> = frames.into_iter().chain(light).collect();
         let folder = self.root.display();
         match left.is_empty() {
-            true => format!("{folder}: nothing of this run was kept"),
+            true => format!("{folder}: nothing of this run was saved"),
             false => format!(
-                "{folder}: kept {}; with `resume` in the place of `overwrite` a run goes on",
+                "{folder}: saved {}; to continue, use `resume` instead of `overwrite`",
                 left.join(" and ")
             ),
         }

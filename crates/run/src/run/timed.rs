@@ -141,7 +141,7 @@ impl<'a> TimedPasses<'a> {
         let replicates = self.pace(plan).replicates(sample_s, &choice);
         if replicates < most {
             let note =
-                format!("`time_s` {} does not allow passes of {most} replicates; they have {replicates}", self.total_s);
+                format!("`time_s` {} does not allow passes of {most} replicates; {replicates} are used", self.total_s);
             self.observer.message(Message::Note(&note));
         }
         replicates
@@ -197,8 +197,8 @@ impl<'a> TimedPasses<'a> {
         if needed_s > GIVE_UP_RATIO * self.total_s {
             let samples = if pace.least == 1 { "one sample".to_owned() } else { format!("{} samples", pace.least) };
             self.observer.message(Message::Warning(&format!(
-                "{samples} of every pixel, the least that can be delivered, take about {needed_s:.0} s here, more than `time_s` {}; \
-                 give more time, smaller pictures, or fewer frames, cameras or replicates",
+                "rendering {samples} per pixel, the minimum for a result, takes about {needed_s:.0} s, more than \
+                 `time_s` {}; give more time, smaller images, or fewer frames, cameras or replicates",
                 self.total_s
             )));
         }
@@ -247,7 +247,7 @@ impl<'a> Watch<'a> {
         if observer.now_s().is_none() {
             return Err(Error::coded(
                 ErrorCode::InvalidArgument,
-                "a time is asked for, and the caller has no clock; give samples in its place",
+                "a time is requested, but the caller has no clock; give samples instead",
             ));
         }
         Ok(Self {

@@ -51,7 +51,7 @@ impl MeshFrameAsset {
         }
         let form = |part: &MeshFramePart| (part.material.clone(), part.arities.len(), part.normals.is_empty());
         if !self.parts.iter().map(form).eq(other.parts.iter().map(form)) {
-            let words = "material groups, or faces with and without normals, of its own";
+            let words = "material groups, or faces with and without normals, that differ from the other file's";
             return both(&|_| words.to_owned());
         }
         let faces = |frame: &Self| frame.parts.iter().flat_map(MeshFramePart::faces).collect::<Vec<_>>();
@@ -59,8 +59,8 @@ impl MeshFrameAsset {
         let face = own.iter().zip(&others).position(|(a, b)| a != b)?;
         let message = |face: &(Vec<u32>, Vec<u32>)| format!("{} corners", face.0.len());
         let [a, b] = [message(&own[face]), message(&others[face])];
-        let at = |tell: String| format!("as face {} (by material) one of {tell}", face + 1);
-        Some(if a == b { [at(a), "another of as many there".to_owned()] } else { [at(a), format!("one of {b} there")] })
+        let at = |tell: String| format!("{tell} at face {} (by material)", face + 1);
+        Some(if a == b { [at(a), "different vertices there".to_owned()] } else { [at(a), format!("{b} there")] })
     }
 }
 

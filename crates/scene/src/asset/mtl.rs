@@ -115,7 +115,7 @@ impl MtlFields {
         let kd = self.diffuse?;
         if kd.iter().any(|v| !(0.0..=1.0).contains(v)) {
             report.push(format!(
-                "material \"{name}\": Kd {kd:?} is no reflectance (0 … 1); say its material in the scene"
+                "material \"{name}\": Kd {kd:?} is not a reflectance (0 … 1); define its material in the scene"
             ));
             return None;
         }
@@ -141,8 +141,8 @@ impl MtlFields {
         }
         let (low, high) = (COAT_INDICES.start(), COAT_INDICES.end());
         report.push(format!(
-            "material \"{name}\": Ni {index} is no index of a coat ({low} … {high}), {USUAL_INDEX} is used; \
-             say its material in the scene"
+            "material \"{name}\": Ni {index} is not a refractive index of a coat ({low} … {high}), {USUAL_INDEX} is \
+             used; define its material in the scene"
         ));
         USUAL_INDEX
     }
@@ -153,8 +153,8 @@ impl MtlFields {
         let clear = self.opacity.is_some_and(|d| d < 1.0);
         let tinted = self.specular.is_some_and(|[r, g, b]| r != g || g != b);
         let notes = [
-            (emits, "Ke has no unit and gives no light; say \"emission\" in the scene"),
-            (metal, "Pm (metalness) is not used; say \"conductor\" in the scene"),
+            (emits, "Ke has no unit and is not used; set \"emission\" in the scene"),
+            (metal, "Pm (metalness) is not used; set \"conductor\" in the scene"),
             (clear, "transparency (d, Tr) is not used: the surface is opaque"),
             (tinted, "the colour of highlights (Ks) is not used"),
         ];

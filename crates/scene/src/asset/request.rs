@@ -111,7 +111,7 @@ impl Values {
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Self::Share => "a share between 0 and 1",
+            Self::Share => "a fraction from 0 to 1",
             Self::Light => "0 or more",
             Self::Index => "a refractive index from 1 to 4",
         }

@@ -147,9 +147,9 @@ impl SlotLayers {
     pub fn describe(&self) -> String {
         let over = match &self.over {
             SlotOver::Nothing => "diffuse".to_owned(),
-            SlotOver::Coat { index } => format!("coated of index {index:.3}"),
+            SlotOver::Coat { index } => format!("coated, index {index:.3}"),
             SlotOver::TwoCoats { index, share, .. } => {
-                format!("coated of index {index:.3}, {share} of it under a clear coat")
+                format!("coated, index {index:.3}, a fraction of {share} under a clear coat")
             }
             SlotOver::Sheen { .. } => "cloth".to_owned(),
         };
@@ -162,7 +162,7 @@ impl SlotLayers {
         };
         let surface = match &self.metal {
             SlotNumber::Number(0.0) => over,
-            SlotNumber::Number(1.0) => "conductor of its colour".to_owned(),
+            SlotNumber::Number(1.0) => "conductor of the base colour".to_owned(),
             share => format!("mix of {over} and conductor by {}", words(share)),
         };
         let mut parts = vec![surface];
@@ -170,7 +170,7 @@ impl SlotLayers {
             parts.push(format!("alpha {}", words(&self.alpha)));
         }
         if let SlotColour::Picture(_) = &self.base {
-            parts.push("colour by a picture".to_owned());
+            parts.push("colour from an image".to_owned());
         }
         if let Some(opacity) = &self.opacity {
             parts.push(format!("opacity {}", words(opacity)));

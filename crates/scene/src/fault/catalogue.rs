@@ -43,60 +43,60 @@ macro_rules! error_codes {
 }
 error_codes! {
     InvalidToml "invalid-toml":
-        "A file of the format is not valid TOML; a key that is given twice in a table is not either.",
+        "A file is not valid TOML, for example because a table has a key twice.",
         "Correct the syntax at the line and column.",
         Example::keys("spp = = 8", "spp = 8");
     UnknownFormat "unknown-format":
-        "The file states a version of the format that this program does not read.",
-        "State format = 1 and use the keys of that version, or use the program that the file was written for.",
+        "The file states a format version that this program does not support.",
+        "Set format = 1 and use the keys of that version, or use the program that the file was written for.",
         Example::keys("format = 2", "format = 1");
     WrongFileKind "wrong-file-kind":
-        "A file of one kind is given where another is expected, for example a scene in the place of a job.",
+        "A file of one kind is given where another is expected, for example a scene instead of a job.",
         "Give a file of the expected kind: a job has [[cameras]] and a scene, a camera [lens] and [sensor].",
         Example::command("plan camera.toml", "plan job.toml");
     UnknownKey "unknown-key":
-        "A table has a key that the format does not know there.",
+        "A table has a key that the format does not define there.",
         "Correct the spelling, or remove the key; docs/scene-format.md lists the keys of each table.",
         Example::keys("focal_lenght_mm = 6", "focal_length_mm = 6");
     MissingKey "missing-key":
-        "A table lacks a key that it cannot do without, alone or beside another key of the table.",
+        "A table lacks a key that is required, always or together with another key of the table.",
         "Add the key.",
         Example::keys("type = \"thin\"\nf_number = 2", "type = \"thin\"\nfocal_length_mm = 6\nf_number = 2");
     WrongType "wrong-type":
-        "A value is of another type or form than its key takes: a text for a number, a table for a list, a list of another length.",
+        "A value has another type or form than its key accepts: text instead of a number, a table instead of a list, a list of another length.",
         "Give a value of the type that the message names.",
         Example::keys("f_number = \"two\"", "f_number = 2");
     OutOfRange "out-of-range":
-        "A number is outside the range that its key or argument takes, or that the other values leave to it.",
+        "A number is outside the range of its key or argument, or outside the range that the other values allow.",
         "Give a number within the range that the message states.",
         Example::keys("exposure_s = -1e-6", "exposure_s = 1e-6");
     UnknownWord "unknown-word":
-        "A key takes one of several words, and the given word is none of them.",
+        "A key accepts one of several words, and the given word is none of them.",
         "Give one of the words that the message lists.",
         Example::keys("type = \"fat\"", "type = \"thin\"");
     UnknownName "unknown-name":
-        "A name refers to what is not defined: a material, mesh, class, frame, camera, glass, illuminant, channel or layer.",
+        "A name refers to something that is not defined: a material, mesh, class, frame, camera, glass, illuminant, channel or layer.",
         "Define it, or give one of the names that the message lists.",
         Example::keys("material = \"golt\"", "material = \"gold\"");
     Duplicate "duplicate":
-        "Two entries have the same name, time or place, where each needs its own.",
+        "Two entries have the same name, time or place, which must be unique.",
         "Rename or remove one of them.",
         Example::keys("name = \"towers\"", "name = \"ball\"");
     WrongOrder "wrong-order":
-        "Values that must rise do not, or the end of a range lies before its beginning.",
+        "Values that must rise do not, or the end of a range is before its start.",
         "Give the values in rising order.",
         Example::keys("wavelength_range_nm = [800, 350]", "wavelength_range_nm = [350, 800]");
     WrongCount "wrong-count":
-        "A list has more or fewer entries than belong to it, as one for each channel or one for each value of another list.",
+        "A list has too many or too few entries: for example, one is needed for each channel or for each value of another list.",
         "Give as many entries as the message states.",
         Example::keys("white_balance = [1.9, 1]", "white_balance = [1.9, 1, 1.4]");
     NotAMultiple "not-a-multiple":
-        "A number cannot be divided evenly: samples by replicates, a side of the picture by a scale, a range by a width.",
+        "A number cannot be divided evenly: samples by replicates, a side of the image by a scale, a range by a width.",
         "Give a multiple of the number that the message states.",
         Example::keys("spp = 9\nreplicates = 2", "spp = 8\nreplicates = 2");
     NoEffect "no-effect":
-        "A key or argument changes nothing beside the others: it belongs to another choice, or to one that is not made.",
-        "Remove it, or make the choice that it belongs to.",
+        "A key or argument has no effect with the others: it belongs to another option, or to one that is not selected.",
+        "Remove it, or select the option that it belongs to.",
         Example::keys("rotation_deg = [0, 0, 0]\nup = [0, 0, 1]", "look_at_m = [6, 0, 0.9]");
     Contradiction "contradiction":
         "Two statements exclude each other, or state the same fact differently.",
@@ -104,38 +104,38 @@ error_codes! {
         Example::keys("look_at_m = [6, 0, 0.9]\nrotation_deg = [0, 0, 0]", "look_at_m = [6, 0, 0.9]");
     CircularReference "circular-reference":
         "A file, frame or element refers to itself, directly or through others.",
-        "Remove one of the references of the circle.",
+        "Remove one of the references of the cycle.",
         Example::keys("format = 1\nbase = \"job.toml\"", "format = 1");
     Empty "empty":
-        "A table, list, file or folder that must hold something holds nothing.",
+        "A table, list, file or folder that must have content is empty.",
         "Fill it, or remove it.",
         Example::keys("[cameras.effects]\n\n[cameras.isp]", "[cameras.isp]");
     Degenerate "degenerate":
-        "Values leave a direction, scale, colour or probability undefined, as a camera that looks at its own position.",
+        "Values leave a direction, scale, colour or probability undefined, for example a camera that looks at its own position.",
         "Change one of the values that coincide or are zero.",
         Example::keys("look_at_m = [0, 0, 1.4]", "look_at_m = [6, 0, 0.9]");
     NotModelled "not-modelled":
-        "The program does not model this, or not together with something else that is asked for.",
+        "The program does not model this, or not together with something else that is requested.",
         "Choose another model, or leave one of the two out; docs/models.md states what is modelled.",
         Example::keys("[cameras.effects]\nghosts = true\n\n[cameras.lens]", "[cameras.lens]");
     UnavailableOutput "unavailable-output":
-        "A result is asked for that this camera or job cannot give, since a sensor, a sequence or a scene part is missing.",
-        "Add what is missing, or do not ask for the result.",
+        "A requested result is not available from this camera or job, since a sensor, a sequence or a part of the scene is missing.",
+        "Add what is missing, or do not request the result.",
         Example::keys("[output]\nvideo = \"y4m\"", "[output]");
     UnsupportedOutput "unsupported-output":
-        "The chosen file format cannot hold the result.",
+        "The chosen file format cannot store the result.",
         "Choose another file format, or change the result to fit.",
         Example::keys("picture_bits = 16\npicture_format = \"jpeg\"", "white_balance = \"D65\"");
     ImpossibleTiming "impossible-timing":
-        "Exposures, the reading of rows and the distance of frames do not fit one after the other.",
-        "Expose shorter, read faster, or take fewer frames a second.",
+        "Exposures, row readout and frame period do not fit together.",
+        "Shorten the exposure, read out faster, or lower the frame rate.",
         Example::keys("exposure_s = 0.5", "exposure_s = 1e-6");
     UnusableLens "unusable-lens":
-        "The lens cannot be used on this sensor: it folds or ends within the picture, cannot focus there, or has no light to pass.",
-        "Correct the numbers of the lens, or make the picture smaller.",
+        "The lens cannot be used on this sensor: it folds or ends within the image, cannot focus there, or transmits no light.",
+        "Correct the numbers of the lens, or make the image smaller.",
         Example::keys("k1 = -9", "k1 = -0.1");
     InvalidChange "invalid-change":
-        "A change of a description is no key with a value, or names a place that the description does not have.",
+        "A change of a description is not KEY=VALUE, or names an entry that the description does not have.",
         "Give a dotted key, \"=\" and a value.",
         Example::command("plan job.toml `set` render.spp", "plan job.toml `set` render.spp=16");
     MissingFile "missing-file":
@@ -143,11 +143,11 @@ error_codes! {
         "Correct the path; a path in a file is relative to the folder of that file.",
         Example::keys("file = \"towr.obj\"", "file = \"tower.obj\"");
     UnreadableFile "unreadable-file":
-        "The file is there and cannot be read: it is a folder, a pipe or a device, or permission is denied.",
+        "The file exists but cannot be read: it is a folder, a pipe or a device, or permission is denied.",
         "Name a regular file that may be read.",
         Example::command("plan scenes", "plan job.toml");
     MalformedFile "malformed-file":
-        "The content of a file is not what its format demands: it is damaged, truncated or was written wrongly.",
+        "The content of a file does not conform to its format: it is damaged, truncated or incorrectly written.",
         "Correct the line, or export or fetch the file again.",
         Example::file("tower.obj", "f 8 5 90", "f 8 5 9");
     UnsupportedFile "unsupported-file":
@@ -155,11 +155,11 @@ error_codes! {
         "Convert the file, or store it in one of the formats that the message names.",
         Example::keys("file = \"tower.stl\"", "file = \"tower.obj\"");
     UnsuitableFile "unsuitable-file":
-        "The file can be read, and its content does not fit what it is used for: its size, channels, values or parts differ.",
+        "The file can be read, but its content does not fit its use: its size, channels, values or parts differ.",
         "Give a file that fits, or change what uses it.",
         Example::keys("defect_map = \"defects.csv\"", "white_balance = \"D65\"");
     TooLarge "too-large":
-        "A file, or what it unpacks to, is larger than a limit, or a result is larger than any machine holds.",
+        "A file, or its unpacked content, is larger than a limit, or a result is too large for any machine.",
         "Make it smaller, or raise the limit; docs/limits.md lists the limits.",
         Example::command("plan job.toml `limit` mesh-corners=20", "plan job.toml `limit` mesh-corners=1000");
     OutsideFolder "outside-folder":
@@ -167,31 +167,32 @@ error_codes! {
         "Put the file into the folder of the job, or allow its folder with `allow_outside`.",
         Example::command("plan outside.toml `sandboxed`", "plan job.toml `sandboxed`");
     OutputExists "output-exists":
-        "A result would replace a file that is there.",
-        "Choose another place, or allow it with `overwrite`.",
+        "A result would replace an existing file.",
+        "Choose another path, or allow it with `overwrite`.",
         Example::command("rig job.toml `output` done", "rig job.toml `output` done `overwrite`");
     UnwritableOutput "unwritable-output":
-        "A result cannot be written: a file or folder is in the way, permission is denied, or the disk is full.",
-        "Choose another place, or make this one writable.",
+        "A result cannot be written: another file or folder has its name, permission is denied, or the disk is full.",
+        "Choose another path, or make this one writable.",
         Example::command("rig job.toml `output` job.toml", "rig job.toml `output` out");
     FolderInUse "folder-in-use":
-        "Another run writes into the folder.",
+        "Another run is writing into the folder.",
         "Wait until it ends, or choose another folder.",
         Example::command("rig job.toml `output` busy", "rig job.toml `output` out");
     OtherRun "other-run":
-        "The folder holds results, shards or the state of another run: of another job, of other settings, or of one that was interrupted.",
-        "Give the folders of one run, resume it with `resume`, or begin in another folder.",
+        "The folder contains results, shards or the state of another run: of another job, with other settings, or interrupted.",
+        "Give the folders of one run, resume it with `resume`, or start in another folder.",
         Example::command("merge shard `output` out", "merge shard shard2 `output` out");
     NotComparable "not-comparable":
-        "Two results cannot be compared: they are of other kinds, sizes or channels.",
+        "Two results cannot be compared: they differ in kind, size or channels.",
         "Give two results of the same kind and size.",
         Example::command("compare checker.png letter.png", "compare checker.png checker.png");
     NotMeasurable "not-measurable":
-        "The picture or data does not show what is to be measured: no chart or edge is found, it is saturated or too small, or there are fewer pictures or points than the measurement needs.",
-        "Give pictures that show it, as many as the message states, or state where it lies.",
+        "The image or data does not show what is to be measured: no chart or edge is found, it is saturated or too \
+         small, or there are fewer images or points than the measurement needs.",
+        "Give images that show it, in the number that the message states, or state its position.",
         Example::command("measure sfr checker.png", "measure sfr edge.png");
     NotStated "not-stated":
-        "Neither the file nor an argument states a quantity that is needed.",
+        "Neither the file nor an argument states a required quantity.",
         "State it by the argument or key that the message names.",
         Example::command("measure oecf checker.png", "measure oecf checker.png `exposures` 1");
     UnknownArgument "unknown-argument":
@@ -199,7 +200,7 @@ error_codes! {
         "Correct the spelling; the help of the verb lists its arguments.",
         Example::command("rende job.toml", "plan job.toml");
     MissingArgument "missing-argument":
-        "An argument that the verb cannot do without is missing.",
+        "A required argument of the verb is missing.",
         "Add it; the help of the verb lists its arguments.",
         Example::command("plan", "plan job.toml");
     InvalidArgument "invalid-argument":
@@ -207,7 +208,7 @@ error_codes! {
         "Give a value of the form that the message states.",
         Example::command("plan job.toml `spp` many", "plan job.toml `spp` 16");
     NotEnoughMemory "not-enough-memory":
-        "The run needs more memory than is free, or than it may take.",
+        "The run needs more memory than is free, or than its limit allows.",
         "Free memory, render fewer pixels, bands or cameras at once, or raise `memory_mb`.",
         Example::command("render job.toml `output` out `memory_mb` 1", "render job.toml `output` out `memory_mb` 0");
 }

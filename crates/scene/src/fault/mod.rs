@@ -152,7 +152,7 @@ impl Faults {
 
     fn notice(&self, by: &Place) -> String {
         let stated = self.superseded.iter().filter(|s| s.by == *by).map(|s| stated(&s.key, &s.place));
-        format!("{by} supersedes {}", stated.collect::<Vec<_>>().join(", "))
+        format!("{by} overrides {}", stated.collect::<Vec<_>>().join(", "))
     }
 
     /// Records the use of a name.

@@ -36,7 +36,7 @@ pub(super) fn lay_over(
                 ErrorCode::NoEffect,
                 &removed.place,
                 "\"remove\" has no effect without \"base\"",
-                "name the base, or remove it",
+                "add \"base\", or remove it",
             );
         }
         return Some(tree);
@@ -62,20 +62,20 @@ fn based_on(
         faults.add(
             ErrorCode::CircularReference,
             named,
-            format!("\"{}\" is built on itself", file.display()),
-            "name another base, or none",
+            format!("\"{}\" is its own base", file.display()),
+            "give another base, or none",
         );
         return None;
     }
     // More are taken for a cycle that different spellings of paths hide.
     let most = BASES.most();
     if chain.len() as u64 > most {
-        let problem = format!("more than {most} files are built one on the other here, in a circle perhaps");
+        let problem = format!("the chain of \"base\" references has more than {most} files and may be circular");
         faults.add(
             ErrorCode::TooLarge,
             named,
             problem,
-            format!("build on fewer files, {}", BASES.remedy(BASES.next(most))),
+            format!("shorten the chain, {}", BASES.remedy(BASES.next(most))),
         );
         return None;
     }
@@ -96,7 +96,7 @@ fn take_out(base: &mut Node, list: &Node, faults: &mut Faults) {
     for name in list.as_list() {
         let taken = name.as_text().is_some_and(|key| remove(base, &key.split('.').collect::<Vec<_>>()));
         if !taken {
-            let problem = format!("the base has nothing called {}", name.describe());
+            let problem = format!("the base has no entry {}", name.describe());
             faults.add(
                 ErrorCode::UnknownName,
                 &name.place,

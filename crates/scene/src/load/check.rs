@@ -48,9 +48,9 @@ const MAX_KNOWN: usize = 50;
 
 fn note_unknown(what: &str, name: &Placed<String>, known: &[&str], faults: &mut Faults) {
     let remedy = match (known, nearest(name, known)) {
-        ([], _) => format!("define the {what}, the scene has none"),
+        ([], _) => format!("define the {what}; the scene has none"),
         (_, Some(near)) => format!("did you mean \"{near}\"? Known: {}", listed(known)),
-        (_, None) => format!("define the {what}, or use one that is known: {}", listed(known)),
+        (_, None) => format!("define the {what}, or use a known one: {}", listed(known)),
     };
     faults.add(ErrorCode::UnknownName, &name.place, format!("there is no {what} \"{}\"", name.value), remedy);
 }

@@ -145,7 +145,7 @@ pub(super) fn own_tree_of(file: &Path, text: &str, faults: &mut Faults) -> Optio
 fn note_other_kind(file: &Path, kind: FileKind, other: FileKind, named: &Place, faults: &mut Faults) {
     let subject = if named.file() == file { "this".to_owned() } else { format!("\"{}\"", file.display()) };
     let remedy = match (kind, other) {
-        (FileKind::Job, FileKind::Scene | FileKind::Camera) => "give a job file that names it".to_owned(),
+        (FileKind::Job, FileKind::Scene | FileKind::Camera) => "give a job file that refers to it".to_owned(),
         _ => format!("give a {} file", kind.word()),
     };
     faults.add(ErrorCode::WrongFileKind, named, format!("{subject} is a {} file", other.word()), remedy);
@@ -159,10 +159,10 @@ fn check_format(tree: &mut Node, faults: &mut Faults) {
             ErrorCode::MissingKey,
             &head,
             "the key \"format\" is missing",
-            "add \"format = 1\" at the head of the file",
+            "add \"format = 1\" at the start of the file",
         ),
         Some(entry) if !matches!(entry.node.value, Value::Whole(1)) => {
-            let problem = format!("found format {}, and this program reads format 1", entry.node.describe());
+            let problem = format!("found format {}; this program reads format 1", entry.node.describe());
             faults.add(
                 ErrorCode::UnknownFormat,
                 &entry.node.place,

@@ -45,7 +45,7 @@ fn unique_numbers(scene: &Table, faults: &mut Faults) {
 
 fn note_twice(what: &str, node: &Node, first: &crate::Place, faults: &mut Faults) {
     let at = first.line_column().map_or(first.to_string(), |(line, _)| format!("line {line}"));
-    faults.add(ErrorCode::Duplicate, &node.place, format!("{what} is taken by {at}"), "choose another");
+    faults.add(ErrorCode::Duplicate, &node.place, format!("{what} is already used at {at}"), "choose a different one");
 }
 
 /// Returns the names in a list of the scene, also of entries with other errors.

@@ -69,10 +69,10 @@ impl Unused {
             count => Some(format!("not read: {count} {many}: {}", listed(names))),
         };
         let kinds = [
-            told(&self.meshes, "the mesh that no object shows", "meshes that no object shows"),
-            told(&self.materials, "the material that no object has", "materials that no object has"),
-            told(&self.textures, "the texture that nothing shown has", "textures that nothing shown has"),
-            told(&self.frames, "the frame that nothing is placed in", "frames that nothing is placed in"),
+            told(&self.meshes, "the mesh that no object uses", "meshes that no object uses"),
+            told(&self.materials, "the material that no object uses", "materials that no object uses"),
+            told(&self.textures, "the texture that no used material has", "textures that no used material has"),
+            told(&self.frames, "the frame that nothing is attached to", "frames that nothing is attached to"),
         ];
         kinds.into_iter().flatten().collect()
     }

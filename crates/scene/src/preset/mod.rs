@@ -88,7 +88,7 @@ fn spell_out_material(material: &mut Table, faults: &mut Faults) {
             ErrorCode::Contradiction,
             &named.place,
             problem,
-            "keep the preset, whose type is its own, or the type",
+            "keep the preset, which sets the type, or the type",
         );
         return;
     }

@@ -26,7 +26,7 @@ impl Rule for AnyValue {
         kind != Kind::Foreign
     }
     fn expected(&self) -> String {
-        "a value that the key takes".to_owned()
+        "a value that the key accepts".to_owned()
     }
     fn schema(&self) -> Json {
         json!({})

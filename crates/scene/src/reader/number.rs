@@ -115,12 +115,12 @@ impl Rule for Percentile {
         match as_f64(node).filter(|v| *v > 0.0 && *v <= 1.0) {
             Some(share) => {
                 let percent = (share * 1e8).round() / 1e6;
-                let problem = format!("found {share}, which reads as a share; percentiles go from 0 to 100");
+                let problem = format!("found {share}, which looks like a fraction; percentiles are from 0 to 100");
                 faults.add(
                     ErrorCode::OutOfRange,
                     &node.place,
                     problem,
-                    format!("for that share give {percent}, else a percentile above 1"),
+                    format!("for that fraction give {percent}, else a percentile above 1"),
                 );
                 None
             }

@@ -171,7 +171,7 @@ impl<R: Rule> Rule for List<R> {
                 ErrorCode::WrongType,
                 &node.place,
                 "found one table",
-                "give a list of tables: double its brackets, [[ ]]",
+                "give a list of tables: use double brackets, [[ ]]",
             );
             return None;
         }
@@ -235,7 +235,7 @@ impl<R: Rule> Rule for ByName<R> {
         kind == Kind::Table
     }
     fn expected(&self) -> String {
-        format!("a table that gives each name {}", self.rule.expected())
+        format!("a table of names, each with {}", self.rule.expected())
     }
     fn schema(&self) -> Json {
         json!({ "type": "object", "additionalProperties": self.rule.schema() })
@@ -283,7 +283,7 @@ impl<T: Record> Rule for RecordRule<T> {
                 ErrorCode::WrongType,
                 &node.place,
                 "found a list of tables",
-                "give one table: in single brackets, [ ]",
+                "give one table: use single brackets, [ ]",
             );
             return None;
         }

@@ -327,5 +327,5 @@ fn stray(key: &str, forms: &[Form], table: &Table) -> (String, String, Option<St
         Some(word) => format!("did you mean \"{word}\"?"),
         None => format!("remove it; the keys are {}", quoted(&keys)),
     };
-    (format!("\"{key}\" is no key of this table"), remedy, meant.map(str::to_owned))
+    (format!("unknown key \"{key}\""), remedy, meant.map(str::to_owned))
 }

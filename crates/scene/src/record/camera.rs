@@ -29,7 +29,7 @@ fn check(camera: &Camera, faults: &mut Faults) {
         faults.add(
             ErrorCode::NoEffect,
             &processing.place,
-            "a sensor without electronics makes no raw to process",
+            "a sensor without electronics gives no raw to process",
             "add \"exposure_s\", \"cfa\", … to the sensor, or remove \"isp\"",
         );
     }

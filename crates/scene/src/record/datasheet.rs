@@ -128,8 +128,8 @@ fn check(sheet: &DataSheet, faults: &mut Faults) {
             faults.add(
                 ErrorCode::NoEffect,
                 &key.place,
-                format!("this has no effect without \"{needed}\""),
-                "add it, or remove this",
+                format!("this key has no effect without \"{needed}\""),
+                "add it, or remove this key",
             );
         }
     }
@@ -142,13 +142,13 @@ fn check_curves(sheet: &DataSheet, faults: &mut Faults) {
             faults.add(
                 ErrorCode::OutOfRange,
                 &point.place,
-                format!("an efficiency of {} %", point.value[1]),
+                format!("found an efficiency of {} %", point.value[1]),
                 "give at most 100",
             );
         }
         for pair in points.windows(2).filter(|pair| pair[0].value[0] >= pair[1].value[0]) {
             let problem = format!("{} nm comes after {} nm", pair[1].value[0], pair[0].value[0]);
-            faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give wavelengths that rise");
+            faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give wavelengths in rising order");
         }
     }
     let mut wanted = sheet.filters().tile().to_vec();
@@ -157,7 +157,7 @@ fn check_curves(sheet: &DataSheet, faults: &mut Faults) {
     let mut given: Vec<&str> = sheet.quantum_efficiency_percent.curves().iter().map(|(name, _)| *name).collect();
     given.sort_unstable();
     if wanted != given {
-        let problem = format!("quantum efficiencies of {} for the channels {}", given.join(", "), wanted.join(", "));
+        let problem = format!("found quantum efficiencies of {} for the channels {}", given.join(", "), wanted.join(", "));
         faults.add(
             ErrorCode::WrongCount,
             &sheet.place,

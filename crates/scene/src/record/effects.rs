@@ -100,12 +100,12 @@ fn check_modulation(table: &ModulationTable, faults: &mut Faults) {
             );
         }
         (ModulationSource::Frequencies(frequencies), Some(list)) if frequencies.len() != list.len() => {
-            let problem = format!("{} frequencies and {} modulations", frequencies.len(), list.len());
-            faults.add(ErrorCode::WrongCount, &table.place, problem, "give as many of one as of the other");
+            let problem = format!("found {} frequencies and {} modulations", frequencies.len(), list.len());
+            faults.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
         }
         (ModulationSource::Frequencies(frequencies), Some(_)) => {
             if let Some(pair) = frequencies.windows(2).find(|pair| pair[1].value <= pair[0].value) {
-                let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
+                let problem = format!("{} is not above {}", pair[1].value, pair[0].value);
                 faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising frequencies");
             }
         }
@@ -203,7 +203,7 @@ fn check_without_image(psf: &Psf, faults: &mut Faults) {
 
 fn check_image(psf: &Psf, image: &Place, faults: &mut Faults) {
     if psf.image_pitch_um.is_none() {
-        let problem = "\"image\" does not say how far its pixels are apart on the sensor";
+        let problem = "\"image\" does not state the distance of its pixels on the sensor";
         faults.add(ErrorCode::MissingKey, image, problem, "add \"image_pitch_um\"");
     }
     check_alone(psf, "image", faults);
@@ -255,7 +255,7 @@ fn check_term(term: &ZernikeTerm, faults: &mut Faults) {
             faults.add(
                 ErrorCode::MissingKey,
                 &term.place,
-                "\"rms_waves\" does not say of which wavelength",
+                "\"rms_waves\" does not state its wavelength",
                 "add \"wavelength_nm\"",
             );
         }
@@ -284,11 +284,11 @@ record! {
 fn check(effects: &Effects, faults: &mut Faults) {
     if effects.psf.is_none() && effects.glare.is_none() && effects.ghosts.is_none() {
         let remedy = "add [effects.psf], [effects.glare] or ghosts = true, or remove the section";
-        faults.add(ErrorCode::Empty, &effects.place, "[effects] describes no effect", remedy);
+        faults.add(ErrorCode::Empty, &effects.place, "[effects] contains no effect", remedy);
     }
     if let (Some(reflectance), false) = (&effects.sensor_reflectance, effects.ghosts.as_ref().is_some_and(|g| g.value))
     {
         let problem = "\"sensor_reflectance\" has no effect without ghosts = true";
-        faults.add(ErrorCode::NoEffect, &reflectance.place, problem, "add it, or remove the reflectance");
+        faults.add(ErrorCode::NoEffect, &reflectance.place, problem, "add it, or remove \"sensor_reflectance\"");
     }
 }

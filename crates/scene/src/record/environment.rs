@@ -101,12 +101,12 @@ fn check_sky(sky: &Sky, faults: &mut Faults) {
     match (&sky.angles, &sky.moment) {
         (Some(angles), Some(moment)) => faults.add(ErrorCode::Contradiction,
             &moment.date.place,
-            format!("\"date\" and \"sun_elevation_deg\" ({}) both say where the sun stands", angles.sun_elevation_deg.place),
+            format!("\"date\" and \"sun_elevation_deg\" ({}) both state the position of the sun", angles.sun_elevation_deg.place),
             "keep the angles, or the date with its time and place",
         ),
         (None, None) => faults.add(ErrorCode::MissingKey,
             &sky.place,
-            "it is not said where the sun stands, which decides the sky",
+            "the position of the sun is missing, which determines the sky",
             "add \"sun_elevation_deg\" and \"sun_azimuth_deg\", or \"date\", \"time_utc\", \"latitude_deg\" and \"longitude_deg\"",
         ),
         _ => {}

@@ -117,7 +117,7 @@ fn note_circle(circle: &[usize], frames: &[Frame], faults: &mut Faults) {
         if circle.len() > MAX_NAMES {
             chain.extend(["…", name(place)]);
         }
-        let problem = format!("the frame carries itself: {}", chain.join(" in "));
-        faults.add(ErrorCode::CircularReference, &own.place, problem, "name another parent, or none");
+        let problem = format!("the frame is its own parent: {}", chain.join(" in "));
+        faults.add(ErrorCode::CircularReference, &own.place, problem, "give another parent, or none");
     }
 }

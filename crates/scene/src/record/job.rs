@@ -66,7 +66,7 @@ impl Record for CameraSource {
                     ErrorCode::Contradiction,
                     place,
                     format!("\"{key}\" contradicts \"file\""),
-                    "keep the file, or the tables in its place",
+                    "keep the file, or the tables instead",
                 );
             }
         }

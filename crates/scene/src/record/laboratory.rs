@@ -86,20 +86,20 @@ fn check(laboratory: &Laboratory, faults: &mut Faults) {
         faults.add(
             ErrorCode::UnknownWord,
             &cfa.place,
-            format!("\"{}\" is no tile of filters", cfa.value),
+            format!("\"{}\" is not a colour filter pattern", cfa.value),
             "give four of R, G and B: \"RGGB\"",
         );
     }
     let whole = |numbers: &[f64]| numbers.iter().all(|n| n.fract() == 0.0);
     if let Some(grid) = laboratory.chart.as_ref().and_then(|chart| chart.grid.as_ref()).filter(|g| !whole(&g.value)) {
-        faults.add(ErrorCode::WrongType, &grid.place, format!("{:?} are no counts", grid.value), "give whole numbers");
+        faults.add(ErrorCode::WrongType, &grid.place, format!("{:?} are not whole numbers", grid.value), "give whole numbers");
     }
     let regions = laboratory.edges.iter().flat_map(|edges| &edges.regions_px);
     for region in regions.filter(|region| !whole(&region.value)) {
         faults.add(
             ErrorCode::WrongType,
             &region.place,
-            format!("{:?} has a part of a pixel", region.value),
+            format!("{:?} contains a fraction of a pixel", region.value),
             "give whole numbers",
         );
     }

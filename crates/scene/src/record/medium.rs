@@ -189,7 +189,7 @@ pub(super) fn check_place(shape: Option<&MediumShape>, placed: Option<&Place>, f
         faults.add(
             ErrorCode::NoEffect,
             place,
-            "the medium is everywhere, so that its place has no effect",
+            "the medium is unbounded, so its placement has no effect",
             "give a \"shape\" with bounds, or remove the key",
         );
     }

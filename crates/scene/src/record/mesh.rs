@@ -136,8 +136,8 @@ fn check(mesh: &Mesh, faults: &mut Faults) {
         faults.add(
             ErrorCode::Degenerate,
             &forward.place,
-            "\"forward_axis\" lies along \"up_axis\"",
-            "give one of the four axes at right angles to it",
+            "\"forward_axis\" is parallel to \"up_axis\"",
+            "give one of the four axes perpendicular to it",
         );
     }
 }
@@ -150,7 +150,7 @@ fn check_up(mesh: &Mesh, faults: &mut Faults) {
             ErrorCode::Contradiction,
             &up.place,
             "\"up_axis\" contradicts the file: +y points upwards in every glTF file",
-            "remove it, and turn the object that shows the mesh",
+            "remove it, and rotate the object that uses the mesh",
         ),
         (None, false) => {
             faults.add(

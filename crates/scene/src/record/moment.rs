@@ -48,7 +48,7 @@ impl Rule for DateRule {
         matches!(kind, Kind::Text | Kind::Moment)
     }
     fn expected(&self) -> String {
-        "a day from 1950 to 2099 as year-month-day: 2026-06-21".to_owned()
+        "a date from 1950 to 2099 as year-month-day: 2026-06-21".to_owned()
     }
     fn schema(&self) -> Json {
         json!({ "type": "string", "format": "date", "examples": ["2026-06-21"] })
@@ -71,7 +71,7 @@ impl Rule for TimeRule {
         matches!(kind, Kind::Text | Kind::Moment)
     }
     fn expected(&self) -> String {
-        "a time of the day by UTC, without a zone, in whole seconds as hour:minute:second: 09:30:00".to_owned()
+        "a time of day in UTC, without a zone, in whole seconds as hour:minute:second: 09:30:00".to_owned()
     }
     fn schema(&self) -> Json {
         json!({ "type": "string", "format": "time", "examples": ["09:30:00"] })

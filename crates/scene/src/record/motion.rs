@@ -85,12 +85,12 @@ pub(super) fn check_ways(
 ) {
     let said: Vec<(&str, Place)> = ways.into_iter().flatten().collect();
     if let [(first, _), (second, place), ..] = said.as_slice() {
-        let problem = format!("{second} contradicts {first}: both say where {what} stands");
+        let problem = format!("{second} contradicts {first}: both state the position of {what}");
         faults.add(
             ErrorCode::Contradiction,
             place,
             problem,
-            "keep one of the two; what moves can be a frame for what is placed in it",
+            "keep one of the two; to move a placed object, attach it to a moving frame",
         );
     }
 }
@@ -115,7 +115,7 @@ pub(super) fn check_course<'a>(
         faults.add(
             ErrorCode::NoEffect,
             &interpolation.place,
-            "\"interpolation\" has no effect here, nothing moves from key to key",
+            "\"interpolation\" has no effect here, there are no keys to interpolate",
             "give two \"keys\" or more, or a \"trajectory\", or remove it",
         );
     }
@@ -127,12 +127,12 @@ fn check_order(before: &Placed<ExactTime>, after: &Placed<ExactTime>, faults: &m
         faults.add(
             ErrorCode::Duplicate,
             &after.place,
-            format!("two keys are both at {after_s} s"),
-            "give each key a time of its own",
+            format!("two keys are at {after_s} s"),
+            "give each key a different time",
         );
     } else if after_s < before_s {
-        let problem = format!("the key at {after_s} s stands behind that at {before_s} s");
-        faults.add(ErrorCode::WrongOrder, &after.place, problem, "give the keys in the order of time");
+        let problem = format!("the key at {after_s} s follows the key at {before_s} s");
+        faults.add(ErrorCode::WrongOrder, &after.place, problem, "give the keys in order of time");
     }
 }
 

@@ -85,8 +85,8 @@ fn check_rolls(object: &Object, faults: &mut Faults) {
         faults.add(
             ErrorCode::NotModelled,
             &scale.place,
-            "\"scale\" in the keys of a wheel (\"rolls\")",
-            "give the keys to a frame, and the scale to the object in it",
+            "\"scale\" in the keys of a wheel (\"rolls\") is not modelled",
+            "give the keys to a frame, and the scale to the object attached to it",
         );
     }
 }
@@ -116,14 +116,14 @@ fn check_materials(object: &Object, faults: &mut Faults) {
                 ErrorCode::NoEffect,
                 &slot.place,
                 "a shape has no materials by name",
-                "give \"material\" in place of \"materials\"",
+                "give \"material\" instead of \"materials\"",
             );
         }
         (Body::Shape(_), None, None) => {
             faults.add(
                 ErrorCode::MissingKey,
                 &object.place,
-                "a shape without a material",
+                "the shape has no material",
                 "add \"material\": the name of a material",
             );
         }

@@ -56,7 +56,7 @@ impl PathKeys {
             false => ("path_reuse_px", reuse, "branches", branches),
         };
         let problem =
-            format!("\"{key}\" and \"{other}\" = {} exclude each other: paths that branch share no tails", cause.value);
+            format!("\"{key}\" and \"{other}\" = {} exclude each other: branched paths cannot be reused", cause.value);
         faults.add_idle(
             ErrorCode::Contradiction,
             key,

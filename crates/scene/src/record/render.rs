@@ -188,7 +188,7 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
         (
             "depth_of_field",
             render.depth_of_field.as_ref().map(DepthOfField::place),
-            "remove it: through the lens the blur is the lens's own, by its f-number and focus",
+            "remove it: the lens determines the defocus by its f-number and focus",
         ),
     ];
     for (key, place, remedy) in keys {

@@ -137,10 +137,10 @@ fn refuse(other: Choice, choice: Choice, keys: &SampleKeys, faults: &mut Faults)
             "\"spp\" and \"passes\" exclude each other: the samples of a pixel are the sum of its passes"
         }
         (Choice::Noise, Choice::Passes) | (Choice::Passes, Choice::Noise) => {
-            "\"passes\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs"
+            "\"passes\" and \"noise_threshold\" exclude each other: a fixed number of samples, or as many as each pixel needs"
         }
         _ => {
-            "\"spp\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs"
+            "\"spp\" and \"noise_threshold\" exclude each other: a fixed number of samples, or as many as each pixel needs"
         }
     };
     faults.add_idle(

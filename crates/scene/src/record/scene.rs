@@ -58,12 +58,12 @@ fn check_sun(scene: &Scene, faults: &mut Faults) {
     }
     for light in &scene.lights {
         if let Light::Sun(sun) = light {
-            let problem = format!("the sky brings a sun of its own ({}), this would be a second one", sky.place);
+            let problem = format!("the sky has its own sun ({}); this light would be a second one", sky.place);
             faults.add(
                 ErrorCode::Contradiction,
                 &sun.place,
                 problem,
-                "remove this one, or say sun = false in the environment",
+                "remove this one, or set sun = false in the environment",
             );
         }
     }

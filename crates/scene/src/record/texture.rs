@@ -74,14 +74,14 @@ impl Texture {
 
 fn check(texture: &Texture, faults: &mut Faults) {
     if let (Mapping::Triplanar, Some(mapping), None) = (texture.mapping(), &texture.mapping, &texture.size_m) {
-        let problem = "mapping = \"triplanar\" does not say how large the picture is on the surface";
+        let problem = "mapping = \"triplanar\" does not state the size of the image on the surface";
         faults.add(ErrorCode::MissingKey, &mapping.place, problem, "add \"size_m\"");
     }
     let of_sides = [("size_m", &texture.size_m), ("sharpness", &texture.sharpness)];
     for (key, given) in of_sides.into_iter().filter(|_| texture.mapping() == Mapping::Uv) {
         if let Some(given) = given {
             let problem = format!("\"{key}\" has no effect here, it belongs to mapping = \"triplanar\"");
-            faults.add(ErrorCode::NoEffect, &given.place, problem, "remove it, or say the mapping");
+            faults.add(ErrorCode::NoEffect, &given.place, problem, "remove it, or set the mapping");
         }
     }
     let of_uv = [("uv_scale", &texture.uv_scale), ("uv_offset", &texture.uv_offset)];
@@ -92,7 +92,7 @@ fn check(texture: &Texture, faults: &mut Faults) {
                 ErrorCode::NoEffect,
                 &given.place,
                 problem,
-                "remove it; \"size_m\" says how large the picture is",
+                "remove it; \"size_m\" sets the size of the image",
             );
         }
     }

@@ -162,7 +162,7 @@ record! {
 fn check(file: &Variations, faults: &mut Faults) {
     if file.vary.is_empty() && file.presets.is_empty() {
         let remedy = "add [[vary]] with a \"key\" and a \"type\" of distribution, or [[presets]]";
-        faults.add(ErrorCode::Empty, &file.place, "this names no key that varies", remedy);
+        faults.add(ErrorCode::Empty, &file.place, "the file varies no key", remedy);
     }
     let keys = file.vary.iter().flat_map(|entry| &entry.key);
     unique(keys, "is varied twice", "keep one of the two", faults);
@@ -171,8 +171,8 @@ fn check(file: &Variations, faults: &mut Faults) {
         faults.add(
             ErrorCode::InvalidChange,
             &key.place,
-            format!("found the change \"{}\"", key.value),
-            "give the key alone",
+            format!("found the change \"{}\" instead of a key", key.value),
+            "give only the key",
         );
     }
 }
@@ -203,7 +203,7 @@ fn check_range(min: &Placed<f64>, max: &Placed<f64>, faults: &mut Faults) {
         faults.add(
             ErrorCode::OutOfRange,
             &max.place,
-            "\"max\" less \"min\" is beyond what 64 bits hold",
+            "\"max\" − \"min\" exceeds the range of 64 bits",
             "give a shorter range",
         );
     }
@@ -239,7 +239,7 @@ fn check_normal(normal: &Normal, faults: &mut Faults) {
     if let (Some(min), Some(max)) = (&normal.min, &normal.max)
         && max.value - min.value < least
     {
-        let problem = format!("\"min\" and \"max\" are nearer than a tenth of the standard deviation, {least}");
+        let problem = format!("\"min\" and \"max\" differ by less than a tenth of the standard deviation, {least}");
         faults.add(ErrorCode::OutOfRange, &max.place, problem, "give a wider range, or type = \"uniform\"");
     }
 }
@@ -254,7 +254,7 @@ fn check_preset(preset: &Preset, faults: &mut Faults) {
         faults.add(
             ErrorCode::InvalidChange,
             &change.place,
-            format!("\"{}\" is no change", change.value),
+            format!("\"{}\" is not a change", change.value),
             "give KEY=VALUE",
         );
     }
@@ -263,13 +263,13 @@ fn check_preset(preset: &Preset, faults: &mut Faults) {
 fn check_weights(weights: &[Placed<f64>], choices: usize, faults: &mut Faults) {
     let Some(first) = weights.first() else { return };
     if weights.len() != choices {
-        let problem = format!("found {} weights of {choices} choices", weights.len());
+        let problem = format!("found {} weights for {choices} choices", weights.len());
         faults.add(ErrorCode::WrongCount, &first.place, problem, "give a weight for each choice");
     } else if weights.iter().map(|weight| weight.value).sum::<f64>() <= 0.0 {
         faults.add(
             ErrorCode::Degenerate,
             &first.place,
-            "all weights are 0, and nothing can be drawn",
+            "all weights are 0, so nothing can be selected",
             "give one of them a weight above 0",
         );
     }

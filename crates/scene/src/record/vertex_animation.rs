@@ -93,12 +93,12 @@ impl VertexAnimation {
 fn check(animation: &VertexAnimation, faults: &mut Faults) {
     let name = animation.files.value.file_name().unwrap_or_default().to_string_lossy();
     if parts(&name).is_none() {
-        let problem = format!("\"{name}\" does not say once where the number of a file stands in its name");
+        let problem = format!("\"{name}\" must contain exactly one placeholder for the file number");
         faults.add(
             ErrorCode::MissingKey,
             &animation.files.place,
             problem,
-            "write %d for the number, or %03d for one of three digits",
+            "write %d for the number, or %03d for three digits",
         );
     }
     let FrameTimes::Times(times_s) = &animation.times else { return };
@@ -109,10 +109,10 @@ fn check_times(animation: &VertexAnimation, times_s: &[Placed<ExactTime>], fault
     let (found, needed, files) = (times_s.len(), animation.times_needed(), animation.count.value);
     if found as u64 != needed {
         let problem = match animation.repeats() {
-            FrameRepeat::Hold => format!("{found} times for {files} files, and each file has one"),
+            FrameRepeat::Hold => format!("found {found} times for {files} files; each file needs one"),
             FrameRepeat::Loop => {
                 format!(
-                    "{found} times for a loop of {files} files, which has one for each, and one when the first comes again"
+                    "found {found} times for a loop of {files} files, which needs one for each and one for the return of the first"
                 )
             }
         };
@@ -120,8 +120,8 @@ fn check_times(animation: &VertexAnimation, times_s: &[Placed<ExactTime>], fault
     }
     let unsorted = times_s.windows(2).filter(|pair| pair[1].value <= pair[0].value);
     for pair in unsorted {
-        let problem = format!("the time {} s stands behind {} s", pair[1].value, pair[0].value);
-        faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give the files rising times");
+        let problem = format!("the time {} s follows {} s", pair[1].value, pair[0].value);
+        faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give the times in rising order");
     }
 }
 

@@ -66,7 +66,7 @@ fn check_weather(weather: &Weather, faults: &mut Faults) {
             faults.add(
                 ErrorCode::Empty,
                 &weather.place,
-                "the file holds no weather",
+                "the file contains no weather",
                 "give \"fog\" or \"precipitation\"",
             );
         }
@@ -79,8 +79,8 @@ fn check_weather(weather: &Weather, faults: &mut Faults) {
         (Some(falls), None) => faults.add(
             ErrorCode::MissingKey,
             falls.place(),
-            "the image shows a moment, and streaks need an exposure",
-            "give \"exposure_s\" beside \"airlight\": the exposure time of the camera that the image is for",
+            "the image has no exposure time, which streaks need",
+            "give \"exposure_s\" next to \"airlight\": the exposure time of the camera that will expose the image",
         ),
         _ => {}
     }

@@ -51,9 +51,9 @@ subcommands! {
     ContrastPatches(ContrastPatches),
     /// A white field with light traps: veiling glare (ISO 18844)
     Flare(Flare),
-    /// Pulsed lamps of several frequencies and duty cycles, in the dark: LED flicker (IEEE P2020)
+    /// Pulsed lights of several frequencies and duty cycles, in the dark: LED flicker (IEEE P2020)
     LedFlicker(LedFlicker),
-    /// Small lamps in the dark: point-spread function, chromatic displacement
+    /// Small lights in the dark: point-spread function, chromatic displacement
     Points(Points),
     /// A staircase and a slanted plane with texture at known distances: depth
     DepthWedge(DepthWedge),
@@ -65,7 +65,7 @@ pub struct Dots {
     #[command(flatten)]
     pub size: Size,
     /// Diameter of a dot over the distance between centres
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.5, allow_negative_numbers = true)]
     pub dot_ratio: f64,
     #[command(flatten)]
     pub views: Views,
@@ -123,7 +123,7 @@ impl Circles {
 #[derive(Debug, Args)]
 pub struct FlatField {
     /// Reflectance of the sheet
-    #[arg(long, value_name = "SHARE", default_value_t = 0.9, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.9, allow_negative_numbers = true)]
     pub reflectance: f64,
     #[command(flatten)]
     pub series: Series,
@@ -227,7 +227,7 @@ pub struct DeadLeaves {
     #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true)]
     pub smallest_px: f64,
     /// Radius of the largest leaves over the side of the chart
-    #[arg(long, value_name = "SHARE", default_value_t = 0.2, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.2, allow_negative_numbers = true)]
     pub largest_ratio: f64,
     #[command(flatten)]
     pub common: Common,
@@ -303,7 +303,7 @@ pub struct Flare {
     #[command(flatten)]
     pub size: Size,
     /// Diameter of a trap's opening over the distance between traps
-    #[arg(long, value_name = "SHARE", default_value_t = 0.25, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.25, allow_negative_numbers = true)]
     pub trap_ratio: f64,
     #[command(flatten)]
     pub common: Common,
@@ -323,7 +323,7 @@ pub struct LedFlicker {
     #[arg(long, value_name = "HZ,…", value_delimiter = ',', default_values_t = [90.0, 110.0, 200.0, 400.0], allow_negative_numbers = true)]
     pub frequencies_hz: Vec<f64>,
     /// Duty cycles of the rows: fractions of the period that a pulse lasts
-    #[arg(long, value_name = "SHARE,…", value_delimiter = ',', default_values_t = [0.1, 0.25, 0.5], allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION,…", value_delimiter = ',', default_values_t = [0.1, 0.25, 0.5], allow_negative_numbers = true)]
     pub duty_cycles: Vec<f64>,
     #[command(flatten)]
     pub common: Common,
@@ -342,7 +342,7 @@ impl LedFlicker {
 pub struct Points {
     #[command(flatten)]
     pub size: Size,
-    /// Diameter of a lamp, px of the image's middle
+    /// Diameter of a light, px at the image centre
     #[arg(long, value_name = "PX", default_value_t = 0.5, allow_negative_numbers = true)]
     pub diameter_px: f64,
     #[command(flatten)]

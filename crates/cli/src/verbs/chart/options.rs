@@ -32,7 +32,7 @@ pub struct Common {
     #[arg(long, value_name = "CD_M2", conflicts_with = "white", allow_negative_numbers = true)]
     pub luminance_cd_m2: Option<f64>,
     /// Fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure
-    #[arg(long, value_name = "SHARE", default_value_t = 0.7, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.7, allow_negative_numbers = true)]
     pub white: f64,
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed)]
@@ -134,13 +134,13 @@ pub struct Series {
     #[arg(long, value_parser = choice(SPACINGS), conflicts_with = "levels")]
     pub spacing: Option<Spacing>,
     /// Fraction of saturation that white reaches in the shortest exposure [default: 0.003]
-    #[arg(long, value_name = "SHARE", conflicts_with = "levels", allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", conflicts_with = "levels", allow_negative_numbers = true)]
     pub lowest: Option<f64>,
     /// The same in the longest exposure [default: 1.3]
-    #[arg(long, value_name = "SHARE", conflicts_with = "levels", allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", conflicts_with = "levels", allow_negative_numbers = true)]
     pub highest: Option<f64>,
     /// The fractions themselves, e.g. 0.01,0.1,0.5,1.2
-    #[arg(long, value_name = "SHARES", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTIONS", value_delimiter = ',', allow_negative_numbers = true)]
     pub levels: Option<Vec<f64>>,
 }
 
@@ -158,7 +158,7 @@ impl Series {
         }
         let Some(count) = self.exposures.or(usual) else {
             return self.idle().map_or(Ok(None), |(name, value)| {
-                Err(ChartError::option(name, value, "has no effect without `exposures`; give how many"))
+                Err(ChartError::option(name, value, "has no effect without `exposures`; give their number"))
             });
         };
         let spacing = self.spacing.unwrap_or(Spacing::Log);

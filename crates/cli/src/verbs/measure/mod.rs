@@ -36,9 +36,9 @@ subcommands! {
     Distortion(ShownOrStored<DistortionRequest>),
     /// Focal length and principal point, from one image of a chart at a known distance or from several
     #[command(
-        after_help = "One picture needs --distance-mm; its principal point is taken for the picture's middle unless --principal-px \
-        says otherwise. What is told is the principal distance (camera constant): the focal length for a lens focused at infinity; at \
-        a distance D it is longer, f D/(D − f)."
+        after_help = "One image needs --distance-mm; its principal point is assumed at the image centre unless \
+        --principal-px states another. The result is the principal distance (camera constant): the focal length for \
+        a lens focused at infinity; at a distance D it is longer, f D/(D − f)."
     )]
     Focal(ShownOrStored<FocalRequest>),
     /// Lateral chromatic displacement of red and blue against green (ISO 19084)

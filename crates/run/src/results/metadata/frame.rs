@@ -92,9 +92,9 @@ pub(crate) fn check_whole(facts: &Value, frame: u32, folder: &Path) -> Result<()
         return Err("it was changed after it was written".to_owned());
     }
     let files = BTreeMap::<String, FileDigest>::deserialize(&facts[FILES]);
-    let files = files.map_err(|_| "it names no files of the frame".to_owned())?;
+    let files = files.map_err(|_| "it lists no files of the frame".to_owned())?;
     match files.iter().find(|(name, digest)| !digest.matches(&folder.join(name))) {
-        Some((name, _)) => Err(format!("{name} is gone or was changed")),
+        Some((name, _)) => Err(format!("{name} is missing or was changed")),
         None => Ok(()),
     }
 }

@@ -85,7 +85,7 @@ fn check(drops: &Drops, faults: &mut Faults) {
     let (least, greatest) = (&drops.min_radius_mm, &drops.max_radius_mm);
     if least.value > greatest.value {
         let problem = format!("{} mm is above max_radius_mm = {} mm", least.value, greatest.value);
-        faults.add(ErrorCode::WrongOrder, &least.place, problem, "make the least radius no larger than the greatest");
+        faults.add(ErrorCode::WrongOrder, &least.place, problem, "give a minimum of at most the maximum");
     }
     if let (DropAmount::Count(count), None) = (&drops.amount, &drops.arrivals_per_s)
         && count.value == 0
@@ -93,7 +93,7 @@ fn check(drops: &Drops, faults: &mut Faults) {
         faults.add(
             ErrorCode::Empty,
             &count.place,
-            "there are no drops, and none arrive",
+            "there are no drops, and none are added",
             "give 1 or more, or \"arrivals_per_s\"",
         );
     }
@@ -102,8 +102,8 @@ fn check(drops: &Drops, faults: &mut Faults) {
         let [width, height] = drops.size_mm.value;
         let count = density.value * width * height * 1e-4;
         if !(0.5..1_000_000.5).contains(&count) {
-            let problem = format!("gives {count:.3} drops in size_mm = [{width}, {height}]");
-            faults.add(ErrorCode::OutOfRange, &density.place, problem, "choose it so that there are 1 to 1 000 000");
+            let problem = format!("this density gives {count:.3} drops in size_mm = [{width}, {height}]");
+            faults.add(ErrorCode::OutOfRange, &density.place, problem, "choose it to give 1 to 1 000 000 drops");
         }
     }
 }
@@ -137,22 +137,22 @@ fn check_course(drops: &Drops, faults: &mut Faults) {
 fn check_wiper(wiper: &Wiper, faults: &mut Faults) {
     let [inner, outer] = wiper.blade_mm.value;
     if inner >= outer {
-        let problem = format!("the blade ends at {outer} mm, before it begins at {inner} mm");
+        let problem = format!("the blade ends at {outer} mm, but begins at {inner} mm");
         faults.add(ErrorCode::WrongOrder, &wiper.blade_mm.place, problem, "give the smaller distance first");
     }
     let [rest, turn] = wiper.angles_deg.value;
     if rest == turn || (rest - turn).abs() >= 360.0 {
-        let problem = format!("the blade goes from {rest}° to {turn}°");
+        let problem = format!("the wiper turns from {rest}° to {turn}°");
         faults.add(
             ErrorCode::OutOfRange,
             &wiper.angles_deg.place,
             problem,
-            "give two angles that differ, by less than 360°",
+            "give two angles that differ by more than 0° and less than 360°",
         );
     }
     let least = 2.0 * wiper.sweep_s.value;
     if wiper.period_s.value < least {
-        let problem = format!("{} s is shorter than the way there and back, {least} s", wiper.period_s.value);
+        let problem = format!("{} s is shorter than one sweep there and back, {least} s", wiper.period_s.value);
         faults.add(ErrorCode::OutOfRange, &wiper.period_s.place, problem, "make it at least twice \"sweep_s\"");
     }
 }

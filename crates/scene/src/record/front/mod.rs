@@ -27,20 +27,20 @@ record! {
 fn check(front: &Front, faults: &mut Faults) {
     if front.dirt.is_none() && front.windscreen.is_none() && front.mirror.is_none() {
         let remedy = "add \"dirt\", \"windscreen\" or \"mirror\", or remove \"external_optics\"";
-        faults.add(ErrorCode::Empty, &front.place, "nothing stands in front of the lens", remedy);
+        faults.add(ErrorCode::Empty, &front.place, "there is nothing in front of the lens", remedy);
     }
     if let (Some(_), Some(mirror)) = (&front.windscreen, &front.mirror) {
-        let problem = "a mirror and a wind-screen in front of one lens are not modelled";
+        let problem = "a mirror and a windscreen in front of the same lens are not modelled";
         faults.add(ErrorCode::NotModelled, &mirror.place, problem, "keep one of them");
     }
     let behind = |dirt: &&Dirt| front.windscreen.iter().any(|g| dirt.distance_mm.value > g.distance_mm.value);
     if let Some(dirt) = front.dirt.as_ref().filter(behind) {
-        let problem = "the dirt lies beyond the wind-screen, and rays cross it before they are bent there";
+        let problem = "the dirt is beyond the windscreen; rays would cross it before the windscreen refracts them";
         faults.add(
             ErrorCode::OutOfRange,
             &dirt.distance_mm.place,
             problem,
-            "put it no farther than the wind-screen's distance_mm",
+            "give a distance of at most the windscreen's distance_mm",
         );
     }
 }

@@ -91,7 +91,7 @@ keyed! {
 
 fn check(lens: &Calibrated, faults: &mut Faults) {
     if let (Some(pupil), Some(_), None) = (&lens.pupil, &lens.relative_illumination, &lens.focus_distance_m) {
-        let problem = "\"pupil\" has no effect here: the illumination is measured and everything is sharp";
+        let problem = "\"pupil\" has no effect here: the relative illumination is measured, and there is no defocus";
         faults.add(ErrorCode::NoEffect, &pupil.place, problem, "remove it");
     }
 }
@@ -122,11 +122,11 @@ fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
     };
     let ratios = table.ratio.as_deref().unwrap_or_default();
     if radii.len() != ratios.len() {
-        let problem = format!("{} radii and {} ratios", radii.len(), ratios.len());
-        faults.add(ErrorCode::WrongCount, &table.place, problem, "give as many of one as of the other");
+        let problem = format!("found {} radii and {} ratios", radii.len(), ratios.len());
+        faults.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
     }
     if let Some(pair) = radii.windows(2).find(|pair| pair[1].value <= pair[0].value) {
-        let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
+        let problem = format!("{} is not above {}", pair[1].value, pair[0].value);
         faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising radii");
     }
     for (list, start, name) in [(&radii[..], 0.0, "radius"), (ratios, 1.0, "ratio")] {
@@ -135,7 +135,7 @@ fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
                 ErrorCode::OutOfRange,
                 &first.place,
                 format!("the first {name} is {}", first.value),
-                format!("begin with {start}"),
+                format!("start with {start}"),
             );
         }
     }

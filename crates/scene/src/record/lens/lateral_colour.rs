@@ -17,11 +17,11 @@ record! {
 fn check_colour(table: &LateralColour, faults: &mut Faults) {
     let (wavelengths, sizes) = (&table.wavelength_nm, &table.magnification);
     if wavelengths.len() != sizes.len() {
-        let problem = format!("{} wavelengths and {} magnifications", wavelengths.len(), sizes.len());
-        faults.add(ErrorCode::WrongCount, &table.place, problem, "give as many of one as of the other");
+        let problem = format!("found {} wavelengths and {} magnifications", wavelengths.len(), sizes.len());
+        faults.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
     }
     if let Some(pair) = wavelengths.windows(2).find(|pair| pair[1].value <= pair[0].value) {
-        let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
+        let problem = format!("{} is not above {}", pair[1].value, pair[0].value);
         faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising wavelengths");
     }
 }

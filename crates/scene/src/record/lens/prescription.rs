@@ -204,7 +204,7 @@ fn check(lens: &Prescription, faults: &mut Faults) {
     if let Some(FocusBy::Group(group)) = &lens.focus_by
         && !(group.value.iter().all(|i| i.fract() == 0.0) && group.value[0] <= group.value[1])
     {
-        let problem = format!("{} to {} is no range of surfaces", group.value[0], group.value[1]);
+        let problem = format!("{} to {} is not a range of surfaces", group.value[0], group.value[1]);
         faults.add(
             ErrorCode::WrongOrder,
             &group.place,
@@ -223,7 +223,7 @@ fn check(lens: &Prescription, faults: &mut Faults) {
         );
     }
     if let Some(thickness) = last.and_then(|s| s.thickness_mm.as_ref()) {
-        let problem = "\"thickness_mm\" of the last surface has no effect: the focus says where the sensor stands";
+        let problem = "\"thickness_mm\" of the last surface has no effect: the focus determines the position of the sensor";
         faults.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it");
     }
     for surface in surfaces {
@@ -236,7 +236,7 @@ fn check(lens: &Prescription, faults: &mut Faults) {
                 ErrorCode::OutOfRange,
                 &radius.place,
                 "found a radius of 0",
-                "give a radius, or leave the key out for a plane",
+                "give a radius, or omit the key for a plane",
             );
         }
     }
@@ -259,7 +259,7 @@ fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
             faults.add(
                 ErrorCode::MissingKey,
                 &b.place,
-                "Sellmeier's equation lacks its resonances",
+                "the resonances of Sellmeier's equation are missing",
                 "add \"sellmeier_c_um2\"",
             );
         }
@@ -270,7 +270,7 @@ fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
 fn check_filter(filter: &IrCut, faults: &mut Faults) {
     match (&filter.normal, &filter.edge_width_nm) {
         (IrCutCurve::Edge(edge), None) => {
-            faults.add(ErrorCode::MissingKey, &edge.place, "an edge without its width", "add \"edge_width_nm\"");
+            faults.add(ErrorCode::MissingKey, &edge.place, "the width of the edge is missing", "add \"edge_width_nm\"");
         }
         (IrCutCurve::Spectrum(_), Some(width)) => {
             faults.add(

@@ -321,8 +321,8 @@ fn check_table(table: &Table, faults: &mut Faults) {
             faults.add(ErrorCode::NoEffect, &focal_length.place, problem, "remove it");
         }
         (TableSource::Angles(angles), Some(radii), None) if angles.len() != radii.len() => {
-            let problem = format!("{} angles and {} radii", angles.len(), radii.len());
-            faults.add(ErrorCode::WrongCount, &table.place, problem, "give as many of one as of the other");
+            let problem = format!("found {} angles and {} radii", angles.len(), radii.len());
+            faults.add(ErrorCode::WrongCount, &table.place, problem, "give equal numbers of both");
         }
         _ => {}
     }

@@ -109,14 +109,14 @@ fn check_emission(emission: &Emission, faults: &mut Faults) {
         (Some((key, place)), None) => faults.add(
             ErrorCode::MissingKey,
             place,
-            format!("\"{key}\" does not say the colour of the light"),
+            format!("\"{key}\" does not state the colour of the light"),
             "add one of \"illuminant\", \"temperature_k\", \"rgb\", \"spectrum\"",
         ),
         (None, Some(colour)) => faults.add(
             ErrorCode::Contradiction,
             colour.place(),
-            "\"radiance_w_m2_sr_nm\" already says the spectrum, the colour contradicts it",
-            "remove the colour, or give \"luminance_cd_m2\" in place of the radiance",
+            "\"radiance_w_m2_sr_nm\" already states the spectrum; the colour contradicts it",
+            "remove the colour, or give \"luminance_cd_m2\" instead of the radiance",
         ),
         _ => {}
     }
@@ -131,8 +131,8 @@ pub(super) fn check_colour(colour: &LightColour, faults: &mut Faults) {
         faults.add(
             ErrorCode::Degenerate,
             &rgb.place,
-            "found a colour of zeros, which has no chromaticity",
-            "make one of the three above 0",
+            "found the colour black, which has no chromaticity",
+            "give at least one of the three a value above 0",
         );
     }
 }

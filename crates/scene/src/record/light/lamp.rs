@@ -147,7 +147,7 @@ fn check_point(lamp: &PointLamp, faults: &mut Faults) {
         faults.add(
             ErrorCode::NoEffect,
             aim.place(),
-            "a lamp that shines alike in all directions points nowhere",
+            "an isotropic light has no direction",
             "remove it",
         );
     }
@@ -160,7 +160,7 @@ fn check_spot(lamp: &SpotLamp, faults: &mut Faults) {
     if let Some(inner) = &lamp.inner_angle_deg
         && inner.value > lamp.field_angle_deg.value
     {
-        let problem = format!("found {}, and the field ends at {}", inner.value, lamp.field_angle_deg.value);
+        let problem = format!("found {}, but the field ends at {}", inner.value, lamp.field_angle_deg.value);
         faults.add(ErrorCode::WrongOrder, &inner.place, problem, "give an inner angle of at most \"field_angle_deg\"");
     }
 }
@@ -179,7 +179,7 @@ fn check_head_lamp(lamp: &HeadLamp, faults: &mut Faults) {
         (Beam::Low, None) => faults.add(
             ErrorCode::MissingKey,
             &lamp.beam.place,
-            "a low beam rises towards one side of the road, which is not said",
+            "the side of the road towards which the low beam rises is missing",
             "add traffic = \"right\" or \"left\"",
         ),
         (Beam::High, Some(traffic)) => {

@@ -282,7 +282,7 @@ fn check_programme(record: &ProgrammeModulation, faults: &mut Faults) {
         faults.add(
             ErrorCode::MissingKey,
             &record.place,
-            "a programme without steps",
+            "the programme has no steps",
             "add \"steps\": a list of { level = …, duration_s = … }",
         );
         return;
@@ -301,7 +301,7 @@ fn accept(made: Result<Waveform, WaveformError>, place: &Place, faults: &mut Fau
 /// Refuses phases of a modulation that does not recur.
 fn check_phases(timing: &Recurring, recurs: bool, otherwise: &str, faults: &mut Faults) {
     if let (Some(phases), false) = (&timing.phases, recurs) {
-        let problem = "\"phases\" has no effect on what is gone through once";
+        let problem = "\"phases\" has no effect on a modulation that does not repeat";
         faults.add(ErrorCode::NoEffect, &phases.place, problem, format!("remove it, or {otherwise}"));
     }
 }
@@ -312,15 +312,15 @@ pub(super) fn check(modulation: Option<&Modulation>, placement: &LampPlacement, 
         faults.add(
             ErrorCode::NoEffect,
             &rows.place,
-            "a lamp has no rows that could be lit one after the other",
-            "remove it, or make a surface glow",
+            "this light has no rows to light one after the other",
+            "remove it, or give the modulation to an emissive surface",
         );
     }
     if modulation.is_none() {
         let delays = placement.instances.iter().filter_map(|instance| instance.modulation_delay_s.as_ref());
         for delay in delays {
-            let problem = "\"modulation_delay_s\" has no effect on a lamp whose strength does not change";
-            faults.add(ErrorCode::NoEffect, &delay.place, problem, "remove it, or add \"modulation\" to the lamp");
+            let problem = "\"modulation_delay_s\" has no effect on an unmodulated light";
+            faults.add(ErrorCode::NoEffect, &delay.place, problem, "remove it, or add \"modulation\" to the light");
         }
     }
 }

@@ -106,7 +106,7 @@ pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is
         faults.add(
             ErrorCode::Contradiction,
             &attenuation.place,
-            "\"attenuation_per_m\" contradicts \"opening\": the radiance of a surface is the same at every distance",
+            "\"attenuation_per_m\" contradicts \"opening\": the radiance of a surface does not depend on distance",
             "remove one of the two",
         );
     }

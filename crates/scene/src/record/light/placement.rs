@@ -118,19 +118,19 @@ impl LampPlacement {
 
 fn check(placement: &LampPlacement, faults: &mut Faults) {
     let own = placement.position_m.as_ref().map(|p| ("\"position_m\"", p.place.clone()));
-    let own = own.or(placement.aim.as_ref().map(|a| ("the lamp's own aim", a.place().clone())));
+    let own = own.or(placement.aim.as_ref().map(|a| ("the light's own aim", a.place().clone())));
     let keys = placement.keys.first().map(|key| ("\"keys\"", key.place.clone()));
     let instances = placement.instances.first().map(|first| ("\"instances\"", first.place.clone()));
     let stands = placement.position_m.is_some()
         || [&keys, &instances].iter().any(|way| way.is_some())
         || trajectory_way(placement.course.as_ref()).is_some();
-    check_ways([own, keys, trajectory_way(placement.course.as_ref()), instances], "the lamp", faults);
+    check_ways([own, keys, trajectory_way(placement.course.as_ref()), instances], "the light", faults);
     check_course(placement.course.as_ref(), placement.keys.iter().map(|key| &key.time_s), faults);
     if !stands {
         faults.add(
             ErrorCode::MissingKey,
             &placement.place,
-            "the lamp stands nowhere",
+            "the light has no position",
             "add \"position_m\", \"instances\" for many places, or \"keys\" or \"trajectory\" for one that moves",
         );
     }
@@ -149,7 +149,7 @@ fn check_key(key: &LampKey, faults: &mut Faults) {
 
 fn check_aim(position: &Placed<[f64; 3]>, aim: &LampAim, faults: &mut Faults) {
     if aim.axes(position.value, MainAxis::Forward).is_none() {
-        faults.add(ErrorCode::Degenerate, aim.place(), "the lamp points at its own position", "move \"target_m\"");
+        faults.add(ErrorCode::Degenerate, aim.place(), "the light points at its own position", "move \"target_m\"");
     }
 }
 

@@ -42,13 +42,13 @@ fn check(sun: &Sun, faults: &mut Faults) {
         (SunLevel::Turbidity(_), Some(colour)) => faults.add(
             ErrorCode::Contradiction,
             colour.place(),
-            "\"turbidity\" already says the sun's spectrum, the colour contradicts it",
-            "remove the colour, or give \"illuminance_lx\" in place of the turbidity",
+            "\"turbidity\" already determines the sun's spectrum; the colour contradicts it",
+            "remove the colour, or give \"illuminance_lx\" instead of the turbidity",
         ),
         (SunLevel::Irradiance(v) | SunLevel::Illuminance(v), None) => faults.add(
             ErrorCode::MissingKey,
             &v.place,
-            "the level does not say the colour of the sun",
+            "the level does not state the colour of the sun",
             "add one of \"illuminant\", \"temperature_k\", \"rgb\", \"spectrum\"",
         ),
         _ => {}
@@ -57,8 +57,8 @@ fn check(sun: &Sun, faults: &mut Faults) {
         faults.add(
             ErrorCode::OutOfRange,
             &sun.elevation_deg.place,
-            format!("found {}, and the solar model has no sun at or below the horizon", sun.elevation_deg.value),
-            "give an elevation above 0, or state \"illuminance_lx\" in place of \"turbidity\"",
+            format!("found {}; the solar model has no sun at or below the horizon", sun.elevation_deg.value),
+            "give an elevation above 0, or state \"illuminance_lx\" instead of \"turbidity\"",
         );
     }
     sun.colour.iter().for_each(|c| check_colour(c, faults));

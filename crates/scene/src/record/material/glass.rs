@@ -96,13 +96,13 @@ fn check_dielectric(glass: &Dielectric, faults: &mut Faults) {
         (Some(Absorption::Transmittance(t)), None) => faults.add(
             ErrorCode::MissingKey,
             t.place(),
-            "\"internal_transmittance\" of a solid does not say for which way through it",
+            "\"internal_transmittance\" of a solid does not state its path length",
             "add \"thickness_mm\"",
         ),
         (Some(Absorption::Coefficient(_)) | None, Some(thickness)) => faults.add(
             ErrorCode::NoEffect,
             &thickness.place,
-            "\"thickness_mm\" has no effect here, the mesh says how thick the solid is",
+            "\"thickness_mm\" has no effect here, the mesh determines the thickness of the solid",
             "remove it; it belongs to \"internal_transmittance\"",
         ),
         _ => {}

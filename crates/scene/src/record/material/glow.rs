@@ -40,7 +40,7 @@ words! {
 
 fn check_glow(emission: &SurfaceEmission, faults: &mut Faults) {
     if let (Some((key, place)), Some(_)) = (emission.light.level.flux(), &emission.texture) {
-        let problem = format!("\"{key}\" is no flux of a surface whose light a texture changes from place to place");
+        let problem = format!("\"{key}\" cannot be used with an emission texture: the flux of a textured surface is not determined");
         faults.add(
             ErrorCode::Contradiction,
             place,

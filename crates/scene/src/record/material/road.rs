@@ -169,7 +169,7 @@ fn check_sheeting(sheeting: &Sheeting, faults: &mut Faults) {
                 faults.add(
                     ErrorCode::MissingKey,
                     &file.place,
-                    "the table does not say what the sheeting reflects by day",
+                    "the table does not state the diffuse (daytime) reflectance of the sheeting",
                     "add \"reflectance\"",
                 );
             }
@@ -190,7 +190,7 @@ fn check_print(sheeting: &Sheeting, faults: &mut Faults) {
         faults.add(
             ErrorCode::Contradiction,
             place,
-            "\"print\" lies on white sheeting, this colours it",
+            "\"print\" needs white sheeting; this key colours it",
             "remove one of the two, or give a grey",
         );
     }

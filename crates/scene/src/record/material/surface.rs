@@ -300,8 +300,8 @@ fn check_lobe(lobe: &Lobe, faults: &mut Faults) {
         && factors[1] <= 0.0
     {
         let problem =
-            "a lobe with C_n = 0 sends nothing back at normal incidence, so \"albedo\" cannot tell its strength";
-        faults.add(ErrorCode::Degenerate, albedo.place(), problem, "give \"weight_per_sr\" in place of it");
+            "a lobe with C_n = 0 reflects nothing at normal incidence, so \"albedo\" cannot determine its strength";
+        faults.add(ErrorCode::Degenerate, albedo.place(), problem, "give \"weight_per_sr\" instead");
     }
 }
 

@@ -31,7 +31,7 @@ fn check(reduction: &NoiseReduction, faults: &mut Faults) {
                 ErrorCode::MissingKey,
                 &reduction.place,
                 "\"bilateral_px\" needs \"range\"",
-                "add it: two or three times the noise, share of white",
+                "add it: two or three times the noise, as a fraction of white",
             );
         }
         (NoiseReductionKind::Median(_), Some(range)) => {

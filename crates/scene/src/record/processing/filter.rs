@@ -79,15 +79,15 @@ fn check_drops(drops: &PaperDrops, faults: &mut Faults) {
     let (least, greatest) = (&drops.min_radius_px, drops.max_radius_px.value);
     if least.value > greatest {
         let problem = format!("{} px is above max_radius_px = {greatest} px", least.value);
-        faults.add(ErrorCode::WrongOrder, &least.place, problem, "make the least radius no larger than the greatest");
+        faults.add(ErrorCode::WrongOrder, &least.place, problem, "give a minimum of at most the maximum");
     }
     let of_picture = drops.blur_px.value * drops.scale.value;
     if of_picture > 500.0 {
-        let problem = format!("times scale = {} it is {of_picture} px of the picture", drops.scale.value);
+        let problem = format!("times scale = {} it is {of_picture} px in the image", drops.scale.value);
         faults.add(ErrorCode::OutOfRange, &drops.blur_px.place, problem, "choose both so that it is at most 500 px");
     }
     if let (Some(flow), None) = (&drops.flow_px_per_frame, &drops.fade_frames) {
-        let problem = "\"flow_px_per_frame\" has no effect without \"fade_frames\": drops that live for ever would flow out of the picture";
+        let problem = "\"flow_px_per_frame\" has no effect without \"fade_frames\": permanent drops would flow out of the image";
         faults.add(ErrorCode::NoEffect, &flow.place, problem, "add \"fade_frames\", or remove it");
     }
 }

@@ -26,7 +26,7 @@ pub(super) fn check(
         faults.add(
             ErrorCode::UnsupportedOutput,
             &bits.place,
-            format!("a JPEG cannot hold {} bits", bits.value),
+            format!("a JPEG cannot store {} bits", bits.value),
             "give 8, or picture_format = \"png\"",
         );
     }

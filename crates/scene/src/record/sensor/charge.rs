@@ -96,8 +96,8 @@ fn check_dark(dark: &Dark, faults: &mut Faults) {
                 faults.add(
                     ErrorCode::NoEffect,
                     &key.place,
-                    "this has no effect without \"temperature_c\"",
-                    "add it, or remove this",
+                    "this key has no effect without \"temperature_c\"",
+                    "add it, or remove this key",
                 );
             }
         }
@@ -115,8 +115,8 @@ fn check_dark(dark: &Dark, faults: &mut Faults) {
         faults.add(
             ErrorCode::NoEffect,
             &share.place,
-            "\"diffusion_fraction\" has no effect beside \"doubling_k\"",
-            "remove one of both",
+            "\"diffusion_fraction\" has no effect with \"doubling_k\"",
+            "remove one of the two",
         );
     }
     if let (Some(distribution), None) = (&dark.distribution, &dark.spread) {
@@ -124,7 +124,7 @@ fn check_dark(dark: &Dark, faults: &mut Faults) {
             ErrorCode::NoEffect,
             &distribution.place,
             "\"distribution\" has no effect without \"spread\"",
-            "add it, or remove this",
+            "add it, or remove this key",
         );
     }
 }

@@ -124,7 +124,7 @@ fn check_colours(place: &Place, channels: &[&str], faults: &mut Faults) {
     } else if channels != ["red", "green", "blue"] {
         let problem =
             format!("a quantum efficiency of red, green and blue does not fit the channels {}", channels.join(", "));
-        faults.add(ErrorCode::WrongCount, place, problem, "give { channels = { … } } with one for each");
+        faults.add(ErrorCode::WrongCount, place, problem, "give { channels = { … } } with one for each channel");
     }
 }
 

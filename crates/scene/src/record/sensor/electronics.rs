@@ -92,7 +92,7 @@ fn check_black_level(electronics: &Electronics, faults: &mut Faults) {
     let (black, bits) = (&electronics.black_level_dn, electronics.bits.value);
     let largest = ((1_u32 << bits) - 1).into();
     if black.value >= largest {
-        let problem = format!("found {}, and a converter of {bits} bits ends at {largest} DN", black.value);
+        let problem = format!("found {}, but an ADC of {bits} bits ends at {largest} DN", black.value);
         faults.add(ErrorCode::OutOfRange, &black.place, problem, format!("give a number below {largest}"));
     }
 }
@@ -103,7 +103,7 @@ fn check_region(electronics: &Electronics, faults: &mut Faults) {
         faults.add(
             ErrorCode::WrongType,
             &region.place,
-            format!("{:?} has a part of a pixel", region.value),
+            format!("{:?} contains a fraction of a pixel", region.value),
             "give whole numbers",
         );
     }

@@ -49,7 +49,7 @@ fn check(sensor: &Sensor, faults: &mut Faults) {
                 ErrorCode::Contradiction,
                 &exposure.place,
                 problem,
-                "remove it here: the sensor's own \"exposure_s\" is the exposure time",
+                "remove it here: the sensor's \"exposure_s\" is the exposure time",
             );
         }
         electronics::check(electronics, faults);
