@@ -64,7 +64,9 @@ pub enum TrackError {
     #[error("the track has no keys; give at least one")]
     Empty,
     /// A number is infinite or NaN, or so large that a velocity is.
-    #[error("key {key} of the track is not finite, or the motion from it to the next is too fast for floating-point numbers")]
+    #[error(
+        "key {key} of the track is not finite, or the motion from it to the next is too fast for floating-point numbers"
+    )]
     NotFinite {
         /// The key.
         key: usize,

@@ -79,7 +79,9 @@ impl Frame {
 
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let found = self.get(py, name, None)?;
-        found.ok_or_else(|| PyKeyError::new_err(format!("unknown array {name:?}; available: {}", self.keys().join(", "))))
+        found.ok_or_else(|| {
+            PyKeyError::new_err(format!("unknown array {name:?}; available: {}", self.keys().join(", ")))
+        })
     }
 
     /// Names of the arrays of the frame: raw, and image and linear_picture if the camera makes images.

@@ -244,9 +244,7 @@ fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
 
 /// A frame, or a range of consecutive ones; frame 0 if none is named.
 fn range(frames: Option<&Bound<'_, PyAny>>) -> PyResult<Range<u32>> {
-    let told = || {
-        PyTypeError::new_err("frames: expected a frame number, or a non-empty range of consecutive frames")
-    };
+    let told = || PyTypeError::new_err("frames: expected a frame number, or a non-empty range of consecutive frames");
     let Some(frames) = frames else { return Ok(0..1) };
     if let Ok(frame) = frames.extract::<u32>() {
         return Ok(frame..frame.checked_add(1).ok_or_else(told)?);

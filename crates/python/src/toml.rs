@@ -79,7 +79,8 @@ fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str, depth: usize) -
         text.push_str(if value.is_true() { "true" } else { "false" });
     } else if value.is_instance_of::<PyInt>() {
         // An enumeration's number, not its name.
-        let message = |_| PyValueError::new_err(format!("{}: a whole number of a description must fit into 64 bits", named(key)));
+        let message =
+            |_| PyValueError::new_err(format!("{}: a whole number of a description must fit into 64 bits", named(key)));
         text.push_str(&value.extract::<i64>().map_err(message)?.to_string());
     } else if let Ok(value) = value.cast::<PyFloat>() {
         let _ = write!(text, "{}", number(value.value()));
@@ -92,8 +93,9 @@ fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str, depth: usize) -
     } else if value.hasattr("tolist")? {
         write(text, &value.call_method0("tolist")?, key, depth)?;
     } else if let Some(path) = value.hasattr("__fspath__")?.then(|| value.extract::<PathBuf>()).transpose()? {
-        let path =
-            path.to_str().ok_or_else(|| PyValueError::new_err(format!("{}: the path is not valid Unicode", named(key))))?;
+        let path = path
+            .to_str()
+            .ok_or_else(|| PyValueError::new_err(format!("{}: the path is not valid Unicode", named(key))))?;
         text.push_str(&quoted(path));
     } else {
         let message = format!(

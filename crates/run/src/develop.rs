@@ -91,8 +91,11 @@ fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<
         stored.address.seed = request.seed.unwrap_or(stored.address.seed);
         let name = Files::picture(stored.address.frame, camera.development.format);
         if files.contains_key(&name) {
-            let told =
-                format!("{}: another raw is also frame {}: develop them separately", file.display(), stored.address.frame);
+            let told = format!(
+                "{}: another raw is also frame {}: develop them separately",
+                file.display(),
+                stored.address.frame
+            );
             return Err(Error::coded(ErrorCode::Duplicate, told));
         }
         writer.claim(&name)?;
@@ -209,7 +212,10 @@ fn by_side_car(photograph: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Re
     same_companding(frame, sensor)?;
     let plane = numbers(photograph)?;
     if let Some(dn) = plane.samples().iter().find(|dn| u64::from(**dn) >> frame.bits.min(63) != 0) {
-        return Err(format!("it contains the number {dn}, which exceeds the {} bits that camera.json states", frame.bits));
+        return Err(format!(
+            "it contains the number {dn}, which exceeds the {} bits that camera.json states",
+            frame.bits
+        ));
     }
     let point = OperatingPoint { exposure_s: facts.exposure_s, analogue_gain: 1.0 };
     let raw = raw(plane, [facts.black_level_dn, facts.white_level_dn], frame.picture_px, point, sensor);
@@ -292,7 +298,10 @@ fn fitting(stored: StoredRaw, body: &CameraBody, sensor: &Sensor) -> Result<Stor
     }
     let own = sensor.picture_size(body.raster.width(), body.raster.height());
     if own != (width, height) {
-        return Err(format!("its image has {width} × {height} pixels, but that of the camera file {} × {}", own.0, own.1));
+        return Err(format!(
+            "its image has {width} × {height} pixels, but that of the camera file {} × {}",
+            own.0, own.1
+        ));
     }
     Ok(stored)
 }

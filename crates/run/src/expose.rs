@@ -191,10 +191,7 @@ fn depth_of_field(
         )),
         Some(DepthOfField::Physical) if !blurs => Err(Error::argument(
             "depth_of_field",
-            format!(
-                "`depth_of_field` physical has no effect: the lens of {} has no defocus",
-                request.camera.display()
-            ),
+            format!("`depth_of_field` physical has no effect: the lens of {} has no defocus", request.camera.display()),
         )
         .with_code(ErrorCode::NoEffect)),
         Some(asked) => Ok(asked),

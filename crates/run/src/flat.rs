@@ -269,7 +269,8 @@ impl Task<'_> {
         files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
-            let why = format!("gives {most:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light");
+            let why =
+                format!("gives {most:.1e} electrons a pixel, but at most {MAX_E:.0e} can be counted: give less light");
             return Err(Error::coded(ErrorCode::OutOfRange, format!("{given}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());

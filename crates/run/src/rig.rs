@@ -230,9 +230,8 @@ fn calibration(body: &CameraBody) -> Result<Calibration, String> {
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
     if layout.is_some_and(|layout| !layout.is_whole()) {
-        return Err(
-            "its images are cropped, binned or subsampled, so their pixel grid is not that of the full sensor".to_owned()
-        );
+        return Err("its images are cropped, binned or subsampled, so their pixel grid is not that of the full sensor"
+            .to_owned());
     }
     let found = match &body.lens {
         Lens::Calibrated(lens) => lens.parameters().calibration.clone(),
@@ -274,11 +273,9 @@ fn paraxial(body: &CameraBody) -> Result<Calibration, String> {
     let mut terms = DistortionTerms::default();
     if let Some(distortion) = lens.distortion() {
         if distortion.sense() == Sense::ObservedToIdeal {
-            return Err(
-                "its distortion is a polynomial from observed to ideal points, but calibration files use the \
+            return Err("its distortion is a polynomial from observed to ideal points, but calibration files use the \
                         opposite direction"
-                    .to_owned(),
-            );
+                .to_owned());
         }
         let [k1, k2] = distortion.coefficients();
         let square = (principal_mm / distortion.unit_mm()) * (principal_mm / distortion.unit_mm());

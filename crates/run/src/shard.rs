@@ -203,7 +203,10 @@ impl Manifest {
     fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(MANIFEST);
         let explain = |why: String| {
-            Error::coded(ErrorCode::OtherRun, format!("{}: {why}; give folders written by render `shard`", path.display()))
+            Error::coded(
+                ErrorCode::OtherRun,
+                format!("{}: {why}; give folders written by render `shard`", path.display()),
+            )
         };
         let text = read_text(&path).map_err(|problem| explain(problem.words))?;
         let manifest: Self = serde_json::from_str(&text)

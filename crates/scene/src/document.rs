@@ -127,12 +127,7 @@ pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
     let builder = Builder { spots: Spots::File { file: file.clone(), lines: LineIndex::new(text) } };
     for error in errors.iter().take(SYNTAX_FAULTS) {
         let place = builder.spots.place(error.span().map_or(0, |s| s.start), &"".into());
-        faults.add(
-            ErrorCode::InvalidToml,
-            &place,
-            format!("invalid TOML: {}", error.message()),
-            "correct the syntax",
-        );
+        faults.add(ErrorCode::InvalidToml, &place, format!("invalid TOML: {}", error.message()), "correct the syntax");
     }
     let table = builder.table(table.into_inner(), &"".into());
     Node { place: Place::file_head(file.clone()), value: Value::Table(table) }

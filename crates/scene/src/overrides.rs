@@ -252,12 +252,7 @@ impl<'t> Change<'t> {
         let hint = nearest(last, &names).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
         let within = if parent.is_empty() { String::new() } else { format!(" in \"{parent}\"") };
         let problem = format!("there is no \"{last}\"{within} to remove");
-        faults.add(
-            ErrorCode::InvalidChange,
-            &place,
-            problem,
-            format!("{hint}correct the key, or omit the change"),
-        );
+        faults.add(ErrorCode::InvalidChange, &place, problem, format!("{hint}correct the key, or omit the change"));
     }
 
     /// Returns the entry `part` of `node`; an absent table is created.

@@ -169,7 +169,8 @@ fn a_dark_current_needs_three_temperatures() {
     etendue(["measure", "dark-current", &at(20), &at(30)]).refused(&["at least three different temperatures"]);
     etendue(["measure", "dark-current", &at(25), &at(25), &at(25)]).refused(&["three different temperatures, not 1"]);
     let impossible = format!("nan:{descriptor}");
-    etendue(["measure", "dark-current", &impossible, &at(30), &at(40)]).refused(&["invalid: expected a number above -273.15"]);
+    etendue(["measure", "dark-current", &impossible, &at(30), &at(40)])
+        .refused(&["invalid: expected a number above -273.15"]);
     etendue(["measure", "dark-current", &descriptor]).refused(&["CELSIUS"]);
 }
 

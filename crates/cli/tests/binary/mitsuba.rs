@@ -226,10 +226,7 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
     for (body, phrase) in [
         ("<shape type=\"sphere\"><ref id=\"none\"/></shape>", "a.xml:2: no element has the id \"none\""),
         ("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>", "\"radius\" of -1"),
-        (
-            "<shape type=\"sphere\"><float name=\"radius\" value=\"wide\"/></shape>",
-            "expected a number, found \"wide\"",
-        ),
+        ("<shape type=\"sphere\"><float name=\"radius\" value=\"wide\"/></shape>", "expected a number, found \"wide\""),
         (
             "<bsdf type=\"mask\" id=\"m\"><ref id=\"m\"/></bsdf><shape type=\"disk\"><ref id=\"m\"/></shape>",
             "or in a circle",

@@ -51,11 +51,11 @@ fn faults_have_their_line() {
     );
     refused("<scene/>", "a.xml:1: the root element has no \"version\": not a Mitsuba 3 scene");
     refused("<scene version=\"4.0\"/>", "a.xml:1: unsupported version \"4.0\"; expected at most 3, such as \"3.0.0\"");
+    refused("<bsdf version=\"3.0.0\" type=\"diffuse\"/>", "a.xml:1: the root element is <bsdf>; expected <scene>");
     refused(
-        "<bsdf version=\"3.0.0\" type=\"diffuse\"/>",
-        "a.xml:1: the root element is <bsdf>; expected <scene>",
+        "<scene version=\"3.0.0\">\n<mesh/></scene>",
+        "a.xml:2: unknown element <mesh>: Mitsuba scenes do not have it",
     );
-    refused("<scene version=\"3.0.0\">\n<mesh/></scene>", "a.xml:2: unknown element <mesh>: Mitsuba scenes do not have it");
     refused("<scene version=\"3.0.0\">\nred</scene>", "a.xml:1: text in <scene>; expected only elements");
     refused(
         "<scene version=\"3.0.0\">\n<float name=\"a\" value=\"$spp\"/></scene>",

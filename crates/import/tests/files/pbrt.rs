@@ -56,7 +56,10 @@ fn refused(text: &str, told: &str) {
 
 #[test]
 fn faults_have_their_line() {
-    refused("\nSurfaceIntegrator \"path\"", "a.pbrt:2: unknown directive `SurfaceIntegrator`: pbrt-v4 does not have it");
+    refused(
+        "\nSurfaceIntegrator \"path\"",
+        "a.pbrt:2: unknown directive `SurfaceIntegrator`: pbrt-v4 does not have it",
+    );
     refused("Translate 1 2", "a.pbrt:1: `Translate` has 2 numbers; expected 3");
     refused("Translate 1 2 x", "a.pbrt:1: expected a number, found `x`");
     refused("Scale 1 2 inf", "a.pbrt:1: `inf` is not finite");
@@ -66,11 +69,11 @@ fn faults_have_their_line() {
     refused("Shape \"sphere", "a.pbrt:1: a quoted string is not closed on its line");
     refused("Shape \"sphere\" \"radius\" 1", "a.pbrt:1: \"radius\": expected a parameter of the form \"type name\"");
     refused("Shape \"sphere\" \"float radius\"", "a.pbrt:1: \"radius\" has no values: the file may be truncated");
+    refused("Shape \"sphere\" \"float radius\" [ 1", "a.pbrt:1: \"radius\" has no values: the file may be truncated");
     refused(
-        "Shape \"sphere\" \"float radius\" [ 1",
-        "a.pbrt:1: \"radius\" has no values: the file may be truncated",
+        "Shape \"sphere\"\n\"float radius\" [ 1 \"a\" ]",
+        "a.pbrt:2: numbers, strings and booleans are mixed in one list",
     );
-    refused("Shape \"sphere\"\n\"float radius\" [ 1 \"a\" ]", "a.pbrt:2: numbers, strings and booleans are mixed in one list");
     refused("[ 1 ]", "a.pbrt:1: expected a directive such as `Shape`, found a value");
     refused("Include \"none.pbrt\"", "none.pbrt: no such scene file; check the path");
     let own = read(&[("a.pbrt", "Include \"a.pbrt\"")]).expect_err("endless");

@@ -119,7 +119,8 @@ impl ChartRequest {
         let share = meter.map(|meter| meter.share(&drawing.inks[0].radiance(light))).filter(|share| *share > 0.0);
         let (Some(meter), Some(share)) = (meter, share) else {
             let told = || {
-                "this camera has no electronics that respond to the light; give a camera whose sensor has electronics".to_owned()
+                "this camera has no electronics that respond to the light; give a camera whose sensor has electronics"
+                    .to_owned()
             };
             return match required {
                 false => Ok(Vec::new()),

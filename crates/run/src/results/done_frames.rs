@@ -46,7 +46,8 @@ impl DoneFrames {
                     return Err(refused(&path, why));
                 }
                 if let Err(why) = metadata::check_whole(&value, frame, &folder.join(&camera.name)) {
-                    let sentence = format!("{}: {why}; frame {frame} of {} is rendered again", path.display(), camera.name);
+                    let sentence =
+                        format!("{}: {why}; frame {frame} of {} is rendered again", path.display(), camera.name);
                     observer.message(Message::Note(&sentence));
                     continue;
                 }

@@ -259,10 +259,9 @@ impl<'a> InterruptionNote<'a> {
         let folder = self.root.display();
         match left.is_empty() {
             true => format!("{folder}: nothing of this run was saved"),
-            false => format!(
-                "{folder}: saved {}; to continue, use `resume` instead of `overwrite`",
-                left.join(" and ")
-            ),
+            false => {
+                format!("{folder}: saved {}; to continue, use `resume` instead of `overwrite`", left.join(" and "))
+            }
         }
     }
 }

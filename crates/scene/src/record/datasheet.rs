@@ -157,7 +157,8 @@ fn check_curves(sheet: &DataSheet, faults: &mut Faults) {
     let mut given: Vec<&str> = sheet.quantum_efficiency_percent.curves().iter().map(|(name, _)| *name).collect();
     given.sort_unstable();
     if wanted != given {
-        let problem = format!("found quantum efficiencies of {} for the channels {}", given.join(", "), wanted.join(", "));
+        let problem =
+            format!("found quantum efficiencies of {} for the channels {}", given.join(", "), wanted.join(", "));
         faults.add(
             ErrorCode::WrongCount,
             &sheet.place,

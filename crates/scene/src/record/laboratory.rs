@@ -92,7 +92,12 @@ fn check(laboratory: &Laboratory, faults: &mut Faults) {
     }
     let whole = |numbers: &[f64]| numbers.iter().all(|n| n.fract() == 0.0);
     if let Some(grid) = laboratory.chart.as_ref().and_then(|chart| chart.grid.as_ref()).filter(|g| !whole(&g.value)) {
-        faults.add(ErrorCode::WrongType, &grid.place, format!("{:?} are not whole numbers", grid.value), "give whole numbers");
+        faults.add(
+            ErrorCode::WrongType,
+            &grid.place,
+            format!("{:?} are not whole numbers", grid.value),
+            "give whole numbers",
+        );
     }
     let regions = laboratory.edges.iter().flat_map(|edges| &edges.regions_px);
     for region in regions.filter(|region| !whole(&region.value)) {

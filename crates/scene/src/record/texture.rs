@@ -88,12 +88,7 @@ fn check(texture: &Texture, faults: &mut Faults) {
     for (key, given) in of_uv.into_iter().filter(|_| texture.mapping() == Mapping::Triplanar) {
         if let Some(given) = given {
             let problem = format!("\"{key}\" has no effect here, it belongs to mapping = \"uv\"");
-            faults.add(
-                ErrorCode::NoEffect,
-                &given.place,
-                problem,
-                "remove it; \"size_m\" sets the size of the image",
-            );
+            faults.add(ErrorCode::NoEffect, &given.place, problem, "remove it; \"size_m\" sets the size of the image");
         }
     }
 }

@@ -27,7 +27,10 @@ fn opacity_that_is_presence_makes_no_glass() {
         assert!(!glass.says("opacityMode"), "{}", glass.told);
         let thin = ball(&format!("float inputs:opacity = 0.7 {mode}"));
         assert_eq!(opacity(&thin), Some(0.7));
-        assert!(thin.says("opacity is the fraction of the surface that is present, including its specular reflection"), "{mode}");
+        assert!(
+            thin.says("opacity is the fraction of the surface that is present, including its specular reflection"),
+            "{mode}"
+        );
     }
 }
 

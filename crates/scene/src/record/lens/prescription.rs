@@ -223,7 +223,8 @@ fn check(lens: &Prescription, faults: &mut Faults) {
         );
     }
     if let Some(thickness) = last.and_then(|s| s.thickness_mm.as_ref()) {
-        let problem = "\"thickness_mm\" of the last surface has no effect: the focus determines the position of the sensor";
+        let problem =
+            "\"thickness_mm\" of the last surface has no effect: the focus determines the position of the sensor";
         faults.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it");
     }
     for surface in surfaces {

@@ -144,12 +144,7 @@ fn check_point(lamp: &PointLamp, faults: &mut Faults) {
         return;
     }
     for aim in lamp.placement.aims() {
-        faults.add(
-            ErrorCode::NoEffect,
-            aim.place(),
-            "an isotropic light has no direction",
-            "remove it",
-        );
+        faults.add(ErrorCode::NoEffect, aim.place(), "an isotropic light has no direction", "remove it");
     }
 }
 

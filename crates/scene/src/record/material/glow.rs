@@ -40,7 +40,9 @@ words! {
 
 fn check_glow(emission: &SurfaceEmission, faults: &mut Faults) {
     if let (Some((key, place)), Some(_)) = (emission.light.level.flux(), &emission.texture) {
-        let problem = format!("\"{key}\" cannot be used with an emission texture: the flux of a textured surface is not determined");
+        let problem = format!(
+            "\"{key}\" cannot be used with an emission texture: the flux of a textured surface is not determined"
+        );
         faults.add(
             ErrorCode::Contradiction,
             place,

@@ -87,7 +87,8 @@ fn check_drops(drops: &PaperDrops, faults: &mut Faults) {
         faults.add(ErrorCode::OutOfRange, &drops.blur_px.place, problem, "choose both so that it is at most 500 px");
     }
     if let (Some(flow), None) = (&drops.flow_px_per_frame, &drops.fade_frames) {
-        let problem = "\"flow_px_per_frame\" has no effect without \"fade_frames\": permanent drops would flow out of the image";
+        let problem =
+            "\"flow_px_per_frame\" has no effect without \"fade_frames\": permanent drops would flow out of the image";
         faults.add(ErrorCode::NoEffect, &flow.place, problem, "add \"fade_frames\", or remove it");
     }
 }
