@@ -26,7 +26,7 @@ impl DoneSamples<'_> {
                 let path = self.root.join(record_name(*sample));
                 return Err(Error::coded(
                     ErrorCode::OtherRun,
-                    format!("{}: {why}; make sample {sample} anew, resuming in this folder", path.display()),
+                    format!("{}: {why}; make sample {sample} again by resuming in this folder", path.display()),
                 ));
             }
         }
@@ -41,7 +41,7 @@ impl DoneSamples<'_> {
             }
             let Err(why) = self.whole(*sample) else { return false };
             let path = self.root.join(record_name(*sample));
-            observer.message(Message::Note(&format!("{}: {why}; sample {sample} is made anew", path.display())));
+            observer.message(Message::Note(&format!("{}: {why}; sample {sample} is made again", path.display())));
             true
         };
         samples.clone().filter(is_left).collect()
@@ -53,7 +53,7 @@ impl DoneSamples<'_> {
         let drawn = Drawn::of(self.set.variations.as_ref(), self.set.seed, sample);
         match (record.seed, &record.set) == (drawn.seed, &drawn.set()) && record.split == drawn.split {
             true => Ok(record),
-            false => Err("it was drawn otherwise than this data set draws it".to_owned()),
+            false => Err("its values are not those that this data set samples".to_owned()),
         }
     }
 
@@ -66,7 +66,7 @@ impl DoneSamples<'_> {
                 || self.writers.iter().any(|writer| writer.holds(name, &record, self.records, self.root))
         };
         match record.files.keys().find(|name| !is_there(name)) {
-            Some(name) => Err(format!("{name} is gone or was changed")),
+            Some(name) => Err(format!("{name} is missing or was changed")),
             None => Ok(()),
         }
     }

@@ -75,10 +75,10 @@ pub(crate) fn each(
         let display = &taken.picture.as_ref().ok_or_else(|| no_picture(camera))?.display;
         if (display.width(), display.height()) != (width_px, height_px) {
             let problem =
-                "its pictures are a region, or of binned or skipped pixels, and its ground truth is of all pixels";
+                "its images are a region, or of binned or skipped pixels, but its ground truth is of all pixels";
             return Err(Error::coded(
                 ErrorCode::UnsupportedOutput,
-                format!("camera {camera}: {problem}; take these keys out"),
+                format!("camera {camera}: {problem}; remove these keys"),
             ));
         }
         if !taken.raw.invalid.is_empty() {
@@ -117,7 +117,7 @@ pub(crate) fn each(
 pub(crate) fn no_picture(camera: &str) -> Error {
     Error::coded(
         ErrorCode::UnavailableOutput,
-        format!("camera {camera}: it makes no picture; give it a sensor with electronics and [isp]"),
+        format!("camera {camera}: it makes no image; give it a sensor with electronics and [isp]"),
     )
 }
 

@@ -9,17 +9,17 @@ use etendue_scene::Place;
 use etendue_scene::record::variations::{ChoiceOf, Distribution, Preset, SetFormat, Variation, Variations};
 
 const FORMATS: [Word<SetFormat>; 11] = [
-    (SetFormat::Coco, "coco", "Pictures, and one JSON file with boxes and masks"),
-    (SetFormat::Kitti, "kitti", "Pictures, calibrations and labels of objects"),
-    (SetFormat::Cityscapes, "cityscapes", "Pictures of label and instance ids"),
-    (SetFormat::Yolo, "yolo", "Pictures, and boxes as lines of text"),
+    (SetFormat::Coco, "coco", "Images, and one JSON file with boxes and masks"),
+    (SetFormat::Kitti, "kitti", "Images, calibrations and labels of objects"),
+    (SetFormat::Cityscapes, "cityscapes", "Images of label and instance ids"),
+    (SetFormat::Yolo, "yolo", "Images, and boxes as lines of text"),
     (SetFormat::Bop, "bop", "Poses of objects, depth and masks"),
-    (SetFormat::WebDataset, "webdataset", "Shards (tar) of pictures with their truth"),
+    (SetFormat::WebDataset, "webdataset", "Shards (tar) of images with ground truth"),
     (SetFormat::NuScenes, "nuscenes", "JSON tables of scenes, poses and boxes in space"),
     (SetFormat::Cryptomatte, "cryptomatte", "EXR files of objects and materials with their coverage"),
-    (SetFormat::Mcap, "mcap", "Messages of ROS 2: pictures, depth, point clouds, calibrations and poses"),
-    (SetFormat::OpenLabel, "openlabel", "ASAM OpenLABEL: boxes in pictures and in space, JSON"),
-    (SetFormat::Osi, "osi", "ASAM OSI: ground truth of the world's objects, traces of protocol buffers"),
+    (SetFormat::Mcap, "mcap", "ROS 2 messages: images, depth, point clouds, calibrations and poses"),
+    (SetFormat::OpenLabel, "openlabel", "ASAM OpenLABEL: boxes in images and in space, JSON"),
+    (SetFormat::Osi, "osi", "ASAM OSI: ground truth of the world's objects, protocol-buffer traces"),
 ];
 
 /// A data set of a job.
@@ -28,17 +28,17 @@ pub struct DatasetRequest {
     /// The job and what is changed in it for all samples. Its seed stands in the place of that of the variations.
     #[arg(skip = JobRequest::new(""))]
     pub job: JobRequest,
-    /// The variations file (TOML): keys of the job, its scene and its cameras with how their values are drawn [default: nothing
-    /// varies but noise]
+    /// The variations file (TOML): keys of the job, its scene and its cameras with the distributions of their values [default: only
+    /// noise varies]
     #[arg(long, value_name = "FILE")]
     pub variations: Option<PathBuf>,
-    /// Samples to make, first to last (the last excluded); each is the same alone or among all
+    /// Samples to make, first to last (the last excluded); a sample does not depend on the others
     #[arg(long, value_name = "A..B", value_parser = samples, default_value = "0..1")]
     pub samples: Range<u32>,
     /// Frames of each sample, first to last (the last excluded)
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
     pub frames: Range<u32>,
-    /// Formats to write, with commas between them [default: those of the variations file, or coco]
+    /// Formats to write, separated by commas [default: those of the variations file, or coco]
     #[arg(long = "format", value_name = "FORMAT", value_delimiter = ',', value_parser = choice(FORMATS))]
     pub formats: Vec<SetFormat>,
     /// The instruction set; the result does not depend on it.

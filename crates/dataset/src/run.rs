@@ -91,10 +91,10 @@ fn samples_left(
 
 fn kept(root: &Path, made: usize) -> String {
     let folder = root.display();
-    let samples = if made == 1 { "1 sample that is whole" } else { &format!("{made} samples that are whole") };
+    let samples = if made == 1 { "1 complete sample" } else { &format!("{made} complete samples") };
     match made {
-        0 => format!("{folder}: nothing of this run was kept"),
-        _ => format!("{folder}: kept {samples}; with `resume` a run goes on"),
+        0 => format!("{folder}: nothing of this run was saved"),
+        _ => format!("{folder}: saved {samples}; to continue, use `resume`"),
     }
 }
 
@@ -113,7 +113,7 @@ fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error>
     }
     let refuse = |problem: &str| Err(Error::coded(ErrorCode::OtherRun, format!("{}: {problem}", path.display())));
     if existing == Existing::Refuse {
-        return refuse("a data set is here already; go on with it by `resume`, or give another folder");
+        return refuse("a data set already exists here; continue it with `resume`, or give another folder");
     }
     let found = read_regular(&path, &DESCRIPTION).ok().and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
     let Some(Value::Object(found)) = found else { return refuse("this is not the file of a data set") };
@@ -122,7 +122,7 @@ fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error>
     let differs: Vec<String> = differs.map(|(key, _)| format!("\"{key}\"")).collect();
     match differs.is_empty() {
         true => Ok(()),
-        false => refuse(&format!("the data set here has another {}; give another folder", differs.join(", "))),
+        false => refuse(&format!("the data set here has a different {}; give another folder", differs.join(", "))),
     }
 }
 

@@ -104,7 +104,7 @@ impl Set {
         if classes == self.classes {
             return Ok(());
         }
-        let problem = "its scene has other [classes] than that of the job as it stands";
+        let problem = "its scene has other [classes] than that of the unchanged job";
         Err(Error::coded(
             ErrorCode::Contradiction,
             format!("sample {sample}: {problem}; give all scenes that are varied the same classes"),
@@ -145,7 +145,7 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
     let unknown = names.filter(|name| !classes.iter().any(|(known, _)| *known == name.value));
     let known = || classes.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
     if let Some((_, kind)) = variations.kitti_types.iter().find(|(_, kind)| kind.value.contains(char::is_whitespace)) {
-        let problem = "a type of KITTI is one word, the first column of its labels; leave out blanks";
+        let problem = "a KITTI type is one word, the first column of its labels; remove the spaces";
         return Err(Error::coded(
             ErrorCode::UnsupportedOutput,
             format!("{}: \"{}\": {problem}", kind.place, kind.value.escape_debug()),
@@ -174,7 +174,7 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
         if let Some(format) = formats.iter().find(|format| needs_png.contains(format))
             && development.format.extension() != "png"
         {
-            return refuse(*format, "its pictures are JPEG, and the format has PNG; set isp.format to \"png\"");
+            return refuse(*format, "its images are JPEG, but the format needs PNG; set isp.format to \"png\"");
         }
         if formats.contains(&SetFormat::WebDataset) && camera.name.len() > MAX_NAME_IN_TAR {
             return refuse(
@@ -188,7 +188,7 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
         if let Some(format) = formats.iter().find(|format| needs_matrix.contains(format))
             && let Err(why) = pinhole_view(camera)
         {
-            return refuse(*format, &format!("{why}; leave the format out, or take a lens without distortion"));
+            return refuse(*format, &format!("{why}; remove the format, or use a lens without distortion"));
         }
     }
     Ok(())
@@ -198,11 +198,11 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
 fn unfit_name(name: &str, names: &[&str], formats: &[SetFormat]) -> Option<(SetFormat, String)> {
     let with_world = [SetFormat::Mcap, SetFormat::OpenLabel].into_iter().find(|format| formats.contains(format))?;
     if name == "world" {
-        return Some((with_world, "\"world\" is the frame that cameras stand in; rename it".to_owned()));
+        return Some((with_world, "\"world\" is the name of the cameras' reference frame; rename it".to_owned()));
     }
     let alike = |other: &&&str| **other != name && topic_name(other) == topic_name(name);
     let other = names.iter().find(alike).filter(|_| formats.contains(&SetFormat::Mcap))?;
-    Some((SetFormat::Mcap, format!("its topics have the names of those of {other}; rename it")))
+    Some((SetFormat::Mcap, format!("its topics have the same names as those of {other}; rename it")))
 }
 
 /// Name of a camera in topics: ROS 2 allows letters, digits and underscores, and no leading digit.

@@ -33,7 +33,7 @@ pub struct ColourMatrix {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MatrixError {
     /// Rows of different lengths.
-    #[error("the rows of a colour matrix have one number for each of the camera's channels; these differ in length")]
+    #[error("the rows of the colour matrix differ in length; each needs one number per channel of the camera")]
     Ragged,
     /// An entry that is not finite.
     #[error("the colour matrix has an entry that is not finite")]
@@ -92,7 +92,8 @@ pub enum FitError {
     NoResponse(#[from] NoResponse),
     /// Reflectances that do not separate the channels.
     #[error(
-        "the reflectances look the same to two of the camera's channels, so no colour matrix can be fitted: give more colours, or check that the channels differ"
+        "two of the camera's channels respond equally to the reflectances, so no colour matrix can be fitted: give more colours, or check that the \
+         channels differ"
     )]
     Ambiguous,
     /// An unsupported number of channels.

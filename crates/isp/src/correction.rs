@@ -71,7 +71,7 @@ impl Shading {
             Self::Radial { gains, .. } => (gains, (gains.len() < 2).then_some("is too short")),
             Self::Grid { columns, gains } => {
                 let rectangle = *columns >= 2 && gains.len() % columns == 0 && gains.len() / columns >= 2;
-                (gains, (!rectangle).then_some("is no grid of two by two or more"))
+                (gains, (!rectangle).then_some("is not a grid of two by two or more"))
             }
         };
         if let Some(shape) = shape {

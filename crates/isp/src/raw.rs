@@ -141,7 +141,8 @@ pub enum MosaicError {
     Kinds(usize),
     /// A tile in which a colour is too far away.
     #[error(
-        "a block of {MAX_REACH} × {MAX_REACH} pixels of the filter tile lacks one of its colours, and interpolation looks no farther: use a tile that mixes its colours more closely"
+        "a block of {MAX_REACH} × {MAX_REACH} pixels of the filter tile lacks one of its colours, and interpolation reaches no farther: use a tile \
+         with its colours closer together"
     )]
     Sparse,
 }

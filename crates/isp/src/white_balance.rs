@@ -72,7 +72,8 @@ impl Sums {
 /// A channel without response to the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "channel {0} (0 red, 1 green, 2 blue) does not respond to the illuminant, so no gain makes it grey: choose an illuminant that lights every channel"
+    "channel {0} (0 red, 1 green, 2 blue) does not respond to the illuminant, so no gain makes it grey: choose an illuminant to which every \
+     channel responds"
 )]
 pub struct NoResponse(pub usize);
 

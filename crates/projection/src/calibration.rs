@@ -30,7 +30,7 @@ pub enum CalibrationError {
         cy: f64,
     },
     /// No pixels.
-    #[error("a picture of {width} × {height} pixels is empty: give at least one column and one row")]
+    #[error("an image of {width} × {height} pixels is empty: give at least one column and one row")]
     Empty {
         /// Columns.
         width: usize,
@@ -45,9 +45,9 @@ pub enum CalibrationError {
     },
     /// A fold inside the image.
     #[error(
-        "the calibration folds the picture over at a radius of {radius_px:.3} px from the principal point (field angle \
-         {:.3}°), inside the picture, which reaches out to {needed_px:.3} px: use coefficients fitted over the whole \
-         picture, crop it, or state the greatest field angle up to which they hold",
+        "the calibration folds the image over at a radius of {radius_px:.3} px from the principal point (field angle {:.3}°), inside the image, \
+         which extends to {needed_px:.3} px: use coefficients fitted over the whole image, crop it, or state the maximum field angle up to which \
+         they are valid",
         angle_rad.to_degrees()
     )]
     Fold {

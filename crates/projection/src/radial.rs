@@ -94,8 +94,8 @@ pub enum DistortionError {
     },
     /// A fold inside the image.
     #[error(
-        "the distortion with k1 = {k1}, k2 = {k2} folds the picture over at an observed radius of {fold_mm:.6} mm, but \
-         the picture reaches out to {needed_mm:.6} mm: use coefficients fitted over the whole picture, or crop it"
+        "the distortion with k1 = {k1}, k2 = {k2} folds the image over at an observed radius of {fold_mm:.6} mm, but the image extends to \
+         {needed_mm:.6} mm: use coefficients fitted over the whole image, or crop it"
     )]
     Fold {
         /// First coefficient.

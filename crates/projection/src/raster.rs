@@ -10,7 +10,7 @@ use glam::DVec2;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RasterError {
     /// No pixels.
-    #[error("a picture of {width} × {height} pixels is empty: give at least one column and one row")]
+    #[error("an image of {width} × {height} pixels is empty: give at least one column and one row")]
     Empty {
         /// Columns.
         width: usize,

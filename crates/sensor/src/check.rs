@@ -15,7 +15,7 @@ pub enum SensorError {
     },
     /// A quantum efficiency outside 0 to 1.
     #[error(
-        "the quantum efficiency of channel {channel} runs from {low} to {high}, but must stay within 0 to 1: give it in electrons a photon"
+        "the quantum efficiency of channel {channel} runs from {low} to {high}, but must stay within 0 to 1: give it in electrons per photon"
     )]
     Efficiency {
         /// The channel's name.

@@ -90,7 +90,7 @@ impl Effect for Layout {
         }
         if let Some(Binning { columns, rows, of }) = binning {
             let how = if of == BinningOf::Charge { "charge is added" } else { "digital numbers are averaged" };
-            parts.push(format!("{columns} × {rows} pixels of a colour give one: {how}"));
+            parts.push(format!("{columns} × {rows} pixels of one colour are binned: {how}"));
         }
         if let Some(Skipping { columns, rows }) = skipping {
             parts.push(format!(
@@ -126,13 +126,13 @@ impl Layout {
         let (n, m) = self.steps();
         let key = if self.skipping.is_some() { "skipping" } else { "binning" };
         checks.agree("skipping", self.skipping.is_none() || self.binning.is_none(), || {
-            "pixels are read together or skipped, not both: remove this or \"binning\"".to_owned()
+            "pixels are binned or skipped, not both: remove this or \"binning\"".to_owned()
         });
         checks.agree(key, (1..=64).contains(&n) && (1..=64).contains(&m), || {
-            format!("{n} × {m} pixels cannot give one: give 1 to 64 each")
+            format!("{n} × {m} pixels cannot be combined: give 1 to 64 each")
         });
         checks.agree(key, (self.binning.is_none() && self.skipping.is_none()) || (n, m) != (1, 1), || {
-            "1 × 1 pixels are each on their own: give more, or remove it".to_owned()
+            "1 × 1 has no effect: give more, or remove it".to_owned()
         });
         if !checks.errors.is_empty() {
             return checks.errors;
@@ -153,10 +153,10 @@ impl Layout {
             let ends_inside =
                 |from: usize, length: usize, all: usize| from.checked_add(length).is_some_and(|end| end <= all);
             checks.agree("roi_px", ends_inside(r.x, r.width, width) && ends_inside(r.y, r.height, height), || {
-                format!("it ends beyond the picture of {width} × {height} pixels")
+                format!("it ends beyond the image of {width} × {height} pixels")
             });
             checks.agree("roi_px", dark == OpticalBlack::default(), || {
-                "a region leaves the optical black out: remove one of both".to_owned()
+                "a region excludes the optical black: remove one of the two".to_owned()
             });
         }
         checks.errors

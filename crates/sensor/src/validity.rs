@@ -75,7 +75,8 @@ fn check_captures(p: &SensorParameters, checks: &mut Checks) {
     let hdr = &p.hdr;
     let linear = p.read_out.response == Response::Linear;
     checks.agree("hdr.captures", linear || hdr.captures.is_empty(), || {
-        "captures are merged in proportion to the light, which \"response\" bends: remove one of both".to_owned()
+        "captures are merged as proportional to the light, but \"response\" is not linear: remove one of the two"
+            .to_owned()
     });
     let operations = hdr.operations(p.described_operation());
     for (k, pair) in operations.windows(2).enumerate() {
@@ -87,7 +88,7 @@ fn check_captures(p: &SensorParameters, checks: &mut Checks) {
     if let Some(period_s) = p.exposure.frame_period_s {
         let sum_s = longest_s(p);
         checks.agree("hdr.captures", sum_s <= period_s, || {
-            format!("the exposures of a photodiode follow each other and take {sum_s} s together, more than frame_period_s, {period_s} s")
+            format!("the exposures of a photodiode follow each other and take {sum_s} s in total, more than frame_period_s, {period_s} s")
         });
     }
 }
@@ -111,7 +112,7 @@ fn check_bits(p: &SensorParameters, checks: &mut Checks) {
     checks
         .agree("hdr.merged_bits", !hdr.captures.is_empty(), || "there are no captures to merge: remove it".to_owned());
     let legal = (p.read_out.bits..=24).contains(&bits);
-    checks.legal("hdr.merged_bits", f64::from(bits), legal, "a whole number from the converter's bits to 24");
+    checks.legal("hdr.merged_bits", f64::from(bits), legal, "a whole number from the ADC's bits to 24");
     let more_sensitive = (1..=hdr.captures.len()).find(|k| hdr.scale(*k) < hdr.scale(*k - 1));
     checks.agree("hdr.captures", more_sensitive.is_none(), || {
         let number = more_sensitive.unwrap_or(1) - 1;
@@ -138,8 +139,8 @@ fn check_ranges(p: &SensorParameters, checks: &mut Checks) {
         let used = p.hdr.switch() * pair[0];
         checks.agree("hdr.captures", pair[1] > used, || {
             format!(
-                "entry {k} (from 0) is saturated {:.0} merged DN above black, and the one before it is used up to {used:.0}: give it \
-                 a larger \"full_well_e\" or a smaller share",
+                "entry {k} (from 0) is saturated {:.0} merged DN above black, and the one before it is used up to {used:.0}: give it a larger \
+                 \"full_well_e\" or a smaller ratio of exposure, sensitivity or gain",
                 pair[1]
             )
         });
@@ -150,7 +151,9 @@ fn check_ranges(p: &SensorParameters, checks: &mut Checks) {
 fn check_range(p: &SensorParameters, checks: &mut Checks) {
     let white = p.merged_white_dn(p.least_point());
     checks.agree("gain_dn_per_e", white > p.read_out.black_level_dn, || {
-        format!("the gain is so small that a full pixel has the number of a dark one, {white} DN: give a larger one")
+        format!(
+            "the gain is so small that a full pixel has the digital number of a dark one, {white} DN: give a larger one"
+        )
     });
 }
 

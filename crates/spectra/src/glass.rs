@@ -76,7 +76,7 @@ pub enum GlassError {
     },
     /// An index or Abbe number outside the range of glasses.
     #[error(
-        "a glass with index {index} and Abbe number {abbe}: the index must be above 1 and at most 5, the Abbe number above 5"
+        "the glass has index {index} and Abbe number {abbe}; the index must be above 1 and at most 5, the Abbe number above 5"
     )]
     Abbe {
         /// n_d.
@@ -97,7 +97,7 @@ pub enum GlassError {
 }
 
 fn hint(near: &[&str]) -> String {
-    if near.is_empty() { String::new() } else { format!(" (near it: {})", near.join(", ")) }
+    if near.is_empty() { String::new() } else { format!(" (similar: {})", near.join(", ")) }
 }
 
 impl Dispersion {

@@ -57,7 +57,7 @@ pub enum SpectrumError {
         nm: f64,
     },
     /// A number is infinite or not a number.
-    #[error("{place}: a wavelength or value is not finite: give ordinary numbers")]
+    #[error("{place}: a wavelength or value is not finite: give finite numbers")]
     NotFinite {
         /// Location.
         place: Place,

@@ -77,11 +77,11 @@ pub struct PlaneTest {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlaneTestError {
     /// The slices (means and variances of one image, then of the other) do not have the same length.
-    #[error("two pictures of equal size are needed, but means and variances of one are {} and {}, of the other {} and {} samples long",
+    #[error("two images of equal size are needed, but means and variances of one are {} and {}, of the other {} and {} samples long",
         .0[0], .0[1], .0[2], .0[3])]
     Lengths([usize; 4]),
     /// An image has variances but fewer than two replicates.
-    #[error("a variance needs at least 2 replicates, but the picture states {0}: render it with more replicates")]
+    #[error("a variance needs at least 2 replicates, but the image states {0}: render it with more replicates")]
     Replicates(u32),
 }
 

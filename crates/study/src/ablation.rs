@@ -101,7 +101,7 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
 pub fn ablation_table(ablation: &Ablation) -> String {
     use std::fmt::Write as _;
     let mut out = format!(
-        "camera {}: one frame takes {:.1} s of processor time; found with {} samples a pixel\n\n{:<30} {}\n",
+        "camera {}: one frame takes {:.1} s of CPU time; measured with {} samples per pixel\n\n{:<30} {}\n",
         ablation.camera,
         ablation.cpu_s,
         ablation.spp,
@@ -113,8 +113,11 @@ pub fn ablation_table(ablation: &Ablation) -> String {
     }
     if !ablation.kept.is_empty() {
         let names: Vec<_> = ablation.kept.iter().map(|kept| kept.effect).collect();
-        let _ =
-            writeln!(out, "\nnot left out (no key does, or the job does not take the change): {}", names.join(", "));
+        let _ = writeln!(
+            out,
+            "\nnot left out (no key does this, or the job does not accept the change): {}",
+            names.join(", ")
+        );
     }
     out
 }

@@ -111,7 +111,7 @@ pub(crate) fn header() -> String {
         "saved",
         "light (rms)",
         "raw, DN",
-        "picture",
+        "image",
         "other ids",
         "distance",
         "rays, px",

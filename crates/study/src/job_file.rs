@@ -32,15 +32,15 @@ pub fn job_file(
         what => what,
     };
     let mut text = format!(
-        "# A {} of camera {camera}: {} in {}{}.\n# Left out of the exact form: {left_out}.\n",
+        "# A {} of camera {camera}: {} in {}{}.\n# Omitted relative to the exact form: {left_out}.\n",
         target.name,
         error_text(&point.error),
         time_text(point.seconds.value),
-        if *is_reached { "" } else { ", as near as samples come to what was wanted" },
+        if *is_reached { "" } else { "; the target is not reached" },
     );
     let changes = changes(job, camera);
     if !changes.is_empty() {
-        text += &format!("# The study had changes that this file does not hold: {}.\n", changes.join(", "));
+        text += &format!("# The study had changes that this file does not contain: {}.\n", changes.join(", "));
     }
     text += &format!("format = 1\nbase = {:?}\n", path_from(folder, &job.job)?.to_string_lossy());
     if !removed.is_empty() {

@@ -55,7 +55,7 @@ pub fn table(study: &Study) -> String {
     let own = &study.as_stated;
     let _ = writeln!(
         out,
-        "camera {}: {} of the tiles looked at in {}; light is its {}\n",
+        "camera {}: {} of the tiles evaluated in {}; light is measured as {}\n",
         study.camera,
         if study.share >= 1.0 { "all".to_owned() } else { format!("{:.1} %", 100.0 * study.share) },
         time_text(study.took_s),
@@ -65,12 +65,12 @@ pub fn table(study: &Study) -> String {
         let slowed = study.slowed;
         let _ = writeln!(
             out,
-            "times are those of a machine that does nothing else; this one was busy, and pilots took {slowed:.1} times as long\n"
+            "times are those of an idle machine; this one was busy, and pilots took {slowed:.1} times as long\n"
         );
     }
     let _ = writeln!(
         out,
-        "as the job says: {} samples, {}, {} in {}\n",
+        "as in the job: {} samples, {}, {} in {}\n",
         own.spp,
         own.way.label(),
         error_text(&own.error),
@@ -79,7 +79,7 @@ pub fn table(study: &Study) -> String {
     ways(study, &mut out);
     points(&study.front, &mut out);
     study.recommendations.iter().for_each(|recommendation| recommended(recommendation, &mut out));
-    out += "\nDepth, normals and ids are the same by every way: they have rays of their own.\n";
+    out += "\nDepth, normals and ids are the same in every configuration: they have separate rays.\n";
     out
 }
 
@@ -89,9 +89,9 @@ fn ways(study: &Study, out: &mut String) {
     let of = if study.as_stated.error.sensor.is_some() { "sensor's noise" } else { "light" };
     let _ = writeln!(
         out,
-        "ways to render, at {spp} samples: noise and bias over the {of}; noise of means of 8 × 8 px over their light\n\
+        "configurations, at {spp} samples: noise and bias relative to the {of}; noise of means of 8 × 8 px relative to their light\n\
          {:<54} {:>8} {:>14} {:>16} {:>14}",
-        "way", "time", "noise", "of 8 × 8 px", "bias"
+        "configuration", "time", "noise", "of 8 × 8 px", "bias"
     );
     for way in &study.ways {
         let noise = way
@@ -127,13 +127,13 @@ fn biases(ways: &[Measured], out: &mut String) {
         }
         let told = error_text(&bias.squares.map(|square| square.root()));
         let sure = match bias.squares.deciding() {
-            Estimate { value: 0.0, uncertainty: 0.0 } => ": no bit of the light changes",
+            Estimate { value: 0.0, uncertainty: 0.0 } => ": the light is bit-identical",
             square if square.exceeds(2.0) => "",
-            _ => ": not sure, less than two uncertainties",
+            _ => ": not significant, less than two standard uncertainties",
         };
         let _ = writeln!(
             out,
-            "  {}, against {}: {told}{sure}\n    it leaves out {left_out}",
+            "  {}, against {}: {told}{sure}\n    it omits {left_out}",
             way.way.label(),
             bias.against.label()
         );
@@ -141,7 +141,11 @@ fn biases(ways: &[Measured], out: &mut String) {
 }
 
 fn points(front: &[FrontPoint], out: &mut String) {
-    let _ = writeln!(out, "\nthe front: no other way is both quicker and nearer\n{:>8} {:>22}  way", "time", "error");
+    let _ = writeln!(
+        out,
+        "\nPareto front: no other configuration is both faster and more accurate\n{:>8} {:>22}  configuration",
+        "time", "error"
+    );
     for point in front {
         let error = deciding(&point.error);
         let _ = writeln!(
@@ -165,19 +169,19 @@ fn recommended(recommendation: &Recommendation, out: &mut String) {
         point.way.label(),
         error_text(&point.error),
         time_text(point.seconds.value),
-        if *is_reached { "" } else { "; what was wanted is not reached" }
+        if *is_reached { "" } else { "; the target is not reached" }
     );
     let _ = match confirmation {
         Some(found) => writeln!(
             out,
-            "  tried on {} {} tiles with {} samples a replicate: {} of the time that the pilots foretold (the time above follows the trial){}",
+            "  tested on {} {} tiles with {} samples per replicate: {} of the time estimated by the pilots (the time above follows the test){}",
             found.tiles,
             if found.unseen { "other" } else { "of the same" },
             found.samples,
             figure(found.seconds),
             found.noise.map_or_else(String::new, |noise| format!(", {} of the noise", figure(noise)))
         ),
-        None => writeln!(out, "  not tried: the picture has too few tiles"),
+        None => writeln!(out, "  not tested: the image has too few tiles"),
     };
 }
 
@@ -185,7 +189,7 @@ fn recommended(recommendation: &Recommendation, out: &mut String) {
 #[must_use]
 pub fn plot(study: &Study) -> String {
     let has_sensor = study.as_stated.error.sensor.is_some();
-    let label = if has_sensor { "error over the sensor's noise (rms)" } else { "error of the light (rms)" };
+    let label = if has_sensor { "error relative to the sensor's noise (rms)" } else { "error of the light (rms)" };
     let place = |point: &FrontPoint| (point.seconds.value, point.error.deciding().value);
     let mut series = Vec::new();
     let on_front = study.front.iter().map(|p| p.way);
@@ -202,7 +206,7 @@ pub fn plot(study: &Study) -> String {
         });
         series.push(Series::new(&way.label(), Mark::Line, curve));
     }
-    series.push(Series::new("as the job says", Mark::Points, [place(&study.as_stated)]));
+    series.push(Series::new("as in the job", Mark::Points, [place(&study.as_stated)]));
     let recommended = study.recommendations.iter().map(|r| place(&r.point));
     series.push(Series::new("draft, standard, reference", Mark::Points, recommended));
     svg(&[Plot {

@@ -93,7 +93,7 @@ pub struct Study {
 pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dyn Observer) -> Result<Study, Error> {
     if scratch.exists() {
         let problem =
-            "is there already, and a study writes a frame there and removes it; move it away, or give another folder";
+            "already exists, and a study writes a frame there and removes it; move it away, or give another folder";
         return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", scratch.display())));
     }
     let from_s = clock.seconds();

@@ -73,7 +73,8 @@ pub fn variations(
 
 fn varied_request(own: &JobRequest, set: &[String], camera: &str) -> Result<JobRequest, Error> {
     if let Some(change) = set.iter().find(|change| is_of(change, camera, &SAMPLE_KEYS)) {
-        let problem = "samples are chosen by `time_s` here; without `vary` a study tells what more or fewer come to";
+        let problem =
+            "samples are chosen by `time_s` here; without `vary` a study reports the effect of more or fewer samples";
         return Err(Error::argument("vary", format!("`vary` {change}: {problem}")).with_code(ErrorCode::InvalidChange));
     }
     let mut request = own.clone();
@@ -94,7 +95,7 @@ pub fn variation_table(variations: &Variations) -> String {
     let labels: Vec<_> = variations.varied.iter().map(|varied| varied.set.join("; ")).collect();
     let width = labels.iter().map(|label| label.chars().count()).fold("with".len(), usize::max);
     let mut out = format!(
-        "camera {}: one frame takes {:.1} s of processor time and, by its plan, {} of memory; found with {} samples a pixel\n\n{:<width$} {:>9} {}\n",
+        "camera {}: one frame takes {:.1} s of CPU time and, by its plan, {} of memory; measured with {} samples per pixel\n\n{:<width$} {:>9} {}\n",
         variations.camera,
         variations.cpu_s,
         megabytes(variations.memory_bytes),

@@ -104,8 +104,8 @@ impl WayToRender {
             Integrator::Path => {
                 let bounces = (paths.max_bounces < EXACT_BOUNCES)
                     .then(|| format!("light after more than {} bounces", paths.max_bounces));
-                let caustics = (!paths.caustics).then(|| "caustics of lamps".to_owned());
-                let lobes = paths.regularize.then(|| "how narrow lobes behind wider ones are".to_owned());
+                let caustics = (!paths.caustics).then(|| "caustics of lights".to_owned());
+                let lobes = paths.regularize.then(|| "the narrowness of lobes behind wider ones".to_owned());
                 bounces.into_iter().chain(caustics).chain(lobes).collect::<Vec<_>>().join(" and ")
             }
         }

@@ -11,7 +11,7 @@ function chunkText(id) {
     const script = document.createElement("script");
     const done = (end, value) => { waiting.delete(id); script.remove(); end(value); };
     waiting.set(id, (text) => done(resolve, text));
-    script.onerror = () => done(reject, new Error(`data/${id}.js is missing beside this page; keep the folder together`));
+    script.onerror = () => done(reject, new Error(`data/${id}.js is missing next to this page; keep the folder together`));
     script.src = `data/${id}.js`;
     document.head.append(script);
   });

@@ -98,7 +98,7 @@ function partsPlot(layer, curves) {
     });
     drawing.append(svg("text", { x: width - right, y: y + 9, "text-anchor": "end" }, told(curves[0].values[row], 4)));
   });
-  drawing.append(svg("text", { x: width - right, y: height - 12, "text-anchor": "end" }, `${layer.unit || "the file's unit"}, bars by sign and logarithm`));
+  drawing.append(svg("text", { x: width - right, y: height - 12, "text-anchor": "end" }, `${layer.unit || "the file's unit"}, bars on a signed logarithmic scale`));
   return drawing;
 }
 
@@ -119,7 +119,7 @@ function histogramPlot(curves, [low, high], { unit, isLog, logCounts, whole }) {
   });
   const most = Math.max(1, ...counted.map(({ counts }) => counts.reduce((a, b) => Math.max(a, b), 0)));
   const level = (count) => (logCounts ? Math.log10(1 + count) : count);
-  const { drawing, X, Y } = axes({ x: [low, whole ? high + 1 : high], y: [0, level(most)], xLabel: `${unit || "value"}${isLog ? ", by the logarithm" : ""}`, yLabel: logCounts ? "log₁₀(1 + pixels)" : "pixels", label: "histogram", height: 170, xTold: isLog ? (v) => told(10 ** v, 2) : undefined });
+  const { drawing, X, Y } = axes({ x: [low, whole ? high + 1 : high], y: [0, level(most)], xLabel: `${unit || "value"}${isLog ? ", logarithmic" : ""}`, yLabel: logCounts ? "log₁₀(1 + pixels)" : "pixels", label: "histogram", height: 170, xTold: isLog ? (v) => told(10 ** v, 2) : undefined });
   counted.forEach(({ counts }, i) => {
     const { colour } = curves[i], step = (X(whole ? high + 1 : high) - X(low)) / bins;
     const points = [...counts].flatMap((count, bin) => [`${X(low) + bin * step},${Y(level(count))}`, `${X(low) + (bin + 1) * step},${Y(level(count))}`]);

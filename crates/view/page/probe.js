@@ -72,7 +72,7 @@ function probe() {
   at("note").textContent = layer?.step > 1 ? noteOfStep(layer) : "";
   const seen = place && all.map((one, i) => ({ ...one, i, pixel: pixelOf(one.layer, place) })).filter(({ pixel }) => pixel !== null);
   if (!seen?.length) {
-    fill(at("probe"), node("p", { class: "quiet" }, "no pixel; move over the picture, or click to mark one"));
+    fill(at("probe"), node("p", { class: "quiet" }, "no pixel; move over the image, or click to mark one"));
     chart(null);
     return;
   }
@@ -87,7 +87,7 @@ function probe() {
 
 const unitCell = (row) => node("td", { class: "unit" }, row?.[3] ?? "");
 const valueCell = (row) => node("td", { class: "number", "data-name": row?.[0], "data-value": row?.[2] ?? undefined }, row?.[1] ?? "–");
-const noteOfStep = (layer) => `the page has 1 of ${layer.step} × ${layer.step} pixels of this layer (${layer.has_means ? "means" : "the middle one"}); --max-mb gives more`;
+const noteOfStep = (layer) => `the page has 1 of ${layer.step} × ${layer.step} pixels of this layer (${layer.has_means ? "their mean" : "the middle one"}); --max-mb raises the limit`;
 
 // Other layers of this camera and frame that were loaded, in files of the same size.
 const hereLoaded = (shown) => here().filter((l) => l.loaded && l.kind !== "parts" && l.key !== state.key && l.columns === shown[0].layer.columns && l.rows === shown[0].layer.rows && l.result === shown[0].layer.result);
@@ -113,7 +113,7 @@ function chart(seen) {
   if (at("chart-section").hidden) return;
   const same = seen.filter((one) => one.layer.planes.length === layer.planes.length);
   const curves = same.map(({ layer, planes, pixel }, i) => ({ ...spectrumAt(layer, planes, pixel), colour: ofResults[same.length > 1 ? i : layer.result] ?? ofResults[0], name: "AB"[layer.result] }));
-  at("chart-title").textContent = isSpectrum ? "Spectrum" : "What the number is made of";
+  at("chart-title").textContent = isSpectrum ? "Spectrum" : "Components of the value";
   fill(at("chart"), isSpectrum ? spectrumPlot(layer, curves) : partsPlot(layer, curves));
 }
 
@@ -140,7 +140,7 @@ function histogram() {
   const { drawing, outside } = histogramPlot(curves, range, { unit, isLog, logCounts: state.logCounts, whole });
   const counts = outside.map(({ below, above, nan }, i) => [curves[i].name, below, above, nan]).filter(([, ...n]) => n.some(Boolean));
   const lines = counts.map(([name, below, above, nan]) => node("div", { class: "quiet" }, `${name ? `${name}: ` : ""}${below} below, ${above} above, ${nan} NaN`));
-  fill(at("histogram"), drawing, clipLine(layer, first.planes), layer.kind === "difference" ? differenceLine(curves[0].numbers, unit) : null, ...lines, tick("counts by the logarithm", state.logCounts, (logCounts) => { state.logCounts = logCounts; histogram(); }));
+  fill(at("histogram"), drawing, clipLine(layer, first.planes), layer.kind === "difference" ? differenceLine(curves[0].numbers, unit) : null, ...lines, tick("logarithmic counts", state.logCounts, (logCounts) => { state.logCounts = logCounts; histogram(); }));
 }
 
 const rawTop = (layer) => Math.max(layer.planes[0].max ?? 0, Math.ceil(layer.white * 1.02));
@@ -152,7 +152,7 @@ function rangeOf(curves) {
 }
 
 // Of layers that are smaller on the page than in the file, what was counted.
-const counted = (layer) => (layer.step > 1 ? node("caption", { class: "quiet" }, `of the page's pixels, each of which stands for ${layer.step} × ${layer.step} of the file's`) : null);
+const counted = (layer) => (layer.step > 1 ? node("caption", { class: "quiet" }, `of the page's pixels, each of which represents ${layer.step} × ${layer.step} of the file's`) : null);
 
 // Pixels at the ends of what a number can hold.
 function clipLine(layer, planes) {
@@ -187,15 +187,15 @@ function about() {
   const { layer } = first, facts = PAGE.files[layer.facts] ?? {};
   const row = (name, text) => node("tr", {}, node("th", { scope: "row" }, name), node("td", {}, text));
   const size = `${layer.columns} × ${layer.rows} px${layer.step > 1 ? `, ${layer.width} × ${layer.height} on the page` : ""}`;
-  const kept = layer.planes.some(({ type }) => type === "f16") ? "rounded to 11 binary digits (0.05 %)" : "as in the file";
+  const kept = layer.planes.some(({ type }) => type === "f16") ? "rounded to 11 significant bits (0.05 %)" : "as in the file";
   const rows = [row("file", `${layer.place ? `${layer.place}/` : ""}${layer.file}`), row("size", size), row("unit", layer.unit || "none"), row("numbers", kept)];
   if (layer.meaning) rows.push(row("meaning", layer.meaning));
   const stated = values(layer).slice(0, 12).filter(({ min }) => min !== null && min !== undefined && layer.kind !== "difference");
   const cells = (plane) => [plane.min, plane.mean, plane.max].map((v) => node("td", { class: "number" }, told(v, 4)));
   const stats = stated.map((plane) => node("tr", {}, node("th", { scope: "row" }, plane.name), ...cells(plane), node("td", { class: "number" }, String(plane.nan)), node("td", { class: "number" }, String(plane.infinite))));
-  const heads = ["", "least", "mean", "most", "NaN", "infinite"].map((text) => node("th", { class: text ? "number" : undefined }, text));
+  const heads = ["", "minimum", "mean", "maximum", "NaN", "infinite"].map((text) => node("th", { class: text ? "number" : undefined }, text));
   const known = Object.entries(facts).map(([name, text]) => row(name, text));
   fill(at("about"), node("table", {}, node("tbody", {}, ...rows)),
     stats.length ? node("table", { class: "stats" }, node("thead", {}, node("tr", {}, ...heads)), node("tbody", {}, ...stats)) : null,
-    known.length ? node("details", {}, node("summary", {}, "header of the file"), node("table", {}, node("tbody", {}, ...known))) : null);
+    known.length ? node("details", {}, node("summary", {}, "file header"), node("table", {}, node("tbody", {}, ...known))) : null);
 }

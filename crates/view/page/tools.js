@@ -41,7 +41,7 @@ function tools() {
     const { range } = legendOf(layer, first);
     if (range) {
       row.push(numberField("from", own.low, (low) => set({ low })), numberField("to", own.high, (high) => set({ high })));
-      if (range.map !== "diverging") row.push(tick("logarithm", range.log, (log) => set({ log })));
+      if (range.map !== "diverging") row.push(tick("logarithmic", range.log, (log) => set({ log })));
     }
     if (layer.kind === "flow") row.push(tick("arrows", state.arrows, (arrows) => { state.arrows = arrows; toAddress(); redraw(); }));
     if (here().some((l) => l.kind === "boxes" && l.columns === layer.columns && l.rows === layer.rows)) {
@@ -72,7 +72,7 @@ function legend(said, layer) {
   if (said?.range) row.push(...rangeLegend(said.range, layer));
   if (said?.white) row.push(`white is ${told(said.white / said.gain, 4)} ${whiteUnit(layer)} (at 0 EV the 99th percentile of luminance)`);
   if (said?.raw) row.push(`black ${told(said.raw[0])} DN, white ${told(said.raw[1])} DN; shown sRGB-encoded`);
-  if (said?.picture) row.push(`stored ${said.picture}${said.gain === 1 ? ", shown as it is" : ", exposed as if sRGB"}`);
+  if (said?.picture) row.push(`stored ${said.picture}${said.gain === 1 ? ", shown unchanged" : ", exposed as if sRGB"}`);
   if (said?.wheel) row.push(wheelPicture(), `full colour is ${told(said.wheel, 4)} ${layer.unit}; darker: longer; black: not known`);
   if (said?.axes) row.push(`x, y, z as red, green, blue from ${told(-said.axes, 4)} to ${told(said.axes, 4)} ${layer.unit}; grey is 0; magenta is NaN`);
   if (said?.names) row.push(...said.names.slice(0, 400).map(([id, name, colour]) => node("span", {}, node("span", { class: "swatch", style: `background:rgb(${colour})` }), name ? `${name} (${id})` : String(id))));
@@ -93,7 +93,7 @@ function rangeLegend(range, layer) {
     context.fillStyle = `rgb(${TABLES[range.map][Math.round((range.reversed ? 255 - i : i) / 255 * 1023)]})`;
     context.fillRect(i, 0, 1, 14);
   }
-  const marks = layer.kind === "unequal" ? "violet is equal, yellow is not" : `${range.log ? "by the logarithm; " : ""}white is infinite, magenta NaN`;
+  const marks = layer.kind === "unequal" ? "violet: equal, yellow: different" : `${range.log ? "logarithmic scale; " : ""}white is infinite, magenta NaN`;
   const unit = unitShown(layer);
   return [`${told(range.low, 4)} ${unit}`, canvas, `${told(range.high, 4)} ${unit}`, node("span", { class: "quiet" }, marks)];
 }

@@ -110,9 +110,9 @@ async function shownLayers() {
     case "wipe": return [{ name: names[0], right: names[1], shown: [first, second] }];
     case "difference": {
       const made = first && second && differenceLayer(first, second);
-      if (!made) return [{ name: "B − A: there is no difference of these", shown: [null] }];
+      if (!made) return [{ name: "B − A: these layers cannot be subtracted", shown: [null] }];
       const without = made[0].left_out?.length ? `, without ${made[0].left_out.join(", ")}` : "";
-      return [{ name: made[0].kind === "unequal" ? "where B is not A" : `B − A${without}`, shown: [{ layer: made[0], planes: made[1] }] }];
+      return [{ name: made[0].kind === "unequal" ? "where B differs from A" : `B − A${without}`, shown: [{ layer: made[0], planes: made[1] }] }];
     }
     default: return [{ name: names[0], shown: [first] }, { name: names[1], shown: [second] }];
   }

@@ -46,25 +46,25 @@ const ORDER: [&str; 10] = [
 pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<FoundFile>, Error> {
     let refuse = |why: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", folder.display()));
     if !folder.is_dir() {
-        let what = if folder.exists() { "no folder" } else { "not there" };
-        return Err(refuse(format!("{what}; expected the folder of a result, as etendue render -o names it")));
+        let what = if folder.exists() { "not a folder" } else { "does not exist" };
+        return Err(refuse(format!("{what}; expected the folder of a result, as written by etendue render -o")));
     }
     let mut files = Vec::new();
     search(folder, "", 0, &mut files)?;
     if files.is_empty() {
         return Err(refuse(format!(
-            "no result: expected files of layers ({}) in it or its folders",
+            "no result: expected files with layers ({}) in it or its subfolders",
             ENDINGS.join(", ")
         )));
     }
     files.retain(|file| file.frame.zip(frames).is_none_or(|(frame, frames)| frames.contains(&frame)));
     if files.is_empty() {
-        return Err(refuse("none of its files is of a frame that `frames` asks for".to_owned()));
+        return Err(refuse("none of its files is of a frame in `frames`".to_owned()));
     }
     if files.len() > MAX_FILES {
         let count = files.len();
         return Err(refuse(format!(
-            "{count} files of layers, and a page has at most {MAX_FILES}; give a folder in it, or fewer frames (`frames`)"
+            "{count} files with layers, but a page has at most {MAX_FILES}; give a subfolder, or fewer frames (`frames`)"
         )));
     }
     let rank = |file: &FoundFile| ORDER.iter().position(|stem| *stem == file.stem).unwrap_or(ORDER.len());
@@ -162,9 +162,9 @@ mod tests {
     fn what_is_no_result_is_refused() {
         let folder = folder(&["notes.txt", "a/camera.json", "picture.0000.png"]);
         let message = |path: &Path, frames| find(path, frames).expect_err("refused").to_string();
-        assert!(message(&folder.path().join("a"), None).contains("no result: expected files of layers (exr, png"));
-        assert!(message(&folder.path().join("notes.txt"), None).contains("no folder"));
-        assert!(message(&folder.path().join("none"), None).contains("not there; expected the folder of a result"));
+        assert!(message(&folder.path().join("a"), None).contains("no result: expected files with layers (exr, png"));
+        assert!(message(&folder.path().join("notes.txt"), None).contains("not a folder"));
+        assert!(message(&folder.path().join("none"), None).contains("does not exist; expected the folder of a result"));
         assert!(message(folder.path(), Some(&(5..6))).contains("`frames`"));
     }
 }

@@ -39,7 +39,7 @@ impl Page {
             if existing == Existing::Refuse && path.symlink_metadata().is_ok() {
                 return Err(Error::coded(
                     ErrorCode::OutputExists,
-                    format!("{}: already there; choose another name, or allow it with `overwrite`", path.display()),
+                    format!("{}: already exists; choose another name, or allow it with `overwrite`", path.display()),
                 ));
             }
             return Ok(Self::File(path.to_path_buf(), existing, String::new()));

@@ -158,7 +158,7 @@ fn the_same_files_give_the_same_bytes_and_an_earlier_page_is_replaced() {
     assert_eq!(made().len(), 5, "the chunk of a layer that is gone goes");
     fs::write(folder.join("view/index.html"), "a page of mine").expect("written");
     let message = view(&request(&folder), None, Existing::Refuse, &Unobserved).expect_err("refused").to_string();
-    assert!(message.contains("already there") && message.contains("`overwrite`"), "{message}");
+    assert!(message.contains("already exists") && message.contains("`overwrite`"), "{message}");
     assert_eq!(fs::read_to_string(folder.join("view/index.html")).expect("kept"), "a page of mine");
 }
 
@@ -205,11 +205,11 @@ fn what_cannot_be_shown_is_refused_and_leaves_nothing() {
     let beside = ViewRequest { beside: Some(place.path().join("b")), ..request(&folder) };
     let message = refused(&beside);
     assert!(
-        message.contains("picture is 2 × 2 pixels") && message.contains("6 × 4; give results of one size"),
+        message.contains("picture is 2 × 2 pixels") && message.contains("6 × 4; give results of the same size"),
         "{message}"
     );
     fs::rename(other.join("picture.0003.png"), other.join("picture.0009.png")).expect("renamed");
-    assert!(refused(&beside).contains("no file has the camera, frame and name of one in"));
+    assert!(refused(&beside).contains("no file has the same camera, frame and name as one in"));
     let damaged = folder.join("front/radiance.exr");
     let bytes = fs::read(&damaged).expect("readable");
     fs::write(&damaged, &bytes[..bytes.len() / 2]).expect("written");
@@ -219,5 +219,5 @@ fn what_cannot_be_shown_is_refused_and_leaves_nothing() {
     assert!(refused(&request(&folder)).contains("boxes.0003.json:1"));
     fs::write(folder.join("front/camera.json"), "[").expect("written");
     assert!(refused(&request(&folder)).contains("camera.json: not JSON"));
-    assert!(refused(&request(&place.path().join("nowhere"))).contains("not there"));
+    assert!(refused(&request(&place.path().join("nowhere"))).contains("does not exist"));
 }

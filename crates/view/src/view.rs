@@ -41,7 +41,7 @@ pub fn view(
         return Err(Error::coded(
             ErrorCode::NotComparable,
             format!(
-                "{beside}: no file has the camera, frame and name of one in {}; give results of the same cameras and frames",
+                "{beside}: no file has the same camera, frame and name as one in {}; give results of the same cameras and frames",
                 request.folder.display()
             ),
         ));
@@ -70,7 +70,7 @@ pub fn view(
     });
     if build.binned > 0 {
         let sentence = format!(
-            "{} layers are larger than {} MB and have fewer pixels on the page, which says how many; `max_mb` moves this",
+            "{} layers are larger than {} MB and have fewer pixels on the page, which states the factor; `max_mb` sets this limit",
             build.binned, request.max_mb
         );
         observer.message(Message::Note(&sentence));
@@ -138,7 +138,7 @@ impl Build<'_> {
 
     fn finish(self) -> Result<PathBuf, Error> {
         let names = names(&self.request.folder, self.request.beside.as_deref());
-        let title = names.join(" beside ");
+        let title = names.join(" with ");
         let facts = json!({
             "version": env!("CARGO_PKG_VERSION"),
             "title": title,
@@ -222,7 +222,7 @@ fn same_sizes((a, of_a): (&FoundFile, &[Layer]), (b, of_b): (&FoundFile, &[Layer
             return Err(Error::coded(
                 ErrorCode::NotComparable,
                 format!(
-                    "{}: {} is {w} × {h} pixels, that of {} {of_w} × {of_h}; give results of one size",
+                    "{}: {} is {w} × {h} pixels, but that of {} is {of_w} × {of_h}; give results of the same size",
                     b.path.display(),
                     layer.name,
                     a.path.display()

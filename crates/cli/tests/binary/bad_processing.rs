@@ -123,7 +123,7 @@ fn other_filter_arrays_than_bayer() {
     let (refused, place) = rccb("demosaic = \"malvar\"", "colour_matrix = [[1, 0, 0], [-1, 2, -1], [0, 0, 1]]");
     refused.refused(&[&place, "demosaic", "Bayer", "bilinear"]);
     rccb("white_balance = \"D65\"", "").0.refused(&["small.toml:", "not red, green and blue", "colour_matrix"]);
-    rccb("white_balance = \"D65\"", MATRIX).0.refused(&["small.toml:", "colour_matrix", "look the same"]);
+    rccb("white_balance = \"D65\"", MATRIX).0.refused(&["small.toml:", "colour_matrix", "respond equally"]);
     let own = rccb("white_balance = \"D65\"", "colour_matrix = [[1, 0, 0], [-1, 0, 2], [0, 1, 0]]").0.ok();
     assert!(own.out.contains("colour matrix"), "{}", own.out);
 }
@@ -182,7 +182,7 @@ fn filters_of_the_paper_that_cannot_be() {
     filter("\"tone_map\", original_factor = 0.4, gain = 0", &["gain", "above 0"]);
     filter("\"colour\", operations = []", &["operations"]);
     filter("\"colour\", operations = [{ to = \"rgb_ntsc\" }]", &["RGB NTSC", "linear light", "on"]);
-    filter("\"colour\", on = \"linear\", operations = [{ from = \"yuv\" }]", &["YUV", "encoded pictures"]);
+    filter("\"colour\", on = \"linear\", operations = [{ from = \"yuv\" }]", &["YUV", "encoded images"]);
     filter("\"colour\", operations = [{ to = \"cmyk\" }]", &["cmyk", "cmy"]);
     filter("\"colour\", operations = [{ saturation = -1 }]", &["saturation"]);
     filter(

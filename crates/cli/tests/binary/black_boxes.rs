@@ -199,7 +199,7 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
         ("\"wavelength_nm\": 550", "\"wavelength_nm\": 550, \"wavelength_nm\": 550", &["there twice"]),
         ("\"outx\"", "\"outy\"", &["\"outy\" is there twice"]),
         ("[5.315483154282251e-08", "[1e999", &["finite number"]),
-        ("-0.01004348535911221", "0.01004348535911221", &["of no lens that makes a real image"]),
+        ("-0.01004348535911221", "0.01004348535911221", &["do not describe a lens that forms a real image"]),
     ] {
         assert!(whole.contains(was), "{was}");
         std::fs::write(folder.path().join("lens.json"), whole.replace(was, is)).expect("written");
@@ -210,7 +210,7 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
     near.refused(&["job.toml", "sensor_distance_mm", "within the plane at 0.01 mm"]);
     let focus = transferred("lens.json", 1.0).replace("sensor_distance_mm = 1", "focus_distance_m = 0.001");
     plan(folder.path(), &job("", sensor, &focus, 1))
-        .refused(&["job.toml", "no place of the sensor makes 0.001 m sharp"]);
+        .refused(&["job.toml", "no sensor position focuses the lens at 0.001 m"]);
     let none = "type = \"ray_transfer\"\nfile = \"lens.json\"";
     plan(folder.path(), &job("", sensor, none, 1)).refused(&["job.toml", "focus_distance_m", "sensor_distance_mm"]);
     let pupil = job("", sensor, &transferred("lens.json", 57.315), 1).replace("spp = 1", "route = \"pupil\"\nspp = 1");

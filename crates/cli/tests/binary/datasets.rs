@@ -129,10 +129,12 @@ fn a_run_that_was_interrupted_goes_on_and_leaves_what_is_done() {
     assert!(place.files("part") == place.files("whole"));
     place.run("part", &["--samples", "0..4", "--resume", "--seed", "4"]).refused(&[
         "dataset.json",
-        "another ",
+        "a different ",
         "\"seed\"",
     ]);
-    place.run("part", &["--samples", "0..4", "--overwrite", "--frames", "0..2"]).refused(&["another ", "\"frames\""]);
+    place
+        .run("part", &["--samples", "0..4", "--overwrite", "--frames", "0..2"])
+        .refused(&["a different ", "\"frames\""]);
 }
 
 /// The record of a sample states the digests of its files, and a hash of itself.
@@ -145,7 +147,7 @@ fn samples_whose_files_or_record_are_not_whole_are_made_anew() {
     let spoil = |name: &str, change: &dyn Fn(&Path)| change(&place.path(&format!("out/{name}")));
     let resume = |samples: &str| place.run("out", &["--samples", samples, "--format", "coco,yolo", "--resume"]);
     spoil(label, &|file| fs::remove_file(file).expect("it was there"));
-    resume("0..3").ok().says(&["samples/000001.json", "is gone or was changed; sample 1 is made anew"]);
+    resume("0..3").ok().says(&["samples/000001.json", "is missing or was changed; sample 1 is made again"]);
     assert!(place.files("out") == whole);
     let record = "samples/000001.json";
     let edit = |from: &str, to: &str| {
@@ -158,10 +160,10 @@ fn samples_whose_files_or_record_are_not_whole_are_made_anew() {
     };
     spoil(record, &edit("\"frame\": 0", "\"frame\": 7"));
     resume("2..4").refused(&["samples/000001.json", "changed after it was written", "make sample 1 anew"]);
-    resume("0..3").ok().says(&["sample 1 is made anew"]);
+    resume("0..3").ok().says(&["sample 1 is made again"]);
     assert!(place.files("out") == whole);
     spoil(record, &|file| _ = fs::copy(file.with_file_name("000002.json"), file).expect("copied"));
-    resume("0..3").ok().says(&["this is the record of sample 2; sample 1 is made anew"]);
+    resume("0..3").ok().says(&["this is the record of sample 2; sample 1 is made again"]);
     assert!(place.files("out") == whole);
 }
 
@@ -198,13 +200,13 @@ fn a_disk_that_fills_keeps_whole_samples_and_a_run_goes_on() {
     assert!(large > 0 && (0..large).all(|sample| bytes_of(sample) < 16_000), "some that fit come first");
     let (status, told) = with_blocks(36, &arguments("part", &[]));
     assert_eq!(status, Some(1), "{told}");
-    let kept = if large == 1 { "1 sample that is whole".to_owned() } else { format!("{large} samples that are whole") };
-    assert!(told.contains(&format!("kept {kept}; with --resume a run goes on")), "{told}");
+    let kept = if large == 1 { "1 complete sample".to_owned() } else { format!("{large} complete samples") };
+    assert!(told.contains(&format!("saved {kept}; to continue, use --resume")), "{told}");
     let part = place.files("part");
     assert_eq!(part.keys().filter(|name| name.starts_with("samples/")).count(), large);
     assert!(part.iter().all(|(name, bytes)| whole.get(name) == Some(bytes)), "whole files or none: {:?}", part.keys());
     let (status, told) = with_blocks(1, &arguments("none", &[]));
-    assert!(status == Some(1) && told.contains("nothing of this run was kept"), "{told}");
+    assert!(status == Some(1) && told.contains("nothing of this run was saved"), "{told}");
     assert!(!place.path("none").exists());
     etendue(arguments("part", &["--resume"])).ok();
     assert!(place.files("part") == whole);
@@ -283,19 +285,19 @@ fn bad_variations_are_refused_where_they_stand() {
     place.run_of(&file, &["--samples", "0..2000000"]).refused(&["--samples"]);
 }
 
-/// A BOP model keeps its size: a sample that violates that is discarded, and the set of the preceding ones is complete.
+/// A BOP model has one size: a sample that violates that is discarded, and the set of the preceding ones is complete.
 #[test]
 fn bop_keeps_the_samples_before_one_of_another_size() {
     let place = Place::new();
     let file =
         "format = 1\n[[vary]]\nkey = \"scene.objects.short-block.scale\"\ntype = \"uniform\"\nmin = 0.5\nmax = 0.9\n";
     let run = |more: &[&str]| place.run_of(file, &[&["--format", "bop,yolo"], more].concat());
-    drop(run(&["--samples", "0..3"]).refused(&["--format bop", "\"short-block\"", "sample 1", "keeps its size"]));
+    drop(run(&["--samples", "0..3"]).refused(&["--format bop", "\"short-block\"", "sample 1", "has one size"]));
     let samples: Vec<_> = place.files("out/samples").into_keys().collect();
     assert_eq!(samples, ["000000.json"]);
     run(&["--samples", "0..1", "--resume"]).ok();
     assert!(place.path("out/bop/models/models_info.json").exists() && place.path("out/yolo/data.yaml").exists());
-    drop(run(&["--samples", "1..2", "--resume"]).refused(&["\"short-block\"", "sample 1", "keeps its size"]));
+    drop(run(&["--samples", "1..2", "--resume"]).refused(&["\"short-block\"", "sample 1", "has one size"]));
 }
 
 /// A complete shard has no parts left that could be made again individually.
@@ -323,7 +325,7 @@ fn samples_of_a_complete_shard_are_made_anew_together() {
     drop(
         run(&["--samples", "0..3", "--resume"])
             .refused(&lost)
-            .says(&["webdataset/parts/000000.tar is gone or was changed"]),
+            .says(&["webdataset/parts/000000.tar is missing or was changed"]),
     );
     fs::remove_file(&shard).expect("it was there");
     drop(run(&["--samples", "0..3", "--resume"]).refused(&lost));

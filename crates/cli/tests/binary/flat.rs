@@ -158,7 +158,7 @@ fn sensors_that_cannot_be_are_refused() {
         flat(WEB, &[&SMALL[..], &["--set", set, "--irradiance-w-m2", "1"]].concat()).0.refused(phrases)
     };
     refused("sensor.gain_dn_per_e=1e-30", &["gain_dn_per_e", "so small"]);
-    refused("sensor.roi_px=[1e300,0,4,4]", &["roi_px", "beyond the picture"]);
+    refused("sensor.roi_px=[1e300,0,4,4]", &["roi_px", "beyond the image"]);
 }
 
 #[test]

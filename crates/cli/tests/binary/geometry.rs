@@ -173,7 +173,7 @@ fn a_camera_that_folds_outside_its_points_is_told_and_no_file() {
     let found = json(&all);
     // OpenCV with its own model and all views: 532.8 px (opencv.json); six views and another model differ by about 3 px.
     assert!((figure(&found, "fx_px")[0] - 533.0).abs() < 4.0, "{found}");
-    assert!(found["notes"].to_string().contains("folds the picture over"), "{}", found["notes"]);
+    assert!(found["notes"].to_string().contains("folds the image over"), "{}", found["notes"]);
     let folder = tempfile::tempdir().expect("a folder");
     let file = text(&folder.path().join("camera.toml"));
     let with: Vec<&str> = all.into_iter().chain(["--pixel-pitch-um", "6", "-o", &file]).collect();

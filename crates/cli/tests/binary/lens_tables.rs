@@ -245,7 +245,7 @@ fn tables_of_modulation_that_cannot_be_used_are_told_with_their_line() {
         ("mtf = { cycles_per_mm = [10, 20] }", &["job.toml", "\"modulation\" is missing"][..]),
         ("mtf = { cycles_per_mm = [10, 20], modulation = [1] }", &["job.toml", "modulation"]),
         ("mtf = { cycles_per_mm = [20, 10], modulation = [0.9, 0.8] }", &["job.toml", "does not lie beyond 20"]),
-        ("mtf = { cycles_per_mm = [10, 20], modulation = [0.2, 0.9] }", &["job.toml", "no sum of Gaussians"]),
+        ("mtf = { cycles_per_mm = [10, 20], modulation = [0.2, 0.9] }", &["job.toml", "not a sum of Gaussians"]),
         (
             "mtf = { cycles_per_mm = [10, 20], modulation = [0.9, 0.8] }, blades = 6",
             &["\"blades\" contradicts \"mtf\""],

@@ -193,10 +193,10 @@ fn a_focus_distance_of_zero_where_infinity_is_legal() {
 #[test]
 fn a_polynomial_that_folds_inside_the_picture() {
     let folds = KANNALA.replace("[0.01, 0.002, 0, 0]", "[-0.5, 0, 0, 0]");
-    refused(&calibrated(&folds), "[cameras.lens]", &["folds the picture over at a radius of"]);
+    refused(&calibrated(&folds), "[cameras.lens]", &["folds the image over at a radius of"]);
     let spoilt = with_lens(&calibrated("calibration = { file = \"camera.yaml\", format = \"kalibr\" }"));
     spoilt.write("camera.yaml", KALIBR.replace("[0.01, 0.002, 0, 0]", "[-0.5, 0, 0, 0]"));
-    spoilt.render(&[]).refused(&["small.toml:", "calibration.file", "folds the picture over at a radius of"]);
+    spoilt.render(&[]).refused(&["small.toml:", "calibration.file", "folds the image over at a radius of"]);
 }
 
 #[test]

@@ -235,7 +235,7 @@ fn files_that_make_no_table_are_told() {
     refused(
         std::slice::from_ref(&axis),
         ", spread_by = \"samples\"",
-        &["effects.psf.spread_by", "falls near enough to displace"],
+        &["effects.psf.spread_by", "falls close enough for displaced"],
     );
     let lens = format!("{LENS}\"absent.txt\"] }}");
     plan(folder.path(), &job("", SMALL, &lens, 2)).refused(&[

@@ -203,10 +203,13 @@ fn a_run_that_goes_on_believes_no_file_that_is_not_whole() {
     let stderr = spoil("whole", "left", &|_| ());
     assert!(stderr.lines().all(|line| line.contains("mean level")), "whole frames are not named: {stderr}");
     let stderr = spoil("gone", "left/ground_truth.0001.exr", &gone);
-    assert!(stderr.contains("ground_truth.0001.exr is gone or was changed; frame 1 of left is made anew"), "{stderr}");
+    assert!(
+        stderr.contains("ground_truth.0001.exr is missing or was changed; frame 1 of left is rendered again"),
+        "{stderr}"
+    );
     for (what, change) in [("cut", &cut as &dyn Fn(&Path)), ("changed", &changed)] {
         let stderr = spoil(what, "left/raw.0001.png", change);
-        assert!(stderr.contains("raw.0001.png is gone or was changed"), "{stderr}");
+        assert!(stderr.contains("raw.0001.png is missing or was changed"), "{stderr}");
     }
     let sensor = |file: &Path| {
         let facts = fs::read_to_string(file).expect("a file");

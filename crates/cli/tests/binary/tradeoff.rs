@@ -27,7 +27,8 @@ fn a_study_tells_times_and_errors_and_writes_jobs() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (job(place.path()), text(&place.path().join("out")));
     let told = etendue(["tradeoff", &job, "-o", &out, "--time", "10"]).ok().out;
-    for phrase in ["as the job says: 32 samples", "bias, named:", "the front", "draft: ", "standard: ", "reference: "] {
+    for phrase in ["as in the job: 32 samples", "bias, named:", "Pareto front", "draft: ", "standard: ", "reference: "]
+    {
         assert!(told.contains(phrase), "{phrase} is missing in:\n{told}");
     }
     let files = contents(Path::new(&out));

@@ -52,11 +52,11 @@ fn a_page_is_made_replaced_and_refused() {
     assert_eq!(made(&[&text(&folder)]), page, "an earlier page is replaced");
     let one = text(&place.path().join("one.html"));
     made(&[&text(&folder), "-o", &one]);
-    etendue(["view", &text(&folder), "-o", &one]).refused(&["one.html", "already there", "--overwrite"]);
+    etendue(["view", &text(&folder), "-o", &one]).refused(&["one.html", "already exists", "--overwrite"]);
     made(&[&text(&folder), "-o", &one, "--overwrite"]);
     etendue(["view", &text(&place.path().join("none"))]).refused(&[
         "none",
-        "not there",
+        "does not exist",
         "expected the folder of a result",
     ]);
     etendue(["view", &text(&folder), "--max-mb", "0"]).refused(&["--max-mb", "1 to 1000"]);

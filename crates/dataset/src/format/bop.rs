@@ -158,8 +158,8 @@ fn another_model(record: &SampleRecord, object: &ObjectRecord, known: &str) -> E
     Error::argument(
         "formats",
         format!(
-            "`formats` bop: object {} is \"{known}\" in one sample and \"{}\" of another size or name in sample {}, and a model of BOP keeps its size; vary \
-         poses and not scales and objects, or make the set in another folder without the format",
+            "`formats` bop: object {} is \"{known}\" in one sample and \"{}\" of another size or name in sample {}, but a BOP model has one size; \
+             vary poses, not scales or objects, or make the data set in another folder without the format",
             object.id, object.name, record.sample
         ),
     ).with_code(ErrorCode::UnsupportedOutput)

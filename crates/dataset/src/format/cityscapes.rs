@@ -84,7 +84,7 @@ impl Cityscapes {
         let mut cities: Vec<String> = set.cameras.iter().map(|camera| city(camera)).collect();
         cities.sort_unstable();
         if let Some(pair) = cities.windows(2).find(|pair| pair[0] == pair[1]) {
-            let problem = "two cameras would be one city: \"_\" in a name is \"-\" here; rename one";
+            let problem = "two cameras have the same city name, since \"_\" becomes \"-\"; rename one";
             return Err(Error::argument("formats", format!("`formats` cityscapes: {}: {problem}", pair[0]))
                 .with_code(ErrorCode::UnsupportedOutput));
         }

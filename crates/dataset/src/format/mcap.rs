@@ -45,7 +45,7 @@ impl Writer for Mcap {
             let problem = format!("an image of camera {} has the time {time} s", record.camera);
             return Err(Error::coded(
                 ErrorCode::UnsupportedOutput,
-                format!("{problem}; MCAP with ROS messages holds times from 0 to {LAST_S} s"),
+                format!("{problem}; MCAP with ROS messages stores times from 0 to {LAST_S} s"),
             ));
         };
         let at = ros::At { time_ns, frame: record.camera.as_str() };

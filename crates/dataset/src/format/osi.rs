@@ -54,7 +54,7 @@ impl Writer for Osi {
         let mut bytes = Vec::new();
         for (_, message) in frames.values() {
             let length = u32::try_from(message.bytes().len());
-            let length = length.map_err(|_| Error::run("osi: the objects of a frame take more than 4 GiB"))?;
+            let length = length.map_err(|_| Error::run("osi: the objects of a frame need more than 4 GiB"))?;
             bytes.extend_from_slice(&length.to_le_bytes());
             bytes.extend_from_slice(message.bytes());
         }

@@ -97,8 +97,8 @@ impl Writer for WebDataset {
         Err(Error::argument(
             "samples",
             format!(
-                "`samples` {}..{}: the shard of samples {first} to {} is complete, and its samples are made anew together; give `samples` {first}..{end} \
-             with `overwrite`, or `resume`",
+                "`samples` {}..{}: the shard of samples {first} to {} is complete, and its samples can only be made again together; give `samples` \
+                 {first}..{end} with `overwrite`, or `resume`",
                 samples.start,
                 samples.end,
                 end - 1

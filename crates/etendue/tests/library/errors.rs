@@ -84,10 +84,10 @@ fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
     // In the first frame: nothing remains, not even the folder.
     let out = place.path().join("out");
     let told = panicked(&job(false), &out, 2);
-    assert!(told.ends_with("nothing of this run was kept") && !out.exists(), "{told}");
+    assert!(told.ends_with("nothing of this run was saved") && !out.exists(), "{told}");
     // In the third: two frames.
     let told = panicked(&job(false), &out, 10);
-    assert!(told.contains("kept 2 frames that are whole; with `resume`"), "{told}");
+    assert!(told.contains("saved 2 complete frames; to continue, use `resume`"), "{told}");
     let kept = files(&out);
     assert!(kept.len() > 2 && kept.iter().all(|(name, bytes)| expected.get(name) == Some(bytes)), "{:?}", kept.keys());
     job(false).save(&options(), &out, Existing::Resume, &Unobserved).expect("rendered");

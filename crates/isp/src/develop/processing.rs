@@ -129,11 +129,11 @@ pub enum DevelopError {
     },
     /// Optical-black pixels requested, but there are none.
     #[error(
-        "the black level shall come from shielded pixels, but the picture has none: use the stated level, or a sensor with optical-black rows"
+        "the black level is to be measured on shielded pixels, but the image has none: use the stated level, or a sensor with optical-black rows"
     )]
     NoOpticalBlack,
     /// A mapped defect outside the image.
-    #[error("the defective pixel at column {x}, row {y} lies outside the picture of {width} × {height} pixels")]
+    #[error("the defective pixel at column {x}, row {y} lies outside the image of {width} × {height} pixels")]
     DefectOutside {
         /// Column.
         x: u32,
@@ -145,7 +145,7 @@ pub enum DevelopError {
         height: usize,
     },
     /// An invalid threshold.
-    #[error("the outlier threshold of defect correction is {0}, but a share of the range above 0 is needed")]
+    #[error("the outlier threshold of defect correction is {0}, but a fraction of the range above 0 is needed")]
     OutlierThreshold(f64),
     /// An invalid shading table.
     #[error(transparent)]
@@ -162,7 +162,7 @@ pub enum DevelopError {
         settings: usize,
     },
     /// A demosaic method for Bayer tiles used with another tile.
-    #[error("this demosaic is made for Bayer tiles, and the mosaic is none: use the bilinear one")]
+    #[error("this demosaicing method needs a Bayer tile, which the mosaic is not: use the bilinear one")]
     NotBayer,
     /// An invalid exposure gain.
     #[error("exposure_gain is {0}, but a finite number above 0 is needed")]
@@ -174,7 +174,7 @@ pub enum DevelopError {
     #[error(transparent)]
     Paper(#[from] FilterError),
     /// Colour settings for an image without colour.
-    #[error("a mono picture has no colour to balance: leave white balance and colour matrix out")]
+    #[error("a mono image has no colour to balance: leave white balance and colour matrix out")]
     ColourOfMono,
     /// No colour settings for an image with colour.
     #[error("a colour mosaic needs white balance and a colour matrix, but neither is given")]

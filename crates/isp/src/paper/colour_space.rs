@@ -55,7 +55,7 @@ impl ColourSpace {
     pub(crate) fn check(self, stage: Stage) -> Result<(), FilterError> {
         let wanted = match (self, stage) {
             (Self::RgbNtsc | Self::RgbPal, Stage::Display) => "linear light",
-            (Self::Yuv | Self::Yiq | Self::YCbCr, Stage::Linear) => "encoded pictures",
+            (Self::Yuv | Self::Yiq | Self::YCbCr, Stage::Linear) => "encoded images",
             _ => return Ok(()),
         };
         Err(FilterError::Space { space: self.name(), wanted })

@@ -29,7 +29,7 @@ pub enum FilterError {
     },
     /// A filter of linear light after one of the encoded image.
     #[error(
-        "filter {0} (from 1) works on linear light, but one before it on the encoded picture: give glow, tone map, drops and linear colour first"
+        "filter {0} (from 1) works on linear light, but one before it works on the encoded image: put glow, tone map, drops and linear colour first"
     )]
     Order(usize),
     /// A conversion that belongs to the other stage.

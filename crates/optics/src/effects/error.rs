@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EffectsError {
     /// A fraction of scattered light outside its range.
-    #[error("a scattered share of {share} is not within 0 to {most}; clean lenses scatter 0.005 to 0.03")]
+    #[error("the scattered fraction is {share}; expected 0 to {most} (clean lenses scatter 0.005 to 0.03)")]
     Scatter {
         /// Value given.
         share: f64,
@@ -21,20 +21,22 @@ pub enum EffectsError {
     },
     /// A kernel whose integral over the plane is infinite.
     #[error(
-        "light that falls off with the exponent {exponent} has no finite sum over the plane: give an exponent above 2, or \
-         \"reach_mm\", where it ends"
+        "light that falls off with the exponent {exponent} has no finite integral over the plane: give an exponent above 2, or the radius \
+         \"reach_mm\" at which it ends"
     )]
     Endless {
         /// The exponent.
         exponent: f64,
     },
     /// An invalid table of a wavefront term.
-    #[error("a wavefront term needs as many root mean squares as field radii, which must rise; or one, and no radii")]
+    #[error(
+        "a wavefront term needs one root-mean-square value per field radius, with rising radii; or one value and no radii"
+    )]
     Table,
     /// A wavefront too steep for the lattice of the pupil.
     #[error(
-        "the wavefront's slope of {slope_um:.1} µm over the pupil's radius is beyond {limit_um:.1} µm, where its pattern is no \
-         longer held: give smaller terms; large blurs are defocus, which the lens's own focus makes"
+        "the wavefront's slope of {slope_um:.1} µm over the pupil's radius exceeds {limit_um:.1} µm, the limit up to which its pattern is \
+         computed: give smaller terms; for large blur, defocus the lens by its focus distance"
     )]
     Slope {
         /// The maximum slope, µm.
@@ -57,8 +59,8 @@ pub enum EffectsError {
     },
     /// A function too wide for displaced samples.
     #[error(
-        "only {core:.2} of the light falls near enough to displace samples by (all within a pixel, none beyond 2.5 px; {least} is the least): remove \
-         \"spread_by\", since the film keeps such a function"
+        "only a fraction of {core:.2} of the light falls close enough for displaced samples (all within a pixel, none beyond 2.5 px; the minimum \
+         is {least}): remove \"spread_by\", so that the film applies the function"
     )]
     WideCore {
         /// The fraction of the light in the core.
@@ -68,7 +70,7 @@ pub enum EffectsError {
     },
     /// An image whose samples do not fill its rows.
     #[error(
-        "a picture of {count} samples is no whole number of rows of {width}: give one sample or more, in full rows"
+        "the point-spread image has {count} samples, which do not fill rows of {width}: give one sample or more, in full rows"
     )]
     Samples {
         /// Number of samples.
@@ -77,7 +79,7 @@ pub enum EffectsError {
         width: usize,
     },
     /// A sample of an image that is not valid light.
-    #[error("column {column} of row {row} is {value}: the picture of a point's light has numbers from 0, none below")]
+    #[error("column {column} of row {row} of the point-spread image is {value}; expected a number of at least 0")]
     NoLight {
         /// The column, from 0.
         column: usize,
@@ -87,12 +89,12 @@ pub enum EffectsError {
         value: f32,
     },
     /// An image without light.
-    #[error("the picture of a point's light is 0 everywhere: give one in which some light arrives")]
+    #[error("the point-spread image is 0 everywhere: give one with light")]
     Dark,
     /// An image whose samples are farther apart than pixels.
     #[error(
-        "the picture's samples lie {step_um:.3} µm apart on the sensor (at 780 nm, if it scales with the wavelength), farther than \
-         the pixels' {pixel_um:.3} µm: light would arrive in separate dots; give a finer picture and its \"image_pitch_um\""
+        "the point-spread image's samples are {step_um:.3} µm apart on the sensor (at 780 nm, if it scales with the wavelength), more than the \
+         pixel pitch of {pixel_um:.3} µm: light would fall in separate dots; give a finer image and its \"image_pitch_um\""
     )]
     Coarse {
         /// Pitch of the samples, µm.
@@ -102,7 +104,7 @@ pub enum EffectsError {
     },
     /// An image that spreads light too far.
     #[error(
-        "the picture spreads light over {reach_px} px (at 780 nm, if it scales), and {most_px} is the most: crop it"
+        "the point-spread image spreads light over {reach_px} px (at 780 nm, if it scales with the wavelength); the maximum is {most_px}: crop it"
     )]
     Wide {
         /// Its reach, px.
@@ -112,8 +114,8 @@ pub enum EffectsError {
     },
     /// A function over the field whose samples are farther apart than pixels.
     #[error(
-        "the function's samples lie {step_um:.3} µm apart on the sensor, farther than the pixels' {pixel_um:.3} µm: light would arrive in separate dots; \
-         export it with a smaller spacing (\"image delta\")"
+        "the function's samples are {step_um:.3} µm apart on the sensor, more than the pixel pitch of {pixel_um:.3} µm: light would fall in \
+         separate dots; export it with a smaller spacing (\"image delta\")"
     )]
     CoarseFunction {
         /// Pitch of the samples, µm.
@@ -122,7 +124,7 @@ pub enum EffectsError {
         pixel_um: f64,
     },
     /// A function over the field that spreads light too far.
-    #[error("the function spreads light over {reach_px} px, and {most_px} is the most: export it over a smaller area")]
+    #[error("the function spreads light over {reach_px} px; the maximum is {most_px}: export it over a smaller area")]
     WideFunction {
         /// Its reach, px.
         reach_px: usize,
@@ -131,13 +133,13 @@ pub enum EffectsError {
     },
     /// Functions over the field that do not form a table.
     #[error(
-        "functions over the field need distances from the axis that rise, as many at every wavelength, and wavelengths that rise"
+        "functions over the field need rising distances from the axis, the same number at every wavelength, and rising wavelengths"
     )]
     SpreadTable,
     /// A table of modulation that no lens has.
     #[error(
-        "the modulation is no sum of Gaussians: the nearest is off by {deviation:.3}, and {most} is the most; expected modulations that fall from 1 \
-         with the frequency"
+        "the modulation is not a sum of Gaussians: the closest fit deviates by {deviation:.3}, and the maximum is {most}; expected modulations \
+         that fall from 1 with the frequency"
     )]
     Modulation {
         /// Deviation of the best fit.
@@ -146,15 +148,14 @@ pub enum EffectsError {
         most: f64,
     },
     /// A margin outside its range.
-    #[error("a margin of {margin} is not within 0 to 1 of the picture's size")]
+    #[error("the margin is {margin}; expected 0 to 1, as a fraction of the image's size")]
     Margin {
         /// Value given.
         margin: f64,
     },
     /// A margin that no effect uses.
     #[error(
-        "\"margin\" has no effect without an effect that takes light from outside the picture: remove it, or add \
-         [effects.glare]"
+        "\"margin\" has no effect without an effect that uses light from outside the image: remove it, or add [effects.glare]"
     )]
     IdleMargin,
 }

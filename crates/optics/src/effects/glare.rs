@@ -101,7 +101,7 @@ impl Glare {
         if p.scatter == 0.0 {
             return EffectStatus::LeftOut("nothing is scattered".to_owned());
         }
-        let end = p.reach_mm.map_or_else(|| "over the whole plane".to_owned(), |mm| format!("as far as {mm} mm"));
+        let end = p.reach_mm.map_or_else(|| "over the whole plane".to_owned(), |mm| format!("up to {mm} mm"));
         let how = format!(
             "{} of the light scattered {end}, falling with r^-{} beyond {} µm",
             p.scatter, p.exponent, p.core_um

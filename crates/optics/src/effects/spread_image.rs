@@ -108,10 +108,11 @@ impl SpreadImage {
         let size = format!("{} × {} samples, {} µm apart", p.width, p.height(), p.pitch_um);
         let off = |off: f64| {
             format!(
-                "a table of modulation as a round sum of Gaussians, {size}, {scale} and over the picture; modulation off by {off:.3} at most"
+                "a table of modulation as a rotationally symmetric sum of Gaussians, {size}, {scale} and over the image; modulation error at most \
+                 {off:.3}"
             )
         };
-        let picture = || format!("a picture of {size}, {scale}");
+        let picture = || format!("an image of {size}, {scale}");
         EffectStatus::Modelled(p.deviation.map_or_else(picture, off))
     }
 

@@ -41,41 +41,42 @@ pub enum FrontError {
     },
     /// A camera on the wrong side of the mirror.
     #[error(
-        "the mirror is seen from inside: the camera stands behind its reflecting side, which faces away from its axis and towards the camera; move it farther (distance_mm) or turn it (rotation_deg)"
+        "the mirror is seen from inside: the camera is behind its reflecting side, which faces away from the mirror's axis and must face the \
+         camera; move it farther (distance_mm) or turn it (rotation_deg)"
     )]
     SeenFromInside,
     /// A mirror outside the camera's view.
-    #[error("no pixel of the picture sees the mirror: bring it nearer, turn it, or use a wider lens")]
+    #[error("no pixel of the image sees the mirror: move it nearer, turn it, or use a wider lens")]
     NotVisible,
     /// Glass without layers.
-    #[error("the wind-screen has no layers: give at least one, or leave them out for laminated glass")]
+    #[error("the windscreen has no layers: give at least one, or leave them out for laminated glass")]
     NoLayers,
     /// A lens that reaches through the glass.
-    #[error("the wind-screen cuts through the lens or stands behind it: move it farther (distance_mm) or tilt it less")]
+    #[error("the windscreen intersects the lens or is behind it: move it farther (distance_mm) or tilt it less")]
     ThroughLens,
     /// A lens that reaches beyond the dirt.
     #[error(
-        "the dirt lies within the lens or behind its front: distance_mm counts from the entrance pupil, which lies behind the first \
-         surface; move it farther, or tilt it less"
+        "the dirt is inside the lens or behind its front: distance_mm is measured from the entrance pupil, which is behind the first surface; move \
+         it farther, or tilt it less"
     )]
     DirtInLens,
     /// Faces that meet within the image.
     #[error(
-        "the picture looks through the wind-screen where its faces cross, or where light cannot leave it: make the wedge (wedge_mrad) \
-         smaller or the middle layer thicker, or curve it less"
+        "some pixels look through the windscreen where its faces cross, or where light cannot leave it: make the wedge (wedge_mrad) smaller or the \
+         middle layer thicker, or curve it less"
     )]
     FacesCross,
     /// Glass that no ray passes.
-    #[error("no pixel of the picture looks through the wind-screen: turn it towards the view (tilt_deg, yaw_deg)")]
+    #[error("no pixel of the image looks through the windscreen: turn it towards the view (tilt_deg, yaw_deg)")]
     NotLookedThrough,
     /// Drops beyond the glass.
     #[error(
-        "the drops lie where the curved wind-screen has no surface: make their size_mm smaller or their offset_mm less"
+        "the drops are where the curved windscreen has no surface: make their size_mm smaller or their offset_mm less"
     )]
     DropsOffGlass,
     /// Drops that are not in the image.
     #[error(
-        "no pixel of the picture looks through the drops' rectangle: move it (offset_mm) or make it larger (size_mm)"
+        "no pixel of the image looks through the drops' rectangle: move it (offset_mm) or make it larger (size_mm)"
     )]
     DropsNotSeen,
     /// A mask whose number of texels does not match its size.

@@ -32,8 +32,8 @@ pub enum OpticsError {
     },
     /// An image mostly at the edge of the field.
     #[error(
-        "the picture reaches {radius_mm:.6} mm from the principal point, {:.3e} focal lengths of {focal_length_mm:e} mm: nearly all of \
-         it would look sideways and be black; give a longer focal length (a narrower field)",
+        "the image extends {radius_mm:.6} mm from the principal point, {:.3e} focal lengths of {focal_length_mm:e} mm: nearly all of it would look \
+         sideways and be black; give a longer focal length (a narrower field)",
         radius_mm / focal_length_mm
     )]
     TooWide {
@@ -44,8 +44,8 @@ pub enum OpticsError {
     },
     /// A distortion beyond that of any real lens.
     #[error(
-        "the distortion moves a point at {radius_mm:.6} mm from the principal point to {:.3e} times that distance or nowhere; no lens \
-         does: check the coefficients and the unit of their radius",
+        "the distortion moves a point at {radius_mm:.6} mm from the principal point to {:.3e} times that distance or to no finite position; no \
+         lens does this: check the coefficients and the unit of their radius",
         ratio
     )]
     WildDistortion {
@@ -110,8 +110,8 @@ pub enum OpticsError {
     },
     /// An aperture that clips the bundle on the axis and so acts as the stop in place of the f-number.
     #[error(
-        "{rim} has a radius of {radius_mm} mm but the f-number's bundle on the axis needs {needed_mm:.6} mm there: the rim \
-         would be the stop; enlarge it or raise f_number"
+        "{rim} has a radius of {radius_mm} mm, but the axial bundle of this f-number needs {needed_mm:.6} mm there: this aperture would be the \
+         stop; enlarge it or raise f_number"
     )]
     RimIsStop {
         /// Name of the aperture.
@@ -122,7 +122,7 @@ pub enum OpticsError {
         needed_mm: f64,
     },
     /// An aperture that is not between the plane in focus and the sensor.
-    #[error("{rim} at {position_mm} mm lies beyond the {plane}, which is at {plane_mm:.6} mm")]
+    #[error("{rim} at {position_mm} mm is beyond the {plane}, which is at {plane_mm:.6} mm")]
     RimMisplaced {
         /// Name of the aperture.
         rim: &'static str,
@@ -153,12 +153,12 @@ pub enum OpticsError {
     },
     /// A distortion for a lens that has its own.
     #[error(
-        "prescriptions, ray-transfer functions, calibrated and telecentric cameras have their own distortion: leave out the lens's"
+        "prescriptions, ray-transfer functions, calibrated and telecentric cameras have their own distortion: remove that of the lens"
     )]
     OwnDistortion,
     /// A lateral colour for a lens that does not accept one.
     #[error(
-        "a {kind} takes no \"lateral_colour\": a prescription's glasses make their own, a telecentric camera has none; remove it"
+        "a {kind} accepts no \"lateral_colour\": a prescription's glasses already determine it, a telecentric camera has none; remove it"
     )]
     OwnColour {
         /// Kind of the lens.
@@ -172,7 +172,8 @@ pub enum OpticsError {
     Calibration(#[from] CalibrationError),
     /// A calibration for another image size.
     #[error(
-        "the sensor has {got_width} × {got_height} pixels but the calibration is of {width} × {height}: give the sensor the calibration's size, or a calibration of this picture"
+        "the sensor has {got_width} × {got_height} pixels but the calibration is of {width} × {height}: give the sensor the calibration's size, or \
+         give a calibration of this image size"
     )]
     CalibratedSize {
         /// The sensor's width.
@@ -185,7 +186,7 @@ pub enum OpticsError {
         height: usize,
     },
     /// A calibration without a direction at its own principal point.
-    #[error("the calibration sees nothing at its principal point ({x}, {y}) px, where the focal length is taken")]
+    #[error("the calibration has no ray at its principal point ({x}, {y}) px, where the focal length is computed")]
     BlindCentre {
         /// cx, px.
         x: f64,
@@ -198,7 +199,9 @@ pub enum OpticsError {
     )]
     Falloff,
     /// A relative illumination that ends inside the image.
-    #[error("the relative illumination is known to {end}{unit}, but the picture reaches {needed:.4}{unit}: extend it")]
+    #[error(
+        "the relative illumination is given up to {end}{unit}, but the image extends to {needed:.4}{unit}: extend it"
+    )]
     FalloffEnds {
         /// End of the table.
         end: f64,
@@ -218,7 +221,7 @@ pub enum OpticsError {
     Front(#[from] FrontError),
     /// Front optics that cannot be applied to stored radiance.
     #[error(
-        "the route at the pupil cannot serve a camera with a {what} in front of its lens: render it with route = \"lens\""
+        "route = \"pupil\" does not support a camera with a {what} in front of its lens: render it with route = \"lens\""
     )]
     FrontNeedsLens {
         /// Kind of the front optics.
@@ -226,7 +229,7 @@ pub enum OpticsError {
     },
     /// A lens unsuitable for the at-the-pupil route.
     #[error(
-        "the route at the pupil needs one viewpoint that is known; that of a {kind} is not: render it with route = \"lens\""
+        "route = \"pupil\" needs one known viewpoint, which a {kind} does not have: render it with route = \"lens\""
     )]
     NoPupilRoute {
         /// Kind of the lens.
@@ -237,8 +240,8 @@ pub enum OpticsError {
     Distortion(#[from] DistortionError),
     /// A stored radiance image without all directions that an image needs.
     #[error(
-        "the stored radiance image lacks directions that the picture needs: {:.4}° beyond its {edge} edge; \
-         render it with more overscan or use a narrower lens or a smaller sensor",
+        "the stored radiance image lacks directions that the image needs: {:.4}° beyond its {edge} edge; render it with more overscan or use a \
+         narrower lens or a smaller sensor",
         missing_rad.to_degrees()
     )]
     MissingDirections {
@@ -249,8 +252,8 @@ pub enum OpticsError {
     },
     /// Distances of a blend in the wrong order.
     #[error(
-        "wholly blurred to {blurred_near_m} m, sharp from {sharp_near_m} m to {sharp_far_m} m, wholly blurred from \
-         {blurred_far_m} m on: these distances must rise"
+        "fully blurred up to {blurred_near_m} m, sharp from {sharp_near_m} m to {sharp_far_m} m, fully blurred from {blurred_far_m} m on: these \
+         distances must rise"
     )]
     SharpRange {
         /// Fully blurred from here to the camera, m.
@@ -263,7 +266,9 @@ pub enum OpticsError {
         blurred_far_m: f64,
     },
     /// Radiance that is not a finite number.
-    #[error("the radiance at column {x}, row {y} is no finite number: depth of field would spread it; render it anew")]
+    #[error(
+        "the radiance at column {x}, row {y} is not a finite number: depth of field would spread it; render the image again"
+    )]
     RadianceNotFinite {
         /// Column.
         x: usize,
@@ -272,8 +277,7 @@ pub enum OpticsError {
     },
     /// A stored radiance image lacks a whole view that an image needs.
     #[error(
-        "the stored radiance image lacks its {view} view, at which the picture looks; render it with the lens that looks \
-         there, or use a narrower one"
+        "the stored radiance image lacks its {view} view, which the image needs; render it with a lens that sees it, or use a narrower lens"
     )]
     MissingView {
         /// Name of the view.
@@ -283,7 +287,7 @@ pub enum OpticsError {
     #[error("a stored radiance image needs at least one view, and pixels in each")]
     NoViews,
     /// An image without a single ray.
-    #[error("no pixel of the picture has a ray: the lens sees nothing there")]
+    #[error("no pixel of the image has a ray: the lens sees nothing there")]
     SeesNothing,
     /// A cube whose size is not that of its stated geometry.
     #[error("the image has {got_width} × {got_height} pixels but its stated geometry has {width} × {height}")]

@@ -49,7 +49,7 @@ pub enum PrescriptionError {
         overlap_mm: f64,
     },
     /// A wavelength outside the modelled range.
-    #[error("a reference wavelength of {nm} nm: it must be from 300 to 1100 nm")]
+    #[error("the reference wavelength is {nm} nm; it must be from 300 to 1100 nm")]
     Wavelength {
         /// The wavelength, nm.
         nm: f64,
@@ -64,7 +64,7 @@ pub enum PrescriptionError {
     },
     /// A sensor that is not in air.
     #[error(
-        "behind the last surface is glass; the sensor stands in air: add the last surface of the glass (a plane for a cover glass)"
+        "the medium behind the last surface is glass, but the sensor is in air: add the last surface of the glass (a plane for a cover glass)"
     )]
     LastMedium,
     /// A lens without a real image.
@@ -77,7 +77,7 @@ pub enum PrescriptionError {
     },
     /// A sensor inside the lens.
     #[error(
-        "the paraxial image lies {distance_mm:.6} mm behind the last surface; it must be behind it (a positive distance) for a sensor to stand there"
+        "the paraxial image is {distance_mm:.6} mm behind the last surface; the distance must be positive, since the sensor is placed there"
     )]
     ImageInside {
         /// Distance of the image from the last vertex, mm.
@@ -85,7 +85,7 @@ pub enum PrescriptionError {
     },
     /// A pupil at infinity.
     #[error(
-        "the entrance pupil lies at infinity (the stop is in the front group's focal plane): an object-side telecentric lens is not modelled"
+        "the entrance pupil is at infinity (the stop is in the front group's focal plane): an object-side telecentric lens is not modelled"
     )]
     Telecentric,
     /// Total reflection in the axial bundle.
@@ -126,7 +126,8 @@ pub enum PrescriptionError {
     },
     /// A cone of light that no point of the object emits.
     #[error(
-        "the aperture asks for a cone of sine {sine:.4} from an object {distance_m} m in front of the entrance pupil; it must be below 1, and the object in front of the pupil"
+        "the aperture requires a cone of half-angle sine {sine:.4} from an object {distance_m} m in front of the entrance pupil; the sine must be \
+         below 1, and the object in front of the pupil"
     )]
     Cone {
         /// Sine of its half angle at the object.
@@ -135,14 +136,14 @@ pub enum PrescriptionError {
         distance_m: f64,
     },
     /// An invalid focus distance.
-    #[error("a focus distance of {focus_m} m: it must be positive; infinity is legal")]
+    #[error("the focus distance is {focus_m} m; it must be positive or infinity")]
     FocusDistance {
         /// The distance, m.
         focus_m: f64,
     },
     /// An invalid focusing group.
     #[error(
-        "the focusing group {first} to {last}: it must be a range of the {count} surfaces that does not hold all the lens's power in a place it cannot leave; count from 1"
+        "the focusing group {first} to {last} is invalid; expected a range of the {count} surfaces, counted from 1, that begins and ends in air"
     )]
     Group {
         /// Its first surface.
@@ -154,7 +155,7 @@ pub enum PrescriptionError {
     },
     /// A focusing group without enough travel.
     #[error(
-        "moving surfaces {first} to {last} within the room they have ({low_mm:.4} to {high_mm:.4} mm) does not bring {focus_m} m into focus"
+        "moving surfaces {first} to {last} within their available travel ({low_mm:.4} to {high_mm:.4} mm) does not focus the lens at {focus_m} m"
     )]
     GroupRange {
         /// Its first surface.
@@ -169,7 +170,7 @@ pub enum PrescriptionError {
         focus_m: f64,
     },
     /// A sensor without light.
-    #[error("no ray from the middle of the sensor comes through the lens at {nm} nm")]
+    #[error("no ray from the middle of the sensor passes through the lens at {nm} nm")]
     Dark {
         /// The wavelength, nm.
         nm: f64,

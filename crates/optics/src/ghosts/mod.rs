@@ -58,14 +58,13 @@ impl GhostSettings {
     /// Status of ghosts (needed or not) with the reason.
     pub(crate) fn status(settings: Option<&Self>) -> EffectStatus {
         match settings {
-            None => EffectStatus::LeftOut("not asked for".to_owned()),
+            None => EffectStatus::LeftOut("not requested".to_owned()),
             Some(Self { sensor_reflectance: 0.0 }) => EffectStatus::Modelled(
-                "every two surfaces of the lens, by their coatings; the sensor mirrors nothing".to_owned(),
+                "every pair of lens surfaces, by their coatings; the sensor reflects nothing".to_owned(),
             ),
             Some(Self { sensor_reflectance }) => {
-                let why = format!(
-                    "every two surfaces of the lens, by their coatings; the sensor mirrors {sensor_reflectance}"
-                );
+                let why =
+                    format!("every pair of lens surfaces, by their coatings; the sensor reflects {sensor_reflectance}");
                 EffectStatus::Modelled(why)
             }
         }

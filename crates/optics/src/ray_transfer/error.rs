@@ -7,15 +7,15 @@ pub enum RayTransferError {
     #[error("a polynomial has a coefficient that is not finite, or a power above 32")]
     Polynomial,
     /// An invalid region.
-    #[error("the rays that pass are given by ellipses at heights that rise from 0, or by circles of radii above 0")]
+    #[error("transmitted rays must be given by ellipses at heights that rise from 0, or by circles of radii above 0")]
     Pass,
     /// Wavelengths that do not rise.
-    #[error("ray-transfer functions are of one or more rising wavelengths above 0 nm")]
+    #[error("ray-transfer functions need one or more rising wavelengths above 0 nm")]
     Wavelengths,
     /// A sensor behind the input plane.
     #[error(
-        "the sensor stands {sensor_mm} mm behind the last surface, within the plane at {plane_mm} mm from which the file knows rays: \
-         give a larger distance"
+        "the sensor is {sensor_mm} mm behind the last surface, closer than the plane at {plane_mm} mm from which the file describes rays: give a \
+         larger distance"
     )]
     SensorTooNear {
         /// Position of the sensor, mm.
@@ -25,8 +25,8 @@ pub enum RayTransferError {
     },
     /// A sensor at or behind the plane of the ray-pass function.
     #[error(
-        "the plane on which the file says which rays pass lies at or behind a sensor {sensor_mm} mm behind the last surface: give a larger distance, or \
-         correct \"intersectPlaneDistance\""
+        "the plane on which the file states which rays pass is at or behind the sensor, {sensor_mm} mm behind the last surface: give a larger \
+         distance, or correct \"intersectPlaneDistance\""
     )]
     PassPlane {
         /// Position of the sensor, mm.
@@ -42,8 +42,8 @@ pub enum RayTransferError {
     },
     /// A distance that is not sharp at any sensor position.
     #[error(
-        "no place of the sensor makes {focus_m} m sharp: from {low_mm:.4} mm to {high_mm:.4} mm behind the last surface the lens is focused beyond \
-         infinity or nearer than that; give \"sensor_distance_mm\", or a distance that the lens images"
+        "no sensor position focuses the lens at {focus_m} m: from {low_mm:.4} mm to {high_mm:.4} mm behind the last surface it is focused beyond \
+         infinity or nearer than that; give \"sensor_distance_mm\", or a distance at which the lens can focus"
     )]
     Focus {
         /// The distance, m.
@@ -55,7 +55,8 @@ pub enum RayTransferError {
     },
     /// A lens without refractive power.
     #[error(
-        "rays along the axis are not bent towards it: these functions are of no lens that makes a real image from the film to the scene"
+        "rays along the axis are not bent towards it: these functions do not describe a lens that forms a real image; expected functions from the \
+         film to the scene"
     )]
     Powerless,
 }

@@ -179,7 +179,7 @@ fn what_is_chosen_follows_the_width() {
     let (wide, width) = by(gaussian(1.2));
     assert!(wide == SpreadBy::Film && width.film_error < 0.01, "{width:?}");
     let message = effects(gaussian(3.0), Some(SpreadBy::Samples)).expect_err("wide").to_string();
-    assert!(message.contains("of the light falls near enough"), "{message}");
+    assert!(message.contains("of the light falls close enough"), "{message}");
     let film = effects(gaussian(0.4), Some(SpreadBy::Film)).expect("legal");
     assert!(film.sample_spread(&raster(), RANGE).is_none());
     assert_eq!((film.film_part(true), film.film_part(false)), (FilmPart::Whole, FilmPart::Whole));

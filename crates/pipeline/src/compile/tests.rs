@@ -231,7 +231,7 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     let said = fault(GLARE, "accumulate = \"electrons\"");
     assert!(said.starts_with("job.toml:22:14: render.accumulate") && said.contains("[effects] require one"), "{said}");
     let said = fault("glare = { scatter = 0.02, core_um = 10, exponent = 2 }", "");
-    assert!(said.contains("effects.glare") && said.contains("no finite sum"), "{said}");
+    assert!(said.contains("effects.glare") && said.contains("no finite integral"), "{said}");
     let said = fault("margin = 0.5, glare = { scatter = 0, core_um = 10, exponent = 3 }", "");
     assert!(said.contains("effects.margin") && said.contains("no effect"), "{said}");
     let said = fault("glare = { scatter = 0.7, core_um = 10, exponent = 3 }", "");

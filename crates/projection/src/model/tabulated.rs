@@ -47,7 +47,7 @@ impl Tabulated {
         }
         let [first, second] = [points[0], points[1]].map(|(angle, radius)| (angle * angle, radius / angle));
         let on_axis = (first.1 * second.0 - second.1 * first.0) / (second.0 - first.0);
-        legal("the focal length", on_axis, on_axis > 0.0, "a table whose first points tell one above 0")?;
+        legal("the focal length", on_axis, on_axis > 0.0, "a table whose first points give one above 0")?;
         let axis = Knot { angle: 0.0, radius: 0.0, ratio: on_axis, second_derivative: 0.0 };
         let beyond = points.iter().map(|(angle, radius)| Knot {
             angle: *angle,
@@ -75,7 +75,7 @@ impl Tabulated {
             let t = from.angle;
             let slope = [c0 + t * c1, 2.0 * (c1 + t * c2), 3.0 * (c2 + t * c3), 4.0 * c3];
             let falls = slope[0] <= 0.0 || first_sign_change(&slope, h).is_some();
-            let told = "a table whose curve rises everywhere: its points jump, as a wrong number does";
+            let told = "a table whose curve rises everywhere; check its numbers, since its points jump";
             legal("a field angle before which the radius falls", pair[1].angle.to_degrees(), !falls, told)?;
         }
         Ok(())

@@ -31,7 +31,7 @@ impl Effect for BrighterFatter {
         checks.not_negative("brighter_fatter_per_e", a);
         checks.agree("brighter_fatter_per_e", a * full_well_e <= 0.25, || {
             format!(
-                "a full well would move its borders by {} pixels, and the model holds for small shifts: give at most {}",
+                "a full well would shift the pixel's borders by {} pixels, and the model is valid for small shifts: give at most {}",
                 a * full_well_e,
                 0.25 / full_well_e
             )
@@ -41,7 +41,7 @@ impl Effect for BrighterFatter {
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
         match self.shift_per_e {
             0.0 => EffectStatus::NotDescribed,
-            a => EffectStatus::Modelled(format!("borders move by {a} pixels an electron")),
+            a => EffectStatus::Modelled(format!("borders shift by {a} pixels per electron")),
         }
     }
 }

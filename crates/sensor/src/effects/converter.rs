@@ -39,7 +39,7 @@ impl Effect for Converter {
         checks.positive("digital_gain", self.digital_gain);
         let black = self.black_level_dn;
         let is_below = black >= 0.0 && black < largest_dn(self.bits);
-        checks.legal("black_level_dn", black, is_below, "a number from 0 to below the converter's largest");
+        checks.legal("black_level_dn", black, is_below, "a number from 0 to below the ADC's maximum");
         let is_bits = (1..=24).contains(&self.bits);
         checks.legal("bits", f64::from(self.bits), is_bits, "a whole number from 1 to 24");
     }

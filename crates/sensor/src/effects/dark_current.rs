@@ -114,7 +114,11 @@ impl Effect for DarkCurrent {
         }
         if let Some(rts) = &self.dark_current_rts {
             rts.check(
-                ["dark.dark_current_rts.share", "dark.dark_current_rts.mean_e_s", "dark.dark_current_rts.dwell_frames"],
+                [
+                    "dark.dark_current_rts.fraction",
+                    "dark.dark_current_rts.mean_e_s",
+                    "dark.dark_current_rts.dwell_frames",
+                ],
                 checks,
             );
         }
@@ -130,9 +134,9 @@ impl Effect for DarkCurrent {
         }
         let mean_e = four_digits(mean_e);
         let counted = if facts.noise {
-            format!("{mean_e} e⁻ a pixel on average, Poisson")
+            format!("{mean_e} e⁻ per pixel on average, Poisson")
         } else {
-            format!("{mean_e} e⁻ a pixel; its shot noise is switched off")
+            format!("{mean_e} e⁻ per pixel; its shot noise is switched off")
         };
         EffectStatus::Modelled(counted + &differences(self))
     }
@@ -190,7 +194,7 @@ fn differences(dark: &DarkCurrent) -> String {
         text += &format!("; {} of pixels are hot", hot.fraction);
     }
     if let Some(rts) = dark.dark_current_rts {
-        text += &format!("; {} of pixels blink", rts.fraction);
+        text += &format!("; {} of pixels switch at random (RTS)", rts.fraction);
     }
     text
 }

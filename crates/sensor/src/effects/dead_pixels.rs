@@ -27,7 +27,7 @@ impl Effect for DeadPixels {
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
         match self.fraction {
             0.0 => EffectStatus::NotDescribed,
-            fraction => EffectStatus::Modelled(format!("{fraction} of pixels hold no charge")),
+            fraction => EffectStatus::Modelled(format!("{fraction} of pixels collect no charge")),
         }
     }
 

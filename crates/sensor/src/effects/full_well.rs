@@ -76,15 +76,15 @@ impl Effect for FullWell {
         let clips = match self.blooming {
             None => format!("a pixel's charge above {capacity} e⁻ is lost"),
             Some(Blooming::Column { overflow_fraction: b }) => {
-                format!("of what exceeds {capacity} e⁻, {b} goes on along the column, the rest is drained")
+                format!("of the charge above {capacity} e⁻, {b} overflows along the column, the rest is drained")
             }
             Some(Blooming::Around { overflow_fraction: b }) => {
-                format!("of what exceeds {capacity} e⁻, {b} goes on to all sides, the rest is drained")
+                format!("of the charge above {capacity} e⁻, {b} overflows to all sides, the rest is drained")
             }
         };
         let range_e = facts.converter_range_dn / operation.gain_dn_e;
         if range_e < capacity {
-            EffectStatus::WhereNeeded(format!("{clips}; the converter's range ends before, at {range_e:.0} e⁻"))
+            EffectStatus::WhereNeeded(format!("{clips}; the ADC's range ends earlier, at {range_e:.0} e⁻"))
         } else {
             EffectStatus::WhereNeeded(clips)
         }

@@ -49,15 +49,15 @@ impl Effect for Lag {
             checks.fraction_above_0("lag.share", trap.fraction);
             checks.positive("lag.time_constant_s", trap.time_constant_s);
             checks.agree("lag", facts.frame_period_s.is_some(), || {
-                "what is given back depends on the time between frames: give \"frame_period_s\"".to_owned()
+                "the released charge depends on the time between frames: give \"frame_period_s\"".to_owned()
             });
             checks.agree("lag", !facts.is_split_pixel, || {
-                "traps are those of one photodiode, and a capture of another sensitivity has its own: remove one of both".to_owned()
+                "the traps are those of one photodiode, but a capture of another sensitivity has a separate photodiode: remove one of the two".to_owned()
             });
         }
         let kept = self.kept();
         let legal = kept <= 0.5 || self.traps.is_empty();
-        checks.agree("lag", legal, || format!("traps keep {kept} in all: give at most 0.5"));
+        checks.agree("lag", legal, || format!("the traps retain {kept} in total: give at most 0.5"));
     }
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
@@ -66,7 +66,7 @@ impl Effect for Lag {
         }
         let kind = |t: &Trap| format!("{} of the charge for about {} s", t.fraction, t.time_constant_s);
         let kinds: Vec<_> = self.traps.iter().map(kind).collect();
-        EffectStatus::Modelled(format!("traps keep {}", kinds.join(", ")))
+        EffectStatus::Modelled(format!("traps retain {}", kinds.join(", ")))
     }
 }
 

@@ -38,7 +38,7 @@ impl Neighbours {
         }
         let given = self.given();
         checks.agree(key, given <= 0.75, || {
-            format!("a pixel gives {given} away in all: give at most 0.75, so that it keeps the largest part")
+            format!("a pixel passes on {given} in total: give at most 0.75, so that it retains the largest part")
         });
     }
 
@@ -114,7 +114,7 @@ impl Effect for Crosstalk {
     }
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
-        EffectStatus::Modelled(format!("{} of a pixel's light is caught in its neighbours", self.0.given()))
+        EffectStatus::Modelled(format!("{} of a pixel's light is collected by its neighbours", self.0.given()))
     }
 }
 

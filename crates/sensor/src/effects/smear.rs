@@ -71,7 +71,7 @@ impl Effect for Smear {
                 checks.legal("smear.smear_db", smear_db, legal, "a data sheet's figure of at most -20 dB");
                 checks.fraction_above_0("smear.measured_exposure_ratio", measured_exposure_ratio);
                 checks.agree("smear.smear_db", facts.frame_period_s.is_some(), || {
-                    "smear grows with the time of a whole frame: give \"frame_period_s\"".to_owned()
+                    "smear depends on the time of a whole frame: give \"frame_period_s\"".to_owned()
                 });
             }
             Self::FrameTransfer { line_shift_s } => checks.positive("smear.line_shift_s", line_shift_s),
@@ -84,7 +84,7 @@ impl Effect for Smear {
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
         EffectStatus::Modelled(match self {
             Self::Interline { smear_db, .. } => format!("interline, {smear_db} dB: a leak of {:.3e}", self.leak()),
-            Self::FrameTransfer { line_shift_s } => format!("frame transfer, {line_shift_s} s a row"),
+            Self::FrameTransfer { line_shift_s } => format!("frame transfer, {line_shift_s} s per row"),
         })
     }
 }

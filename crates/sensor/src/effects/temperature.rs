@@ -50,7 +50,7 @@ impl Temperature {
             }
         }
         checks.agree("dark.temperature_c", checks.errors.len() > before || self.factor().is_finite(), || {
-            "the dark current would be larger than any number: give temperatures nearer to each other".to_owned()
+            "the dark current would exceed the range of floating-point numbers: give temperatures closer to each other".to_owned()
         });
     }
 

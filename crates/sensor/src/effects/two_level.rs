@@ -86,7 +86,7 @@ impl Effect for RtsNoise {
     const KEY: &'static str = "sensor.rts_noise";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
-        self.0.check(["rts_noise.share", "rts_noise.mean_e", "rts_noise.dwell_frames"], checks);
+        self.0.check(["rts_noise.fraction", "rts_noise.mean_e", "rts_noise.dwell_frames"], checks);
     }
 
     fn status(&self, facts: &SensorFacts, _: &Operation) -> EffectStatus {

@@ -26,7 +26,7 @@ impl Effect for Companding {
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
-        EffectStatus::Modelled(format!("{} straight lines to {} bits", self.knees.len(), self.bits))
+        EffectStatus::Modelled(format!("{} linear segments to {} bits", self.knees.len(), self.bits))
     }
 }
 
@@ -55,7 +55,7 @@ impl Companding {
         let reaches = last[0] >= f64::from((1_u32 << linear_bits) - 1) && last[1] <= largest;
         checks.agree("companding.knees", reaches, || {
             format!(
-                "the last knee must reach the largest linear number, {}, at no more than {largest}",
+                "the last knee must reach the maximum linear number, {}, at no more than {largest}",
                 (1_u32 << linear_bits) - 1
             )
         });

@@ -99,7 +99,8 @@ impl Capture {
         }
         let read_only = self.exposure_ratio == 1.0 && self.sensitivity_ratio == 1.0 && self.full_well_e.is_none();
         checks.agree("hdr.captures.dual_conversion_gain", !self.dual_conversion_gain || read_only, || {
-            format!("entry {number} (from 0): charge that is read again has the exposure, photodiode and full well it had: remove those, or \"dual_conversion_gain\"")
+            format!("entry {number} (from 0): the second readout of a charge has its exposure, photodiode and full well: remove these keys, or \
+                     \"dual_conversion_gain\"")
         });
     }
 }

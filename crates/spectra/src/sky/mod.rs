@@ -82,7 +82,7 @@ pub enum SkyError {
         found: f64,
     },
     /// An albedo outside 0 to 1.
-    #[error("ground albedo {found} is outside 0 to 1: give the share of light that the land around reflects")]
+    #[error("ground albedo {found} is outside 0 to 1: give the fraction of light that the surrounding ground reflects")]
     Albedo {
         /// Value given.
         found: f64,

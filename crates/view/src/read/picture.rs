@@ -63,7 +63,7 @@ pub(super) fn flow_layer(file: &FoundFile, flow: &Plane<OpticalFlow>) -> Layer {
         name: file.stem.clone(),
         kind: Kind::Flow,
         unit: "px".to_owned(),
-        meaning: "place in the other frame minus place here, x right, y down; NaN: not known".to_owned(),
+        meaning: "position in the other frame minus position in this one, x right, y down; NaN: not known".to_owned(),
         size: (flow.width(), flow.height()),
         planes: vec![NamedPlane::value("X", component(0)), NamedPlane::value("Y", component(1))],
     }
@@ -75,7 +75,7 @@ pub(super) fn boxes_layer(file: &FoundFile) -> Result<Layer, Error> {
         name: file.stem.clone(),
         kind: Kind::Boxes { objects: boxes.objects.iter().map(object).collect() },
         unit: "px".to_owned(),
-        meaning: "full lines about what is seen, broken ones about whole objects".to_owned(),
+        meaning: "solid lines around visible parts, dashed lines around whole objects".to_owned(),
         size: (boxes.width_px, boxes.height_px),
         planes: Vec::new(),
     })

@@ -55,7 +55,7 @@ pub(super) fn check(p: &DropsParameters) -> Result<(), FrontError> {
         f64::from(p.count),
         least_count,
         f64::from(MAX_COUNT),
-        "1 to 1 000 000 drops, or 0 where others arrive",
+        "1 to 1 000 000 drops, or 0 if others arrive",
     )?;
     let [least, greatest] = p.radius_mm;
     positive("min_radius_mm", least)?;
@@ -70,7 +70,7 @@ pub(super) fn check(p: &DropsParameters) -> Result<(), FrontError> {
         return Ok(());
     }
     let value = if low > 1.0 { high } else { low };
-    Err(FrontError::Share { name: "the water's index", value, range: "above 1 and at most 4" })
+    Err(FrontError::Share { name: "the water's refractive index", value, range: "above 1 and at most 4" })
 }
 
 /// Batch of drops that an address belongs to.

@@ -150,20 +150,20 @@ impl MeshMirror {
             return refuse("no triangles");
         }
         if triangles.iter().flatten().any(|i| *i as usize >= positions_mm.len()) {
-            return refuse("a triangle with a corner that is not there");
+            return refuse("a triangle with a missing vertex");
         }
         if !positions_mm.iter().all(|p| p.is_finite()) {
-            return refuse("a corner that is not at a finite position");
+            return refuse("a vertex without a finite position");
         }
         if triangles.iter().any(|t| area_normal(&positions_mm, t) == DVec3::ZERO) {
             return refuse("a triangle without area");
         }
         let normals = if normals.is_empty() { smooth(&positions_mm, &triangles) } else { normals };
         if normals.len() != positions_mm.len() {
-            return refuse("normals that are not one a corner");
+            return refuse("a number of normals that differs from that of its vertices");
         }
         let normals: Option<Vec<DVec3>> = normals.into_iter().map(DVec3::try_normalize).collect();
-        let Some(normals) = normals else { return refuse("a corner without a normal") };
+        let Some(normals) = normals else { return refuse("a vertex without a normal") };
         let tree = Tree::new(&positions_mm, &triangles);
         Ok(Self { positions_mm, normals, triangles, tree })
     }

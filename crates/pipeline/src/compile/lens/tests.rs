@@ -226,7 +226,7 @@ fn the_cone_to_the_image_opens_the_lens_for_its_object() {
     let wanted_mm = 0.05 / (1.0_f64 - 0.05 * 0.05).sqrt() * distance_mm;
     assert!((near.1 / wanted_mm - 1.0).abs() < 1e-6, "{near:?} {wanted_mm}");
     let message = plan_of_file(cone(0.9, 11.0)).map(|_| ()).expect_err("too large a cone");
-    assert!(message.contains("(line 3)") && message.contains("cone of sine"), "{message}");
+    assert!(message.contains("(line 3)") && message.contains("cone of half-angle sine"), "{message}");
 }
 
 /// 64 × 48 px: outside the image, and as with a calibration of an image a third of the size.
