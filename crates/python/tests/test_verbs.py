@@ -133,5 +133,5 @@ def test_a_result_becomes_a_page_of_the_same_bytes_and_opens_no_browser(program,
     assert etendue.view(tmp_path / "flat", output=page, max_mb=4) == [page]
     program("view", tmp_path / "flat", "-o", tmp_path / "program.html", "--max-mb", "4")
     assert page.read_bytes() == (tmp_path / "program.html").read_bytes()
-    with pytest.raises(etendue.InputError, match="already there"):
+    with pytest.raises(etendue.InputError, match="already exists"):
         etendue.view(tmp_path / "flat", output=page)
