@@ -81,7 +81,7 @@ impl Display for Error {
                 match errors.len() {
                     0 | 1 => Ok(()),
                     n if n > MAX_SHOWN => {
-                        writeln!(f, "and {} more; {n} errors in all; nothing was written", n - MAX_SHOWN)
+                        writeln!(f, "and {} more; {n} errors in total; nothing was written", n - MAX_SHOWN)
                     }
                     n => writeln!(f, "{n} errors; nothing was written"),
                 }

@@ -67,7 +67,7 @@ pub(crate) fn check_bytes(file: &Path, bytes: u128, packed: usize) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "unpacks to {} MiB, where a file of its size may unpack to {} MiB; make the picture smaller, {}",
+        "decompresses to {} MiB; at most {} MiB are allowed for a file of its size: make the image smaller, {}",
         mebibytes(bytes),
         mebibytes(most),
         PICTURE.remedy_bytes(bytes)
@@ -90,7 +90,7 @@ pub(crate) fn check_within(file: &Path, samples: u128, most: u128) -> Result<(),
     Err(Error::coded(
         ErrorCode::TooLarge,
         file,
-        format!("unpacks to {found} MiB, where {expected} MiB are expected; render it again"),
+        format!("decompresses to {found} MiB; expected {expected} MiB: render it again"),
     ))
 }
 

@@ -109,8 +109,8 @@ impl ExrFile {
         Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            "a cube map (its attribute \"envmap\" says so), whose six faces are not read; store it as a panorama of latitude and longitude \
-             (OpenEXR's exrenvmap -latlong does so)",
+            "a cube map (by its attribute \"envmap\"), which is not supported; convert it to a latitude-longitude panorama, for example with \
+             OpenEXR's exrenvmap -latlong",
         ))
     }
 }
@@ -221,10 +221,10 @@ fn explain(cause: &::exr::error::Error) -> String {
     match cause {
         ::exr::error::Error::NotSupported(what) => {
             format!(
-                "an EXR feature that is not supported ({what}); store the file again as flat scan lines with ZIP compression"
+                "uses an EXR feature that is not supported ({what}); save the file as flat scan lines with ZIP compression"
             )
         }
-        other => format!("not a readable EXR file ({other}); it may be truncated: make or fetch it again"),
+        other => format!("not a readable EXR file ({other}); it may be truncated: create or download it again"),
     }
 }
 
@@ -242,7 +242,7 @@ fn add_layer(
         return Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            format!("parts of different sizes ({sizes}); store each part as a file of its own"),
+            format!("has parts of different sizes ({sizes}); store each part as a separate file"),
         ));
     }
     read.compression = layer.encoding.compression.to_string().trim_end_matches(" compression").to_uppercase();

@@ -9,7 +9,7 @@ use crate::photograph::{Encoding, Photograph, decode_photograph};
 pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     let photograph = decode_photograph(file, bytes)?;
     let negative = file.extension().is_some_and(|name| name.eq_ignore_ascii_case("dng"));
-    let mut report = FileReport::new(file, if negative { "raw, DNG" } else { "picture, TIFF" });
+    let mut report = FileReport::new(file, if negative { "raw, DNG" } else { "image, TIFF" });
     report.state("size", format!("{} x {} pixels", photograph.width, photograph.height));
     for channel in &photograph.channels {
         let values = channel.samples.iter().map(|v| f64::from(*v));

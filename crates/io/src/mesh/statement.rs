@@ -124,7 +124,7 @@ impl TobjInput {
         read(&mut rest).map_err(|cause| {
             let taken = &self.text[..self.text.len() - rest.len()];
             let (statement, line) = taken.lines().zip(&self.lines).last().unwrap_or(("", &0));
-            Error::at(file, *line, format!("`{statement}` is refused ({cause}); correct or remove this line"))
+            Error::at(file, *line, format!("`{statement}` is invalid ({cause}); correct or remove this line"))
         })
     }
 
