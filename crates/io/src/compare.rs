@@ -267,16 +267,15 @@ mod tests {
         assert_eq!(told(&electrons, &exr(None, &["n"])), "", "a file of another program states nothing");
         assert_eq!(
             told(&electrons, &exr(Some("depth"), &["n"])),
-            "b.exr: states the quantity \"depth\", the other \"electrons\", whose channels cannot be compared; \
-             compare results of one kind"
+            "b.exr: the quantity is \"depth\", that of the other file \"electrons\"; compare files of the same kind"
         );
         assert_eq!(
             told(&exr(None, &["a", "b", "c", "d", "e", "f", "x"]), &exr(None, &["x", "y"])),
-            "b.exr: has other channels: y in place of a, b, c, d and 2 more; compare results of one kind"
+            "b.exr: has the channels y instead of a, b, c, d and 2 more; compare files of the same kind"
         );
         assert_eq!(
             told(&exr(None, &["n", "variance.n"]), &electrons),
-            "b.exr: has no variances, the other has; render both with output.variance or none"
+            "b.exr: has no variances, but the other file has; render both with output.variance, or both without"
         );
     }
 
@@ -296,7 +295,7 @@ mod tests {
         let byte = image::DynamicImage::ImageLuma8(image::ImageBuffer::from_pixel(1, 1, image::Luma([7])));
         let told = read_pair(&a, &written("c.png", &byte)).expect_err("another kind").to_string();
         assert!(
-            told.ends_with("c.png: holds grey of 8 bits, the other grey of 16 bits; compare pictures of one kind"),
+            told.ends_with("c.png: contains 8-bit grey, the other file 16-bit grey; compare images of the same kind"),
             "{told}"
         );
     }

@@ -125,8 +125,7 @@ mod tests {
         assert!(check(file, 2_000_000 * 76, 500).is_ok());
         // A header of 20 000² pixels; 100 MB that decompress to 100 GB.
         let message = check(file, 400_000_000, 500).expect_err("a bomb").to_string();
-        let expected = "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller, or raise the limit: \
-                        `limit` picture-mib=1526";
+        let expected = "a.exr: decompresses to 1526 MiB; at most 1024 MiB are allowed for a file of its size: make the image smaller, or raise the limit: `limit` picture-mib=1526";
         assert_eq!(message, expected);
         assert!(check(file, 25_000_000_000, 100_000_000).is_err());
         // A measurement of 40 GB in a file of 5 GB.

@@ -275,11 +275,11 @@ mod tests {
         let message = |name: &str, content: &str| read(name, content).expect_err("a fault");
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n\n2,1,2,3\n1.5,1,2,3\n"),
-            "a.csv:5: the time 1.5 s follows 2 s of line 4: sort the rows by rising time, each once"
+            "a.csv:5: the time 1.5 s follows 2 s of line 4: sort the rows by increasing time, each once"
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m\n0,1,2\n"),
-            "a.csv:1: nothing is called z_m; expected time_s, x_m, y_m, z_m and, of what turns, qw, qx, qy, qz or yaw_deg, pitch_deg, roll_deg"
+            "a.csv:1: missing z_m; expected time_s, x_m, y_m, z_m and, for rotation, qw, qx, qy, qz or yaw_deg, pitch_deg, roll_deg"
         );
         assert!(message("a.csv", "0,1,2,3\n").starts_with("a.csv:1: nothing is called time_s, x_m, y_m, z_m;"));
         assert!(message("a.csv", "time_s,x_m,y_m,z_m,qw,qx\n").starts_with("a.csv:1: nothing is called qy, qz;"));
@@ -289,7 +289,7 @@ mod tests {
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m,x_m\n0,1,2,3,4\n"),
-            "a.csv:1: two columns are called \"x_m\"; leave one out"
+            "a.csv:1: two columns are named \"x_m\"; remove one"
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m\n0,1,nan,3\n"),
@@ -298,11 +298,11 @@ mod tests {
         assert_eq!(message("a.csv", "time_s,x_m,y_m,z_m\n0,1\n"), "a.csv:2: the row ends before \"y_m\"");
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,1,2,3,2,0,0,0\n"),
-            "a.csv:2: a quaternion of length 2; expected a rotation, of length 1"
+            "a.csv:2: the quaternion has length 2; expected a rotation, of length 1"
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m\n"),
-            "a.csv: holds no place; expected one at least, with a time"
+            "a.csv: contains no position; expected at least one, with a time"
         );
         let entry = |x: &str| format!("{{\"time_s\": 1, \"x_m\": {x}, \"y_m\": 0, \"z_m\": 0}}");
         assert_eq!(
@@ -311,15 +311,15 @@ mod tests {
         );
         assert_eq!(
             message("a.json", &format!("[{},\n{}]", entry("1"), entry("1, \"qw\": 1"))),
-            "a.json:2: gives \"qw\", which the first does not; give it in all or in none"
+            "a.json:2: has \"qw\", which the first object does not; give it in all or in none"
         );
         assert_eq!(
             message("a.json", &format!("[{},\n{}]", entry("1"), entry("2"))),
-            "a.json:2: the time 1 s follows 1 s of line 1: sort the rows by rising time, each once"
+            "a.json:2: the time 1 s follows 1 s of line 1: sort the rows by increasing time, each once"
         );
         assert!(
-            message("a.json", "[\n{\"time_s\": 0,,}]").starts_with("a.json:2: no list of objects of numbers by name: ")
+            message("a.json", "[\n{\"time_s\": 0,,}]").starts_with("a.json:2: not a list of objects with named numbers: ")
         );
-        assert_eq!(message("a.json", "[]"), "a.json: holds no place; expected one at least, with a time");
+        assert_eq!(message("a.json", "[]"), "a.json: contains no position; expected at least one, with a time");
     }
 }

@@ -237,7 +237,7 @@ fn functions_of_several_wavelengths_are_read_in_any_order() {
         let phrase = "fitted to 2 wavelengths from 450 to 650 nm, linear between them and constant beyond";
         assert!(said.contains(phrase), "no {phrase} in\n{said}");
     }
-    told(&red, &red).refused(&["lens.json:", "the wavelength 650 nm is there twice"]);
+    told(&red, &red).refused(&["lens.json:", "the wavelength 650 nm appears twice"]);
 }
 
 /// Shipped cameras with such lenses. ISET places this lens's film for infinity at 57.315 mm.

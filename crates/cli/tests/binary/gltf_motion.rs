@@ -183,7 +183,7 @@ fn what_cannot_move_is_said_and_damage_is_refused() {
     for (file, phrase) in [
         (
             change("/nodes/0/scale", json!([2, 1, 2])),
-            "node \"arm\" is not used: nodes above it are mirrored or scaled unevenly",
+            "node \"arm\" is not used: nodes above it are mirrored or scaled non-uniformly",
         ),
         (
             change("/animations/0/channels/3/target/node", json!(1)),

@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(
             library.report,
             [
-                "a.mtl:3: material \"red paint\": `Ka` is not used: ambient light is no property of a surface",
+                "a.mtl:3: material \"red paint\": `Ka` is not used: ambient light is not a property of a surface",
                 "a.mtl:6: material \"red paint\": `Pc` is not used",
                 "a.mtl:7: material \"red paint\": `norm` is not used",
                 "a.mtl:9: material \"red paint\": the texture option `-bm 1` is not used",
@@ -199,10 +199,10 @@ mod tests {
         );
         assert_eq!(message("newmtl a\n\nPr 1.5"), "lib/a.mtl:3: `Pr 1.5`: out of range; expected a number from 0 to 1");
         assert_eq!(message("newmtl a\nNs"), "lib/a.mtl:2: `Ns `: 0 numbers; expected a number of 0 or more");
-        assert_eq!(message("Kd 1 1 1"), "lib/a.mtl:1: `Kd` stands before any `newmtl`");
+        assert_eq!(message("Kd 1 1 1"), "lib/a.mtl:1: `Kd` precedes the first `newmtl`");
         assert_eq!(
             message("newmtl a\nnewmtl a"),
-            "lib/a.mtl:2: material \"a\" is defined a second time, first at a.mtl:1; rename one of them"
+            "lib/a.mtl:2: material \"a\" is defined twice, first at a.mtl:1; rename one of them"
         );
     }
 }

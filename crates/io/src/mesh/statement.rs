@@ -183,7 +183,7 @@ mod tests {
         let error = input.read(Path::new("a.mtl"), |text| tobj::load_mtl_buf(text)).expect_err("no number");
         assert_eq!(
             error.to_string(),
-            "a.mtl:5: `illum two` is refused (material parse error); correct or remove this line"
+            "a.mtl:5: `illum two` is invalid (material parse error); correct or remove this line"
         );
     }
 

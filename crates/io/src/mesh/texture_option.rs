@@ -131,7 +131,7 @@ mod tests {
             [
                 "the texture option `-blendu on` is not used",
                 "the texture option `-mm 0 1` is not used",
-                "the texture option `-clamp on` is not used: the picture repeats",
+                "the texture option `-clamp on` is not used: the texture repeats",
             ]
         );
     }

@@ -283,7 +283,7 @@ mod tests {
         assert!(message.ends_with("t.png: the file was changed while it was read; run again"), "{message}");
         std::fs::remove_file(&file).expect("remove");
         let message = large.rows.read(&mut |_| Ok(())).expect_err("no file");
-        assert!(message.ends_with("t.png: no such picture file; check the path"), "{message}");
+        assert!(message.ends_with("t.png: no such image file; check the path"), "{message}");
     }
 
     #[test]

@@ -274,7 +274,7 @@ mod tests {
             assert!(message.starts_with("t.png: ") && message.contains("truncated"), "{message}");
         }
         let message = read(b"#!/bin/sh\n").expect_err("a script");
-        assert_eq!(message, "t.png: not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR");
+        assert_eq!(message, "t.png: not an image of a known format; expected PNG, JPEG, Radiance HDR or OpenEXR");
     }
 
     #[test]
@@ -285,7 +285,7 @@ mod tests {
         let message = read(&exr).expect_err("infinite");
         assert!(message.starts_with("t.png: pixel (0, 0) is [inf, inf, inf]; expected finite numbers"), "{message}");
         let message = read(&crate::exr::tests_support::picture(2, 2, &["depth.Z"], 1.0)).expect_err("no colours");
-        assert_eq!(message, "t.png: no picture of R, G, B or Y; its channels are depth.Z");
+        assert_eq!(message, "t.png: not an image of R, G, B or Y; its channels are depth.Z");
     }
 
     #[test]

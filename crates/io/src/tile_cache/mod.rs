@@ -193,7 +193,7 @@ mod tests {
         assert_eq!(read(&*found, 0), Ok(block(0)));
         let message = read(&*found, 2).expect_err("one bit is another");
         assert!(
-            message.ends_with(".tiles: block 2 is damaged; the file was removed: run again, and it is made anew"),
+            message.ends_with(".tiles: block 2 is damaged; the file was removed: run again to create it again"),
             "{message}"
         );
         assert!(!file.exists());

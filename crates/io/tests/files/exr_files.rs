@@ -126,7 +126,7 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     assert_eq!(shown("instance")[0], [0; 3], "the background");
     assert_eq!(shown("N"), [[128, 204, 26]; 6]);
     let message = of("flow").expect_err("none").to_string();
-    assert!(message.ends_with("there is no layer \"flow\"; give one of N, depth, instance, semantic"), "{message}");
+    assert!(message.ends_with("has no layer \"flow\"; expected one of N, depth, instance, semantic"), "{message}");
     let message = inspect(&written(folder.path(), "job.toml", b"format = 1\n")).expect_err("no result").to_string();
     assert!(message.contains("job.toml: a description, neither result nor asset"), "{message}");
 }
@@ -160,7 +160,7 @@ fn what_is_no_spectral_image_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let plane = encode_plane(&Plane::<MeanElectrons>::new(2, 2), None, &provenance()).expect("encodable");
     let message = read_spectral(&written(folder.path(), "a.exr", &plane)).expect_err("electrons").to_string();
-    assert!(message.contains("holds electrons in e; expected spectral radiance in W.m^-2.sr^-1.nm^-1"), "{message}");
+    assert!(message.contains("contains electrons in e; expected spectral radiance in W.m^-2.sr^-1.nm^-1"), "{message}");
 }
 
 #[test]

@@ -191,7 +191,7 @@ fn a_skin_stands_as_its_joints_do_at_rest() {
     })
     .expect("whole");
     assert_eq!(corners(&mesh, 0)[0][2], DVec3::new(1.0, 4.0, 0.0));
-    assert!(mesh.report.iter().any(|note| note.contains("1 skins: used as they stand at rest")), "{:?}", mesh.report);
+    assert!(mesh.report.iter().any(|note| note.contains("1 skins: used in their rest pose")), "{:?}", mesh.report);
 }
 
 #[test]

@@ -81,7 +81,7 @@ fn what_is_not_modelled_is_refused_with_its_line() {
     assert!(zmx("TYPE EVENASPH", "TYPE COORDBRK").contains("type COORDBRK"));
     assert!(zmx("MODE SEQ", "MODE NSC").starts_with("2: a non-sequential lens"));
     assert!(zmx("  STOP\n", "").contains("0 surfaces are the stop"));
-    assert!(zmx("CURV 0.04", "CURV x").contains("CURV: found `x`, expected a number"));
+    assert!(zmx("CURV 0.04", "CURV x").contains("CURV: found `x`; expected a number"));
     assert!(zmx("UNIT MM", "UNIT FURLONG").contains("UNIT is `FURLONG`"));
     let seq = |from: &str, to: &str| read("lens.seq", &SEQ.replacen(from, to, 1)).expect_err("refused");
     assert!(seq("NBK7_SCHOTT", "'mine'").contains("no glass is called `mine`"));
@@ -115,7 +115,7 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
         let (glass, notes) = glass_of(line);
         assert_eq!(glass, GlassAsset::Named(today.into()));
         let message = format!(
-            "line 26: no catalogue here has {}: its successor {today} is taken",
+            "line 26: {} is in no supported catalogue: its successor {today} is used",
             &line[5..line.find(" 0").expect("a mode")]
         );
         assert!(notes[0].starts_with(&message), "{notes:?}");
@@ -273,7 +273,7 @@ fn commands_of_codev_that_are_not_read_are_refused_or_noted() {
     for (edit, told) in [
         ("RDY S7 25", "13: RDY S7: no such surface is given before"),
         ("RDY S1 Z2 25", "13: RDY of a zoom position"),
-        ("THI S2 PIM", "13: THI: found `PIM`, expected a number"),
+        ("THI S2 PIM", "13: THI: found `PIM`; expected a number"),
         ("SCA EFL 100", "13: SCA: expected one factor above 0"),
         ("SCA 0", "13: SCA: expected one factor above 0"),
         ("INS S2", "13: INS is not modelled"),

@@ -187,8 +187,7 @@ fn the_flux_is_told_where_it_is_not_what_is_rated() {
     assert_eq!(
         kept,
         [
-            "lamp.ies: its intensities make 1256.6 lm, 0.785 times the 1600.0 lm that are the lumens of its lamps: the luminaire keeps the \
-          rest, or directions are missing; the intensities are used"
+            "lamp.ies: the flux from the intensities is 1256.6 lm, 0.785 times the 1600.0 lm from the lumens of the lamps: the luminaire absorbs the rest, or directions are missing; the intensities are used"
         ]
     );
     assert!(

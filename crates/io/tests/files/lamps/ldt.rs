@@ -77,7 +77,7 @@ fn the_tilt_of_the_measurement_is_told() {
     lamp.factors[2] = 5.0;
     let read = lamp.read();
     assert_eq!(read.tilt, Tilt::Measured(5.0));
-    assert!(read.report[0].starts_with("lamp.ldt: it was measured at a tilt of 5°"), "{:?}", read.report);
+    assert!(read.report[0].starts_with("lamp.ldt: measured at a tilt of 5°"), "{:?}", read.report);
 }
 
 #[test]
