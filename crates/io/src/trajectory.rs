@@ -281,11 +281,11 @@ mod tests {
             message("a.csv", "time_s,x_m,y_m\n0,1,2\n"),
             "a.csv:1: missing z_m; expected time_s, x_m, y_m, z_m and, for rotation, qw, qx, qy, qz or yaw_deg, pitch_deg, roll_deg"
         );
-        assert!(message("a.csv", "0,1,2,3\n").starts_with("a.csv:1: nothing is called time_s, x_m, y_m, z_m;"));
-        assert!(message("a.csv", "time_s,x_m,y_m,z_m,qw,qx\n").starts_with("a.csv:1: nothing is called qy, qz;"));
+        assert!(message("a.csv", "0,1,2,3\n").starts_with("a.csv:1: missing time_s, x_m, y_m, z_m;"));
+        assert!(message("a.csv", "time_s,x_m,y_m,z_m,qw,qx\n").starts_with("a.csv:1: missing qy, qz;"));
         assert!(
             message("a.csv", "time_s,x_m,y_m,z_m,yaw_deg\n")
-                .starts_with("a.csv:1: nothing is called pitch_deg, roll_deg;")
+                .starts_with("a.csv:1: missing pitch_deg, roll_deg;")
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m,x_m\n0,1,2,3,4\n"),

@@ -127,7 +127,7 @@ fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder()
         .for_each(|(name, bytes)| assert!(fs::read(out.join(name)).is_ok_and(|found| found == *bytes), "{name}"));
     // The job itself needs more than the limit: refused before an image is unpacked.
     let limited = ["--limit", "texture-cache-mib=10"];
-    let told = ["scene.textures", "the cache of textures may have 10 MiB", "--limit texture-cache-mib="];
+    let told = ["scene.textures", "the texture cache is limited to 10 MiB", "--limit texture-cache-mib="];
     etendue(["plan", &job].iter().chain(&small).chain(&limited)).refused(&told);
     etendue(
         ["render", &job, "-o", &text(&place.path("other")), "--cache", &cache].iter().chain(&small).chain(&limited),
@@ -199,7 +199,7 @@ fn a_broken_picture_is_refused_as_one_in_memory() {
     fs::write(place.path("b.png"), &whole[..whole.len() / 2]).expect("written");
     let plan = |options: &[&str]| etendue(["plan", &job].iter().chain(options));
     let words =
-        ["b.png: not a readable picture (", "it may be truncated or damaged: make or fetch it again", "scene.textures"];
+        ["b.png: not a readable image (", "it may be truncated or damaged: make or fetch it again", "scene.textures"];
     plan(&[]).refused(&words);
     plan(&["--texture-memory", "1", "--cache", &cache]).refused(&words);
     let output = text(&place.path("out"));

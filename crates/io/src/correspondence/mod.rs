@@ -232,7 +232,7 @@ mod tests {
     fn damaged_files_and_empty_planes_are_refused() {
         let bytes = encode_flo(&flow(2, &[[1.0; 2]; 4])).expect("four pixels");
         let message = decode_flo(Path::new("a.flo"), &bytes[..bytes.len() - 1]).expect_err("cut").to_string();
-        assert!(message.contains("31 bytes of vectors, where 2 × 2 are 32"), "{message}");
+        assert!(message.contains("has 31 bytes of vectors; expected 32 for 2 × 2 pixels"), "{message}");
         assert!(decode_flo(Path::new("a.flo"), b"PIEH").is_err());
         let negative = [&bytes[..4], &(-2_i32).to_le_bytes(), &bytes[8..]].concat();
         assert!(decode_flo(Path::new("a.flo"), &negative).is_err());

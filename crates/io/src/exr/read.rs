@@ -307,7 +307,7 @@ mod tests {
     fn a_small_file_of_many_pixels_is_refused_by_its_header() {
         let message = decode_exr(Path::new("a.exr"), &large()).expect_err("too large").to_string();
         let expected =
-            "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller";
+            "a.exr: decompresses to 1526 MiB; at most 1024 MiB are allowed for a file of its size: make the image smaller";
         assert!(message.starts_with(expected), "{message}");
         assert_eq!(stated_samples(&large()), 400_000_000);
     }
@@ -319,6 +319,6 @@ mod tests {
         std::fs::write(&file, picture(20, 10, &["a", "b"], 1.0)).expect("write");
         assert_eq!(read_exr_within(&file, 1600).expect("a film").channels.len(), 2);
         let message = read_exr_within(&file, 1599).expect_err("more than known").to_string();
-        assert!(message.contains("unpacks to 1 MiB, where 1 MiB are expected"), "{message}");
+        assert!(message.contains("decompresses to 1 MiB; expected 1 MiB"), "{message}");
     }
 }

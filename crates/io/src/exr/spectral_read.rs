@@ -191,7 +191,7 @@ mod tests {
     fn what_is_no_set_of_bands_is_refused_in_words() {
         let message = bands_of(&[400.0, 410.0, 425.0], None).expect_err("uneven");
         assert!(
-            message.contains("not evenly spaced by 12.5 nm (410 nm stands where 412.5 nm was expected)"),
+            message.contains("not evenly spaced by 12.5 nm (found 410 nm instead of 412.5 nm)"),
             "{message}"
         );
         assert!(bands_of(&[550.0], None).is_err());

@@ -271,7 +271,7 @@ mod tests {
             refused("vn 0 0 1\nf 1//1 2//0 3//1"),
             "a.obj:5: the face refers to normal 0, but there are 1; the file is damaged or truncated"
         );
-        assert!(refused("vt 0 0\nf /1 /1 /1").starts_with("a.obj:5: corners of no form or of several"));
+        assert!(refused("vt 0 0\nf /1 /1 /1").starts_with("a.obj:5: the corners in `f "));
         assert_eq!(
             refused("usemtl\nf 1 2 3"),
             "a.obj:4: `usemtl ` is invalid (material parse error); correct or remove this line"

@@ -240,7 +240,7 @@ mod tests {
         assert!(place.path().join("theirs.tiles").exists());
         let told = cache.check_room(&[9; 32], &[u32::MAX]).expect_err("too large beside the own");
         assert!(
-            told.contains("the cache of textures may have 2048 MiB") && told.contains("`limit` texture-cache-mib="),
+            told.contains("the texture cache is limited to 2048 MiB") && told.contains("`limit` texture-cache-mib="),
             "{told}"
         );
         assert_eq!(cache.check_room(&keys[3], &LENGTHS), Ok(()));

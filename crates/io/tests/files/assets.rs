@@ -129,7 +129,7 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
         told[1],
         "m.obj:2: the face refers to vertex 2, but there are 1; the file is damaged or truncated (named at job.toml:5:8: scene.meshes.m.file)"
     );
-    assert!(told[2].starts_with("t.png: not a readable picture (") && told[2].contains("truncated"), "{}", told[2]);
+    assert!(told[2].starts_with("t.png: not a readable image (") && told[2].contains("truncated"), "{}", told[2]);
     assert!(told[2].ends_with("(named at job.toml:9:8: scene.textures.t.file)"), "{}", told[2]);
 }
 

@@ -119,7 +119,7 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     let report = inspect(&path).expect("ground truth");
     assert_eq!(report.kind, "ground truth, EXR");
     assert_eq!(report.channels[3].infinite_count, 1);
-    assert!(report.notes[0].starts_with("the picture shows depth.Z in the colours of viridis"), "{:?}", report.notes);
+    assert!(report.notes[0].starts_with("the image shows depth.Z in the viridis colour map"), "{:?}", report.notes);
     let of = |layer: &str| inspect_showing(&path, &Shown { layer: Some(layer.to_owned()), boxes: None });
     let shown = |layer: &str| of(layer).expect("a layer").preview.expect("a picture").rgb;
     assert_eq!(shown("instance.ID"), shown("semantic"));
@@ -128,7 +128,7 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     let message = of("flow").expect_err("none").to_string();
     assert!(message.ends_with("has no layer \"flow\"; expected one of N, depth, instance, semantic"), "{message}");
     let message = inspect(&written(folder.path(), "job.toml", b"format = 1\n")).expect_err("no result").to_string();
-    assert!(message.contains("job.toml: a description, neither result nor asset"), "{message}");
+    assert!(message.contains("job.toml: a description, neither a result nor an asset"), "{message}");
 }
 
 #[test]

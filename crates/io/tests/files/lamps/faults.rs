@@ -29,15 +29,15 @@ fn faults_of_ies_files_are_told_with_their_lines() {
         ),
         (
             ("0 45 90\n", "0 45 60 90\n"),
-            "a.ies:9: horizontal angle 2 of 2 is 0° and follows 90°: sort them by rising angle",
+            "a.ies:9: horizontal angle 2 of 2 is 0° and follows 90°: sort the angles in increasing order",
         ),
         (
             ("0 45 90\n", "0 90 45\n"),
-            "a.ies:8: vertical angle 3 of 3 is 45° and follows 90°: sort them by rising angle",
+            "a.ies:8: vertical angle 3 of 3 is 45° and follows 90°: sort the angles in increasing order",
         ),
         (
             ("0 45 90\n", "0 45 45\n"),
-            "a.ies:8: vertical angle 3 of 3 is 45° and follows 45°: sort them by rising angle",
+            "a.ies:8: vertical angle 3 of 3 is 45° and follows 45°: sort the angles in increasing order",
         ),
         (("0 45 90\n", "0 45 190\n"), "a.ies:8: the vertical angle is 190°; expected 0° to 180°"),
         (("0 45 90\n", "0 45 x\n"), "a.ies:8: found \"x\"; expected vertical angle 3 of 3: a number"),
@@ -45,16 +45,16 @@ fn faults_of_ies_files_are_told_with_their_lines() {
             ("\n0 90\n", "\n0 80\n"),
             "a.ies:9: found horizontal angles from 0° to 80°; expected 0° alone, or from 0° to 90°, 180° or 360°, or from 90° to 270°",
         ),
-        (("5 5 5\n", "5 -5 5\n"), "a.ies:10: found the intensity -5; expected 0 or more"),
+        (("5 5 5\n", "5 -5 5\n"), "a.ies:10: the intensity is -5; expected 0 or more"),
         (("5 5 5\n", "5 NaN 5\n"), "a.ies:10: found \"NaN\"; expected intensity 2 of 6: a number"),
         (("5 5 5\n", "5 1e999 5\n"), "a.ies:10: found \"1e999\"; expected intensity 2 of 6: a number"),
         (
             ("5 5 5\n", "5 5\n"),
-            "a.ies:11: the file ends here; expected intensity 6 of 6: it is truncated or its counts",
+            "a.ies:11: the file ends here; expected intensity 6 of 6: it is truncated, or its numbers",
         ),
         (
             ("5 5 5\n", "5 5 5 5 5\n"),
-            "a.ies:11: found \"5\" and 1 more values behind the last intensity; expected the end",
+            "a.ies:11: found \"5\" and 1 more values after the last intensity; expected the end of the file",
         ),
         (
             ("1 -1 1 3 2 1 2", "1 -1 1 3 2 4 2"),
@@ -75,14 +75,14 @@ fn faults_of_ies_files_are_told_with_their_lines() {
             ("1 -1 1 3 2 1 2", "1 -1 1 4000000000 2 1 2"),
             "a.ies:6: found 4000000000; expected the number of vertical angles: a whole number from 2 to 36001",
         ),
-        (("5 5 5\n5 5 5", "0 0 0\n0 0 0"), "a.ies: gives no light in any direction"),
+        (("5 5 5\n5 5 5", "0 0 0\n0 0 0"), "a.ies: all intensities are 0"),
         (
             ("TILT=NONE", "TILT=INCLUDE\n4\n1 0 1"),
             "a.ies:6: found 4; expected the lamp-to-luminaire geometry: a whole number from 1 to 3",
         ),
         (
             ("TILT=NONE", "TILT=INCLUDE\n1\n2 90 0 1 1"),
-            "a.ies:7: tilt angle 2 of 2 is 0° and follows 90°: sort them by rising angle",
+            "a.ies:7: tilt angle 2 of 2 is 0° and follows 90°: sort the angles in increasing order",
         ),
     ] {
         let found = told("a.ies", &ies(), change);
@@ -105,7 +105,7 @@ fn a_fan_needs_a_width_and_angles_that_its_axes_have() {
     }
     let narrow = Ies::of(3, &[0.0], &[-5.0, 5.0], |_, _| 1.0).text();
     let found = read_bytes("a.ies", narrow.as_bytes()).expect_err("no width");
-    assert!(found.starts_with("a.ies:9: one horizontal angle; expected two at least"), "{found}");
+    assert!(found.starts_with("a.ies:9: found one horizontal angle; expected at least two"), "{found}");
 }
 
 #[test]
@@ -147,12 +147,12 @@ fn faults_of_eulumdat_files_are_told_with_their_lines() {
         (26, "0", "a.ldt:26: found 0; expected the number of sets of lamps: a whole number from 1"),
         (27, "0", "a.ldt:27: found 0 lamps; expected their number, negative for absolute photometry"),
         (29, "", "a.ldt:29: found \"\"; expected the total lumens of the lamps: a number"),
-        (44, "0", "a.ldt:44: C angle 2 of 4 is 0° and follows 0°: sort them by rising angle"),
+        (44, "0", "a.ldt:44: C angle 2 of 4 is 0° and follows 0°: sort the angles in increasing order"),
         (46, "400", "a.ldt:46: the C angle is 400°; expected 0° to 360°"),
-        (44, "80", "a.ldt:46: a lamp of symmetry 4 holds the planes from C0 to C90; expected them among 4 planes"),
-        (48, "0", "a.ldt:48: vertical angle 2 of 3 is 0° and follows 0°: sort them by rising angle"),
-        (50, "-1", "a.ldt:50: found the intensity -1; expected 0 or more"),
-        (50, "1 1", "a.ldt:55: found \"160\" and 0 more values behind the last intensity; expected the end"),
+        (44, "80", "a.ldt:46: a light of symmetry 4 contains the planes from C0 to C90; expected them at these positions among 4 planes"),
+        (48, "0", "a.ldt:48: vertical angle 2 of 3 is 0° and follows 0°: sort the angles in increasing order"),
+        (50, "-1", "a.ldt:50: the intensity is -1; expected 0 or more"),
+        (50, "1 1", "a.ldt:55: found \"160\" and 0 more values after the last intensity; expected the end of the file"),
         (55, "", "a.ldt:54: the file ends here; expected intensity 6 of 6: it is truncated"),
     ] {
         let found = with(line, text);
@@ -170,9 +170,9 @@ fn what_is_no_lamp_file_is_refused_by_its_name_or_bytes() {
     assert!(
         read_bytes("a.txt", b"x")
             .expect_err("a name")
-            .contains("expected a measured lamp by the name of .ies (LM-63) or .ldt")
+            .contains("expected a photometric file with the extension .ies (LM-63) or .ldt")
     );
-    assert!(read_bytes("a.ies", b"IESNA\n\0\x01").expect_err("bytes").starts_with("a.ies:2: no text; expected"));
+    assert!(read_bytes("a.ies", b"IESNA\n\0\x01").expect_err("bytes").starts_with("a.ies:2: not text; expected"));
     assert!(read_bytes("a.ies", b"").expect_err("empty").contains("is empty"));
 }
 

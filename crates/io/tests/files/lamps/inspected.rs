@@ -45,12 +45,12 @@ fn a_passing_beam_is_held_against_the_test_points() {
 fn a_street_light_is_told_with_units() {
     let lamp = Ldt::of(1, &[0.0], &[0.0], &steps(0.0, 90.0, 1.0), |_, v| 318.31 * (1.0 - v / 90.0));
     let told = report("street.ldt", &lamp.text());
-    assert_eq!(told.kind, "measured lamp, EULUMDAT");
+    assert_eq!(told.kind, "photometric file, EULUMDAT");
     assert_eq!(fact(&told, "maximum intensity"), "318.3 cd at H 0°, V 0°");
     assert_eq!(fact(&told, "vertical angles"), "91 from 0° to 90°");
     // ∫ (1 − γ/½π) sin γ dγ over ½π is 1 − 2/π: 318.31 × 2π × 0.36338 = 726.8 lm.
     assert_eq!(fact(&told, "flux from the intensities"), "726.8 lm");
-    assert_eq!(fact(&told, "flux stated"), "1000.0 lm (1000 lm of the lamps × light output ratio 1); ratio 0.7268");
+    assert_eq!(fact(&told, "stated flux"), "1000.0 lm (1000 lm of the lamps × light output ratio 1); ratio 0.7268");
     assert_eq!(fact(&told, "beam angle, C0–C180"), "90.0° at 50 %, field angle 162.0° at 10 %");
     assert!(told.facts.iter().all(|(name, _)| !name.contains("passing beam")), "no direction ahead");
     assert_eq!(told.notes.len(), 1, "{:?}", told.notes);
