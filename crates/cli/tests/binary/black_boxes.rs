@@ -196,7 +196,7 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
         ("[0,0.6,1.2,", "[0,1.6,1.2,", &["positions that increase from 0"]),
         ("\"radiiX\": [6.01", "\"radiiX\": [-6.01", &["the first above 0"]),
         ("\"wavelength_nm\": 550", "\"wavelength_nm\": -1", &["above 0"]),
-        ("\"wavelength_nm\": 550", "\"wavelength_nm\": 550, \"wavelength_nm\": 550", &["there twice"]),
+        ("\"wavelength_nm\": 550", "\"wavelength_nm\": 550, \"wavelength_nm\": 550", &["appears twice"]),
         ("\"outx\"", "\"outy\"", &["\"outy\" is defined twice"]),
         ("[5.315483154282251e-08", "[1e999", &["finite number"]),
         ("-0.01004348535911221", "0.01004348535911221", &["of no lens that makes a real image"]),

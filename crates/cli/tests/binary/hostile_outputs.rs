@@ -34,7 +34,7 @@ fn folders_that_cannot_be_are_refused_before_the_work() {
     let out = place.path().join("out");
     fs::create_dir_all(out.join("front/radiance.exr")).expect("made");
     etendue(["render", &small(), "-o", &text(&out), "--overwrite"].iter().chain(&endless))
-        .refused(&["radiance.exr", "a folder of this name is in the way"]);
+        .refused(&["radiance.exr", "a folder has the name of a result"]);
     fs::remove_dir_all(out.join("front")).expect("removed");
     fs::write(out.join("front"), b"").expect("written");
     etendue(["render", &small(), "-o", &text(&out), "--overwrite"].iter().chain(&endless))

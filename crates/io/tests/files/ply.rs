@@ -169,7 +169,7 @@ fn damaged_rows_are_refused_with_their_line() {
     );
     refused_star("2 2 0", "2 1e39 0", "a.ply:20: vertex 2: coordinate 1e39 is beyond the range of 32-bit floats");
     refused_star("2 2 0", "2 2 .5", "a.ply:20: vertex 2: `.5` is not a whole number, which the header states");
-    refused_star("2 2 0", "2 two 0", "a.ply:20: vertex 2: `two` is no number");
+    refused_star("2 2 0", "2 two 0", "a.ply:20: vertex 2: `two` is not a number");
     refused_star(
         "7 5 0 1 2 3 4",
         "7 5 0 1 2 3 5",
@@ -227,7 +227,7 @@ fn the_wrong_order_of_bytes_is_told() {
     let message = read_bytes("a.ply", &bytes).expect_err("the wrong order");
     assert!(
         message.starts_with("a.ply: ")
-            && message.ends_with("or its numbers are little-endian where the head says big-endian; export it again"),
+            && message.ends_with("or its numbers are little-endian although the header states big-endian; export it again"),
         "{message}"
     );
     for end in [little.len() - 1, little.len() / 2, head + 20] {
