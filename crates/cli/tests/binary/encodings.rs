@@ -99,7 +99,7 @@ fn a_side_car_goes_before_what_the_file_says_and_options_before_both() {
     };
     sidecar("\"linear\"");
     let (mtf50, encoding, reason) = found(&picture, &[]);
-    assert!((mtf50 - truth).abs() < 0.003 && encoding == "linear" && reason == "develop.json beside it", "{reason}");
+    assert!((mtf50 - truth).abs() < 0.003 && encoding == "linear" && reason == "develop.json next to it", "{reason}");
     let (wrong, _, reason) = found(&picture, &["--encoding", "srgb"]);
     assert!((wrong - truth).abs() > 0.02 && reason == "--encoding", "{wrong} {truth} {reason}");
     sidecar("\"sepia\"");
