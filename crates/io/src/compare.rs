@@ -80,7 +80,7 @@ pub fn read_pair(a: &Path, b: &Path) -> Result<Pair, Error> {
         _ => Err(Error::coded(
             ErrorCode::NotComparable,
             b,
-            format!("cannot be compared with {}: give two EXR files or two pictures", a.display()),
+            format!("cannot be compared with {}; give two EXR files or two images", a.display()),
         )),
     }
 }
@@ -102,7 +102,7 @@ fn check_stated(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<(), Error> {
             && of_a != of_b
         {
             let what = format!(
-                "states the {fact} \"{of_b}\", the other \"{of_a}\", whose channels cannot be compared; compare results of one kind"
+                "the {fact} is \"{of_b}\", that of the other file \"{of_a}\"; compare files of the same kind"
             );
             return Err(Error::coded(ErrorCode::NotComparable, path, what));
         }
@@ -117,16 +117,16 @@ fn check_channels(path: &Path, of_a: &[&str], of_b: &[&str]) -> Result<(), Error
     let what = match (lacking.is_empty(), surplus.is_empty()) {
         (true, true) => return Ok(()),
         (false, true) if is_variance(&lacking) => {
-            "has no variances, the other has; render both with output.variance or none".to_owned()
+            "has no variances, but the other file has; render both with output.variance, or both without".to_owned()
         }
         (true, false) if is_variance(&surplus) => {
-            "has variances, the other none; render both with output.variance or none".to_owned()
+            "has variances, but the other file has none; render both with output.variance, or both without".to_owned()
         }
-        (false, true) => format!("lacks channels of the other: {}; compare results of one kind", a_few(&lacking)),
-        (true, false) => format!("has channels that the other lacks: {}; compare results of one kind", a_few(&surplus)),
+        (false, true) => format!("lacks channels of the other file: {}; compare files of the same kind", a_few(&lacking)),
+        (true, false) => format!("has channels that the other file lacks: {}; compare files of the same kind", a_few(&surplus)),
         (false, false) => {
             format!(
-                "has other channels: {} in place of {}; compare results of one kind",
+                "has the channels {} instead of {}; compare files of the same kind",
                 a_few(&surplus),
                 a_few(&lacking)
             )
@@ -178,7 +178,7 @@ fn channel(path: &Path, a: &ExrFile, b: &ExrFile, name: &str) -> Result<Channel,
             return Err(Error::coded(
                 ErrorCode::NotComparable,
                 path,
-                format!("channel {name} is of another type than in the other file"),
+                format!("the type of channel {name} differs from that in the other file"),
             ));
         }
     };
@@ -189,7 +189,7 @@ fn check_size(path: &Path, a: [usize; 2], b: [usize; 2]) -> Result<(), Error> {
     if a == b {
         return Ok(());
     }
-    let what = format!("is {} × {} pixels, the other {} × {}; compare pictures of one size", b[0], b[1], a[0], a[1]);
+    let what = format!("has {} × {} pixels, the other file {} × {}; compare images of the same size", b[0], b[1], a[0], a[1]);
     Err(Error::coded(ErrorCode::NotComparable, path, what))
 }
 
@@ -198,7 +198,7 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
     let (width, height) = (x.width as usize, x.height as usize);
     check_size(b, [width, height], [y.width as usize, y.height as usize])?;
     if kind(&x.pixels) != kind(&y.pixels) {
-        let what = format!("holds {}, the other {}; compare pictures of one kind", kind(&y.pixels), kind(&x.pixels));
+        let what = format!("contains {}, the other file {}; compare images of the same kind", kind(&y.pixels), kind(&x.pixels));
         return Err(Error::coded(ErrorCode::NotComparable, b, what));
     }
     let (of_a, of_b) = (channels_of(&x.pixels), channels_of(&y.pixels));
@@ -214,8 +214,8 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
 /// Kind of an image's pixels, in words.
 fn kind(pixels: &ImagePixels) -> &'static str {
     match pixels {
-        ImagePixels::Gray8(_) => "grey of 8 bits",
-        ImagePixels::Gray16(_) => "grey of 16 bits",
+        ImagePixels::Gray8(_) => "8-bit grey",
+        ImagePixels::Gray16(_) => "16-bit grey",
         ImagePixels::Rgb8(_) => "R, G, B of 8 bits",
         ImagePixels::Rgba8(_) => "R, G, B, A of 8 bits",
         ImagePixels::Rgb32F(_) => "R, G, B as numbers",
@@ -267,16 +267,15 @@ mod tests {
         assert_eq!(told(&electrons, &exr(None, &["n"])), "", "a file of another program states nothing");
         assert_eq!(
             told(&electrons, &exr(Some("depth"), &["n"])),
-            "b.exr: states the quantity \"depth\", the other \"electrons\", whose channels cannot be compared; \
-             compare results of one kind"
+            "b.exr: the quantity is \"depth\", that of the other file \"electrons\"; compare files of the same kind"
         );
         assert_eq!(
             told(&exr(None, &["a", "b", "c", "d", "e", "f", "x"]), &exr(None, &["x", "y"])),
-            "b.exr: has other channels: y in place of a, b, c, d and 2 more; compare results of one kind"
+            "b.exr: has the channels y instead of a, b, c, d and 2 more; compare files of the same kind"
         );
         assert_eq!(
             told(&exr(None, &["n", "variance.n"]), &electrons),
-            "b.exr: has no variances, the other has; render both with output.variance or none"
+            "b.exr: has no variances, but the other file has; render both with output.variance, or both without"
         );
     }
 
@@ -296,7 +295,7 @@ mod tests {
         let byte = image::DynamicImage::ImageLuma8(image::ImageBuffer::from_pixel(1, 1, image::Luma([7])));
         let told = read_pair(&a, &written("c.png", &byte)).expect_err("another kind").to_string();
         assert!(
-            told.ends_with("c.png: holds grey of 8 bits, the other grey of 16 bits; compare pictures of one kind"),
+            told.ends_with("c.png: contains 8-bit grey, the other file 16-bit grey; compare images of the same kind"),
             "{told}"
         );
     }

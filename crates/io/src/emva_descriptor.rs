@@ -75,7 +75,7 @@ pub fn parse_emva_descriptor(text: &str, file: &Path) -> Result<EmvaDescriptor, 
                 let all = whole(bits).zip(whole(width)).zip(whole(height));
                 let ((bits, width), height) = all.ok_or_else(|| wrong("n BITS WIDTH HEIGHT, whole numbers"))?;
                 if format.replace((bits, width as usize, height as usize)).is_some() {
-                    return Err(wrong("one line 'n BITS WIDTH HEIGHT' only"));
+                    return Err(wrong("only one line 'n BITS WIDTH HEIGHT'"));
                 }
             }
             ["b", exposure, photons] => {
@@ -101,7 +101,7 @@ pub fn parse_emva_descriptor(text: &str, file: &Path) -> Result<EmvaDescriptor, 
     if let Some(level) = levels.iter().find(|l| l.files.len() < 2) {
         let nanoseconds = level.exposure_s / NANOSECOND_S;
         let message = format!(
-            "the level of {nanoseconds} ns and {} photons has {} picture(s); expected two or more",
+            "the level of {nanoseconds} ns and {} photons has {} image(s); expected two or more",
             level.photons,
             level.files.len()
         );

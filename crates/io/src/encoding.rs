@@ -54,7 +54,7 @@ impl Stated {
 
     /// Returns an encoding guessed from the kind of numbers in the file.
     pub(crate) fn guessed(encoding: Encoding, by: &str) -> Self {
-        let reason = format!("guessed, as {by}; `encoding` says otherwise");
+        let reason = format!("assumed, because {by}; set `encoding` to override");
         Self { guessed: true, ..Self::new(encoding, reason) }
     }
 }

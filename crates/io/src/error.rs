@@ -149,7 +149,7 @@ pub fn guarded<T>(file: &Path, decode: impl FnOnce() -> Result<T, Error>) -> Res
     decoded.unwrap_or_else(|_| {
         Err(Error::new(
             file,
-            "damaged: its data cannot be decoded; make or fetch it again, or store it in another format",
+            "damaged: its data cannot be decoded; create or download it again, or store it in another format",
         ))
     })
 }

@@ -34,7 +34,7 @@ pub struct Exif {
 /// # Errors
 /// If the file cannot be read.
 pub fn read_exif(file: &Path) -> Result<Option<Exif>, Error> {
-    Ok(exif_of(&read_bytes(file, "picture")?))
+    Ok(exif_of(&read_bytes(file, "image")?))
 }
 
 /// EXIF data in the bytes of an image file.

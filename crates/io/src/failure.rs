@@ -81,7 +81,7 @@ impl Display for Error {
                 match errors.len() {
                     0 | 1 => Ok(()),
                     n if n > MAX_SHOWN => {
-                        writeln!(f, "and {} more; {n} errors in all; nothing was written", n - MAX_SHOWN)
+                        writeln!(f, "and {} more; {n} errors in total; nothing was written", n - MAX_SHOWN)
                     }
                     n => writeln!(f, "{n} errors; nothing was written"),
                 }
@@ -228,7 +228,7 @@ mod tests {
         let many = shown(1234);
         assert_eq!(many.lines().count(), 51);
         assert!(
-            many.ends_with("error[malformed-file]: fault 49\nand 1184 more; 1234 errors in all; nothing was written\n"),
+            many.ends_with("error[malformed-file]: fault 49\nand 1184 more; 1234 errors in total; nothing was written\n"),
             "{many}"
         );
     }

@@ -81,7 +81,7 @@ fn taken(root: &Path) -> String {
         Some(process) => format!("another run (process {process})"),
         None => "another run".to_owned(),
     };
-    format!("{who} writes into this folder; wait until it has ended, or choose another output folder")
+    format!("{who} is writing into this folder; wait until it has ended, or choose another output folder")
 }
 
 #[cfg(all(test, unix))]

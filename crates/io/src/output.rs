@@ -171,7 +171,7 @@ impl OutputFolder {
             return Err(Error::coded(
                 ErrorCode::Duplicate,
                 &target,
-                "written twice in one run; every result needs its own name",
+                "written twice in one run; each result needs a different name",
             ));
         }
         if let Some(parent) = target.parent() {
@@ -225,12 +225,12 @@ impl OutputFolder {
             fs::rename(&file.temporary, &file.name).map_err(|cause| {
                 let kept = match names.len() {
                     0 => String::new(),
-                    n => format!(" (the {n} files before it have theirs, and are whole)"),
+                    n => format!(" (the {n} files before it have their final names and are complete)"),
                 };
                 Error::coded(
                     ErrorCode::UnwritableOutput,
                     &file.name,
-                    format!("cannot take its final name: {cause}{kept}"),
+                    format!("cannot be renamed to its final name: {cause}{kept}"),
                 )
             })?;
             names.push(self.pending.remove(0).name);
@@ -266,14 +266,14 @@ impl OutputFolder {
             return Err(Error::coded(
                 ErrorCode::UnwritableOutput,
                 target,
-                "a folder of this name is in the way of a result; remove it or choose another output folder",
+                "a folder has the name of a result; remove it or choose another output folder",
             ));
         }
         if self.existing == Existing::Refuse {
             return Err(Error::coded(
                 ErrorCode::OutputExists,
                 target,
-                "already there; choose another output folder, or allow it with `overwrite`",
+                "already exists; choose another output folder, or allow overwriting with `overwrite`",
             ));
         }
         Ok(())

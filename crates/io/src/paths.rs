@@ -39,7 +39,7 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), Error> {
         return Err(Error::coded(
             ErrorCode::UnwritableOutput,
             folder,
-            "a symbolic link is in the place of a folder of results, which stay in the output folder; remove it, or choose another output folder",
+            "a symbolic link is in the place of a results folder, and results must stay in the output folder; remove it, or choose another output folder",
         ));
     }
     if folder.is_file() {
@@ -100,7 +100,7 @@ impl Missed {
 
     /// Returns the failure of a folder that no longer has its name.
     pub(crate) fn gone(path: &Path) -> Self {
-        let told = "this output folder is removed again and again while it is made; choose another one";
+        let told = "this output folder is repeatedly removed while it is created; choose another one";
         Self { error: Error::coded(ErrorCode::UnwritableOutput, path, told), is_gone: true }
     }
 }
@@ -124,7 +124,7 @@ impl MadeFolders {
                 Ok(()) => self.0.push(path.to_path_buf()),
                 // Another run created it at this moment, or it is a dangling link: distinguished below.
                 Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(cause) => return Err(Missed::of(path, "this output folder cannot be made", &cause)),
+                Err(cause) => return Err(Missed::of(path, "this output folder cannot be created", &cause)),
             }
         }
         if folder.as_os_str().is_empty() || folder.is_dir() {

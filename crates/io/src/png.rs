@@ -61,7 +61,7 @@ pub fn encode_display(picture: &Plane<Display>, encoded: &Encoding) -> Result<Ve
 /// q. `encoded` as for [`encode_display`].
 pub fn encode_display16(picture: &Plane<Display>, bits: u32, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
     if !(9..=16).contains(&bits) {
-        return Err(EncodeError::Encoder(format!("a picture of {bits} bits does not belong in a PNG of 16")));
+        return Err(EncodeError::Encoder(format!("an image of {bits} bits does not fit into a 16-bit PNG")));
     }
     let largest = ((1_u32 << bits) - 1) as f32;
     let stored = |v: &f32| {
@@ -200,7 +200,7 @@ fn chunks(file: &[u8]) -> Vec<([u8; 4], &[u8])> {
 /// Coding-independent code points (ITU-T H.273, table 3): transfer characteristics used for images.
 fn of_cicp(data: &[u8]) -> Result<Stated, String> {
     if data.get(3) == Some(&0) {
-        return Err("its cICP chunk of narrow range".to_owned());
+        return Err("its narrow-range cICP chunk".to_owned());
     }
     let (encoding, name) = match data.get(1) {
         Some(1 | 6 | 14 | 15) => (Encoding::bt709(), "BT.709"),
@@ -210,7 +210,7 @@ fn of_cicp(data: &[u8]) -> Result<Stated, String> {
         Some(13) => (Encoding::Srgb, "sRGB"),
         other => return Err(format!("its cICP chunk of transfer characteristics {}", other.copied().unwrap_or(0))),
     };
-    Ok(Stated::new(encoding, format!("its cICP chunk says {name}")))
+    Ok(Stated::new(encoding, format!("its cICP chunk states {name}")))
 }
 
 /// An embedded profile, by its name.
@@ -233,7 +233,7 @@ fn of_gamma(data: &[u8]) -> Result<Stated, String> {
         100_000 => Encoding::Linear,
         other => Encoding::Gamma(UNIT / f64::from(other)),
     };
-    Ok(Stated::new(encoding, format!("its gAMA chunk says {}", f64::from(stored) / UNIT)))
+    Ok(Stated::new(encoding, format!("its gAMA chunk states {}", f64::from(stored) / UNIT)))
 }
 
 /// Chunks that state an encoding: sRGB, or gAMA with the primaries of sRGB (cHRM). No chunk can state a curve of points or an S-curve: such an image is meant

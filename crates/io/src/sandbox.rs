@@ -37,7 +37,7 @@ impl Sandbox {
         let allowed = further.iter().map(|folder| {
             let found = folder.canonicalize().ok().filter(|folder| folder.is_dir());
             found.ok_or_else(|| {
-                let message = format!("`allow_outside` {}: there is no such folder", folder.display());
+                let message = format!("`allow_outside` {}: no such folder", folder.display());
                 Error::argument("allow_outside", message).with_code(ErrorCode::MissingFile)
             })
         });
@@ -69,7 +69,8 @@ impl Sandbox {
             self.note(path);
             return Ok(());
         }
-        let words = "this path leads out of the job's folder, to which `sandboxed` keeps it; put the file there, or allow its folder with `allow_outside`";
+        let words = "this path is outside the job's folder, to which `sandboxed` restricts access; move the file there, or allow its folder with \
+            `allow_outside`";
         Err(Problem::new(ErrorCode::OutsideFolder, words))
     }
 }

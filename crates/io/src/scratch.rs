@@ -67,7 +67,7 @@ impl Scratch for ScratchFile {
     fn write(&self, offset: u64, bytes: &[u8]) -> Result<(), String> {
         write_at(&self.file, bytes, offset).map_err(|cause| {
             format!(
-                "a scratch file of {} MB in {} cannot be written: {cause}; make room there, or choose another folder with `scratch`",
+                "a scratch file of {} MB in {} cannot be written: {cause}; free space there, or choose another folder with `scratch`",
                 self.bytes.div_ceil(1_000_000),
                 self.folder.display()
             )

@@ -21,7 +21,7 @@ pub fn read_description_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error>
 pub(crate) fn read_expected_bytes(file: &Path, what: &str, most: u64) -> Result<Vec<u8>, Error> {
     let check = |bytes: u64| match bytes <= most {
         true => Ok(()),
-        false => Err(format!("the file has {bytes} bytes, where at most {most} are expected; render it again").into()),
+        false => Err(format!("the file has {bytes} bytes; expected at most {most}: render it again").into()),
     };
     explained(file, what, read_checked(file, most, check))
 }
@@ -34,13 +34,13 @@ fn explained(file: &Path, what: &str, read: std::io::Result<Vec<u8>>) -> Result<
     let bytes = read.map_err(|cause| match cause.kind() {
         ErrorKind::NotFound => Error::missing(file, format!("no such {what} file; check the path")),
         ErrorKind::IsADirectory => {
-            Error::missing(file, "this is a folder; name a file in it").with_code(ErrorCode::UnreadableFile)
+            Error::missing(file, "this is a folder; give a file in it").with_code(ErrorCode::UnreadableFile)
         }
         ErrorKind::InvalidInput | ErrorKind::FileTooLarge => Error::coded(code_of(&cause), file, cause.to_string()),
         ErrorKind::PermissionDenied => Error::coded(
             ErrorCode::UnreadableFile,
             file,
-            format!("this {what} file may not be read: permission denied"),
+            format!("this {what} file cannot be read: permission denied"),
         ),
         _ => Error::coded(ErrorCode::UnreadableFile, file, format!("this {what} file cannot be read: {cause}")),
     })?;
@@ -65,7 +65,7 @@ fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), P
     let kind = metadata.file_type();
     if !kind.is_file() && !kind.is_dir() {
         let message =
-            format!("this is {}, not a file on a disk; save what it gives as a file and name that", word(kind));
+            format!("this is {}, not a regular file; save its content as a file and give that", word(kind));
         return Err(std::io::Error::new(ErrorKind::InvalidInput, message));
     }
     let too_large = |message: Problem| std::io::Error::new(ErrorKind::FileTooLarge, message.words);
@@ -106,7 +106,7 @@ pub(crate) fn decode_lens_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'
     let wide = |unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
         let text = String::from_utf16(&units);
-        text.map(Cow::Owned).map_err(|_| Error::new(file, "begins as UTF-16 text but is none; save the file as UTF-8"))
+        text.map(Cow::Owned).map_err(|_| Error::new(file, "begins as UTF-16 text, but is not valid UTF-16; save the file as UTF-8"))
     };
     match bytes {
         [0xff, 0xfe, ..] => wide(u16::from_le_bytes),

@@ -67,7 +67,7 @@ pub(crate) fn check_bytes(file: &Path, bytes: u128, packed: usize) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "unpacks to {} MiB, where a file of its size may unpack to {} MiB; make the picture smaller, {}",
+        "decompresses to {} MiB; at most {} MiB are allowed for a file of its size: make the image smaller, {}",
         mebibytes(bytes),
         mebibytes(most),
         PICTURE.remedy_bytes(bytes)
@@ -90,7 +90,7 @@ pub(crate) fn check_within(file: &Path, samples: u128, most: u128) -> Result<(),
     Err(Error::coded(
         ErrorCode::TooLarge,
         file,
-        format!("unpacks to {found} MiB, where {expected} MiB are expected; render it again"),
+        format!("decompresses to {found} MiB; expected {expected} MiB: render it again"),
     ))
 }
 
@@ -125,8 +125,7 @@ mod tests {
         assert!(check(file, 2_000_000 * 76, 500).is_ok());
         // A header of 20 000² pixels; 100 MB that decompress to 100 GB.
         let message = check(file, 400_000_000, 500).expect_err("a bomb").to_string();
-        let expected = "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller, or raise the limit: \
-                        `limit` picture-mib=1526";
+        let expected = "a.exr: decompresses to 1526 MiB; at most 1024 MiB are allowed for a file of its size: make the image smaller, or raise the limit: `limit` picture-mib=1526";
         assert_eq!(message, expected);
         assert!(check(file, 25_000_000_000, 100_000_000).is_err());
         // A measurement of 40 GB in a file of 5 GB.

@@ -34,14 +34,14 @@ pub fn read_trajectory(file: &Path) -> Result<TrajectoryAsset, Error> {
     let text = decode_text(file, &bytes)?;
     let (rows, unread) = if is_json { read_json(file, text) } else { read_csv(file, text) }?;
     if rows.is_empty() {
-        return Err(Error::coded(ErrorCode::Empty, file, "holds no place; expected one at least, with a time"));
+        return Err(Error::coded(ErrorCode::Empty, file, "contains no position; expected at least one, with a time"));
     }
     for pair in rows.windows(2) {
         let [(before_line, before), (line, row)] = [pair[0], pair[1]];
         if row.time <= before.time {
             let (time, before) = (row.time, before.time);
             let what = format!(
-                "the time {time} s follows {before} s of line {before_line}: sort the rows by rising time, each once"
+                "the time {time} s follows {before} s of line {before_line}: sort the rows by increasing time, each once"
             );
             return Err(Error::at(file, line, what));
         }
@@ -81,7 +81,7 @@ impl Columns {
     /// Finds the columns by their names.
     fn of(names: &[&str]) -> Result<Self, String> {
         if let Some(twice) = names.iter().enumerate().find(|(i, name)| is_known(name) && names[..*i].contains(name)) {
-            return Err(format!("two columns are called \"{}\"; leave one out", twice.1));
+            return Err(format!("two columns are named \"{}\"; remove one", twice.1));
         }
         let place = found(names, PLACE).ok_or_else(|| missing(names, &PLACE))?;
         let given = |wanted: &[&str]| wanted.iter().any(|name| names.contains(name));
@@ -91,7 +91,7 @@ impl Columns {
             (false, true) => Rotation::Angles(found(names, ANGLES).ok_or_else(|| missing(names, &ANGLES))?),
             (true, true) => {
                 let both = [QUATERNION.join(", "), ANGLES.join(", ")];
-                return Err(format!("rotations are given twice, as {} and as {}; leave one out", both[0], both[1]));
+                return Err(format!("rotations are given twice, as {} and as {}; remove one", both[0], both[1]));
             }
         };
         Ok(Self { place, rotation })
@@ -113,7 +113,7 @@ impl Columns {
                 let quaternion = DQuat::from_xyzw(value(x)?, value(y)?, value(z)?, value(w)?);
                 let length = quaternion.length();
                 if (length - 1.0).abs().is_nan() || (length - 1.0).abs() > LENGTH_ERROR {
-                    return Err(format!("a quaternion of length {length}; expected a rotation, of length 1"));
+                    return Err(format!("the quaternion has length {length}; expected a rotation, of length 1"));
                 }
                 quaternion
             }
@@ -131,7 +131,7 @@ fn found<const N: usize>(names: &[&str], wanted: [&str; N]) -> Option<[usize; N]
 fn missing(names: &[&str], wanted: &[&str]) -> String {
     let missing: Vec<&str> = wanted.iter().filter(|name| !names.contains(name)).copied().collect();
     format!(
-        "nothing is called {}; expected {} and, of what turns, {} or {}",
+        "missing {}; expected {} and, for rotation, {} or {}",
         missing.join(", "),
         PLACE.join(", "),
         QUATERNION.join(", "),
@@ -143,7 +143,7 @@ fn read_csv(file: &Path, text: &str) -> Result<Read, Error> {
     let mut rows = rows(text);
     let head = rows
         .next()
-        .ok_or_else(|| Error::coded(ErrorCode::Empty, file, "holds no row; expected a line of column names first"))?;
+        .ok_or_else(|| Error::coded(ErrorCode::Empty, file, "contains no row; expected a line of column names first"))?;
     let columns = Columns::of(&head.cells).map_err(|what| Error::at(file, head.line, what))?;
     let unread = head.cells.iter().filter(|name| !is_known(name)).map(|name| (*name).to_owned()).collect();
     let read_csv = rows.map(|row| {
@@ -164,7 +164,7 @@ fn read_csv(file: &Path, text: &str) -> Result<Read, Error> {
 
 fn read_json(file: &Path, text: &str) -> Result<Read, Error> {
     let entries: Vec<Map<String, Value>> = serde_json::from_str(text).map_err(|cause| {
-        let what = format!("no list of objects of numbers by name: {cause}");
+        let what = format!("not a list of objects with named numbers: {cause}");
         if cause.line() > 0 { Error::at(file, cause.line(), what) } else { Error::new(file, what) }
     })?;
     let lines = entry_lines(text);
@@ -175,11 +175,11 @@ fn read_json(file: &Path, text: &str) -> Result<Read, Error> {
     let read_json = entries.iter().zip(&lines).map(|(entry, line)| {
         let fault = |what: String| Error::at(file, *line, what);
         if let Some(other) = entry.keys().find(|key| is_known(key) && !names.contains(&key.as_str())) {
-            return Err(fault(format!("gives \"{other}\", which the first does not; give it in all or in none")));
+            return Err(fault(format!("has \"{other}\", which the first object does not; give it in all or in none")));
         }
         let given = |column: usize| {
             let name = names[column];
-            entry.get(name).ok_or_else(|| format!("does not give \"{name}\", which the first does"))
+            entry.get(name).ok_or_else(|| format!("lacks \"{name}\", which the first object has"))
         };
         let wrong = |column: usize, found: &Value| format!("found {found} as \"{}\"; expected a number", names[column]);
         let value = |column: usize| {
@@ -275,21 +275,21 @@ mod tests {
         let message = |name: &str, content: &str| read(name, content).expect_err("a fault");
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n\n2,1,2,3\n1.5,1,2,3\n"),
-            "a.csv:5: the time 1.5 s follows 2 s of line 4: sort the rows by rising time, each once"
+            "a.csv:5: the time 1.5 s follows 2 s of line 4: sort the rows by increasing time, each once"
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m\n0,1,2\n"),
-            "a.csv:1: nothing is called z_m; expected time_s, x_m, y_m, z_m and, of what turns, qw, qx, qy, qz or yaw_deg, pitch_deg, roll_deg"
+            "a.csv:1: missing z_m; expected time_s, x_m, y_m, z_m and, for rotation, qw, qx, qy, qz or yaw_deg, pitch_deg, roll_deg"
         );
-        assert!(message("a.csv", "0,1,2,3\n").starts_with("a.csv:1: nothing is called time_s, x_m, y_m, z_m;"));
-        assert!(message("a.csv", "time_s,x_m,y_m,z_m,qw,qx\n").starts_with("a.csv:1: nothing is called qy, qz;"));
+        assert!(message("a.csv", "0,1,2,3\n").starts_with("a.csv:1: missing time_s, x_m, y_m, z_m;"));
+        assert!(message("a.csv", "time_s,x_m,y_m,z_m,qw,qx\n").starts_with("a.csv:1: missing qy, qz;"));
         assert!(
             message("a.csv", "time_s,x_m,y_m,z_m,yaw_deg\n")
-                .starts_with("a.csv:1: nothing is called pitch_deg, roll_deg;")
+                .starts_with("a.csv:1: missing pitch_deg, roll_deg;")
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m,x_m\n0,1,2,3,4\n"),
-            "a.csv:1: two columns are called \"x_m\"; leave one out"
+            "a.csv:1: two columns are named \"x_m\"; remove one"
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m\n0,1,nan,3\n"),
@@ -298,11 +298,11 @@ mod tests {
         assert_eq!(message("a.csv", "time_s,x_m,y_m,z_m\n0,1\n"), "a.csv:2: the row ends before \"y_m\"");
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,1,2,3,2,0,0,0\n"),
-            "a.csv:2: a quaternion of length 2; expected a rotation, of length 1"
+            "a.csv:2: the quaternion has length 2; expected a rotation, of length 1"
         );
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m\n"),
-            "a.csv: holds no place; expected one at least, with a time"
+            "a.csv: contains no position; expected at least one, with a time"
         );
         let entry = |x: &str| format!("{{\"time_s\": 1, \"x_m\": {x}, \"y_m\": 0, \"z_m\": 0}}");
         assert_eq!(
@@ -311,15 +311,15 @@ mod tests {
         );
         assert_eq!(
             message("a.json", &format!("[{},\n{}]", entry("1"), entry("1, \"qw\": 1"))),
-            "a.json:2: gives \"qw\", which the first does not; give it in all or in none"
+            "a.json:2: has \"qw\", which the first object does not; give it in all or in none"
         );
         assert_eq!(
             message("a.json", &format!("[{},\n{}]", entry("1"), entry("2"))),
-            "a.json:2: the time 1 s follows 1 s of line 1: sort the rows by rising time, each once"
+            "a.json:2: the time 1 s follows 1 s of line 1: sort the rows by increasing time, each once"
         );
         assert!(
-            message("a.json", "[\n{\"time_s\": 0,,}]").starts_with("a.json:2: no list of objects of numbers by name: ")
+            message("a.json", "[\n{\"time_s\": 0,,}]").starts_with("a.json:2: not a list of objects with named numbers: ")
         );
-        assert_eq!(message("a.json", "[]"), "a.json: holds no place; expected one at least, with a time");
+        assert_eq!(message("a.json", "[]"), "a.json: contains no position; expected at least one, with a time");
     }
 }

@@ -36,7 +36,7 @@ pub(crate) fn parse(text: &str) -> Read<Node> {
         return Err(Fault::coded(
             ErrorCode::UnsupportedFile,
             0,
-            format!("holds {values} commas and brackets; at most {MOST_VALUES} are read"),
+            format!("contains {values} commas and brackets; at most {MOST_VALUES} are supported"),
         ));
     }
     let header = if text.starts_with("%YAML") { text.find('\n').unwrap_or(text.len()) } else { 0 };
@@ -46,7 +46,7 @@ pub(crate) fn parse(text: &str) -> Read<Node> {
         match events.next()? {
             (Event::StreamStart | Event::DocumentStart(_), _) => {}
             (Event::StreamEnd, _) => {
-                return Err(Fault::coded(ErrorCode::Empty, 0, "holds nothing; expected keys with values"));
+                return Err(Fault::coded(ErrorCode::Empty, 0, "is empty; expected keys with values"));
             }
             (event, span) => {
                 let root = events.node(event, span, 0)?;
@@ -87,7 +87,7 @@ impl<'a> Events<'a> {
     fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> Read<Node> {
         let line = span.start.line();
         if depth > DEEPEST {
-            return Err(Fault::at(line, format!("nested more than {DEEPEST} deep; no such file is")));
+            return Err(Fault::at(line, format!("nested more than {DEEPEST} levels deep, which is not supported")));
         }
         let value = match event {
             Event::Scalar(text, style, ..) => Value::Scalar(plain(&text, style)),
@@ -97,7 +97,7 @@ impl<'a> Events<'a> {
                 return Err(Fault::coded(
                     ErrorCode::UnsupportedFile,
                     line,
-                    "aliases (*name) are not read: write the value itself",
+                    "aliases (*name) are not supported: write the value itself",
                 ));
             }
             _ => return Err(Fault::at(line, "expected a value")),
@@ -125,7 +125,7 @@ impl<'a> Events<'a> {
                 (_, span) => return Err(Fault::at(span.start.line(), "expected a key")),
             };
             if !known.insert(key.clone()) {
-                return Err(Fault::coded(ErrorCode::Duplicate, line, format!("the key {key} is there twice")));
+                return Err(Fault::coded(ErrorCode::Duplicate, line, format!("the key {key} appears twice")));
             }
             let (event, span) = self.next()?;
             entries.push((key, self.node(event, span, depth + 1)?));
@@ -176,7 +176,7 @@ impl Node {
     pub(crate) fn text(&self) -> Read<&str> {
         match &self.value {
             Value::Scalar(text) => Ok(text),
-            _ => Err(Fault::at(self.line, "expected one value; found a list or keys")),
+            _ => Err(Fault::at(self.line, "found a list or keys; expected one value")),
         }
     }
 
@@ -190,7 +190,7 @@ impl Node {
     pub(crate) fn count(&self) -> Read<usize> {
         let text = self.text()?;
         let count = text.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
-        count.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a number of pixels from 1")))
+        count.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a number of pixels of at least 1")))
     }
 
     /// Items of a list; `None` for other nodes.
@@ -251,7 +251,7 @@ impl Fault {
 
 /// Note on keys that do not describe the camera.
 pub(crate) fn passed_over(keys: &[&str]) -> Vec<String> {
-    if keys.is_empty() { Vec::new() } else { vec![format!("passed over: {}", keys.join(", "))] }
+    if keys.is_empty() { Vec::new() } else { vec![format!("ignored: {}", keys.join(", "))] }
 }
 
 #[cfg(test)]

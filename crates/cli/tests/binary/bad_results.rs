@@ -79,7 +79,7 @@ fn pictures_of_different_sizes_or_kinds_are_not_compared() {
         etendue(["compare", &file(&a, name), &file(&b, name)]).refused(&[name, "44 × 30", "46 × 30"]);
     }
     etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "picture.0000.png")])
-        .refused(&["two EXR files or two pictures"]);
+        .refused(&["two EXR files or two images"]);
     etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "ground_truth.exr")])
         .refused(&["ground_truth.exr", "channels"]);
     etendue(["compare", &file(&a, "none.exr"), &file(&a, "radiance.exr")]).refused(&["none.exr"]);

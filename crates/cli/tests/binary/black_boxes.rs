@@ -82,15 +82,15 @@ fn exports_that_cannot_be_used_are_told_with_their_line() {
     let whole = export(&rows(1.0, 1.0));
     for (listing, phrases) in [
         (whole.replace("5.2", "-5.2"), &["ri.txt:14", "0 or more"][..]),
-        (whole.replace("3.000000E1", "1.500000E1"), &["ri.txt:14", "does not lie beyond"]),
+        (whole.replace("3.000000E1", "1.500000E1"), &["ri.txt:14", "expected increasing distances from the axis"]),
         (whole.replace("0.000000E0 ", "1.000000E0 "), &["ri.txt:11", "expected 0, the axis"]),
-        (whole.replace("degrees", "furlongs"), &["ri.txt", "in what the fields are counted"]),
-        (whole.replace("in degrees", "object height in millimeters"), &["ri.txt:8", "heights of the object"]),
+        (whole.replace("degrees", "furlongs"), &["ri.txt", "does not state the unit of the fields"]),
+        (whole.replace("in degrees", "object height in millimeters"), &["ri.txt:8", "object heights"]),
         (
             whole.replace("Relative Illumination", "Spots").replace("Rel. Ill.", "Size"),
-            &["ri.txt", "no export of relative illumination"],
+            &["ri.txt", "not an export of relative illumination"],
         ),
-        (whole.replace("  2.1E+00\r\n  2", "\r\n  2"), &["ri.txt:12", "found 2 numbers where the table has 3"]),
+        (whole.replace("  2.1E+00\r\n  2", "\r\n  2"), &["ri.txt:12", "found 2 numbers; expected 3"]),
         (format!("{whole}\r\nsecond\r\n{}", rows(1.0, 1.0)), &["ri.txt:18", "second table"]),
         (whole[..200].to_owned(), &["ri.txt", "no row of numbers"]),
         (export(&rows(0.5, 1.0)), &["job.toml", "known to 20°", "extend it"]),
@@ -187,17 +187,17 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
     let whole = std::fs::read_to_string(file).expect("the published file");
     let sensor = "width_px = 9, height_px = 9, pixel_pitch_um = 900";
     for (was, is, phrases) in [
-        ("\"minimalellipse\"", "\"neural\"", &["lens.json:12", "none of \"minimalellipse\", \"circles\""][..]),
+        ("\"minimalellipse\"", "\"neural\"", &["lens.json:12", "expected \"minimalellipse\" or \"circles\""][..]),
         ("\"thickness\": 75.67388,", "", &["lens.json:1", "thickness"]),
-        ("\"outy\"", "\"outq\"", &["the output \"outq\" is none of"]),
+        ("\"outy\"", "\"outq\"", &["unknown output \"outq\""]),
         ("\"termr\": [0]", "\"termr\": [0, 1]", &["1 coefficients and 2, 1 and 1 powers"]),
         ("\"termr\": [0]", "\"termr\": [0.5]", &["the power 0.5"]),
         ("\"termr\": [0]", "\"termr\": [99]", &["the power 99"]),
-        ("[0,0.6,1.2,", "[0,1.6,1.2,", &["positions that rise from 0"]),
+        ("[0,0.6,1.2,", "[0,1.6,1.2,", &["positions that increase from 0"]),
         ("\"radiiX\": [6.01", "\"radiiX\": [-6.01", &["the first above 0"]),
         ("\"wavelength_nm\": 550", "\"wavelength_nm\": -1", &["above 0"]),
-        ("\"wavelength_nm\": 550", "\"wavelength_nm\": 550, \"wavelength_nm\": 550", &["there twice"]),
-        ("\"outx\"", "\"outy\"", &["\"outy\" is there twice"]),
+        ("\"wavelength_nm\": 550", "\"wavelength_nm\": 550, \"wavelength_nm\": 550", &["appears twice"]),
+        ("\"outx\"", "\"outy\"", &["\"outy\" is defined twice"]),
         ("[5.315483154282251e-08", "[1e999", &["finite number"]),
         ("-0.01004348535911221", "0.01004348535911221", &["do not describe a lens that forms a real image"]),
     ] {
@@ -237,7 +237,7 @@ fn functions_of_several_wavelengths_are_read_in_any_order() {
         let phrase = "fitted to 2 wavelengths from 450 to 650 nm, linear between them and constant beyond";
         assert!(said.contains(phrase), "no {phrase} in\n{said}");
     }
-    told(&red, &red).refused(&["lens.json:", "the wavelength 650 nm is there twice"]);
+    told(&red, &red).refused(&["lens.json:", "the wavelength 650 nm appears twice"]);
 }
 
 /// Shipped cameras with such lenses. ISET places this lens's film for infinity at 57.315 mm.

@@ -63,7 +63,7 @@ fn pictures_of_any_encoding_give_one_response() {
     let pictures = Pictures::new();
     let (linear, as_is) = (Encoding::Linear, |l: f32| l);
     let (truth, encoding, reason) = found(&pictures.grey("linear.png", as_is), &[]);
-    assert!(encoding == "linear" && reason.starts_with("guessed") && reason.contains("--encoding"), "{reason}");
+    assert!(encoding == "linear" && reason.starts_with("assumed") && reason.contains("--encoding"), "{reason}");
     let same = |picture: &str, options: &[&str], encoding: &str, phrase: &str| {
         let (mtf50, taken, reason) = found(picture, options);
         assert!((mtf50 - truth).abs() < 0.003, "{picture} {options:?}: {mtf50} for {truth}");
@@ -99,7 +99,7 @@ fn a_side_car_goes_before_what_the_file_says_and_options_before_both() {
     };
     sidecar("\"linear\"");
     let (mtf50, encoding, reason) = found(&picture, &[]);
-    assert!((mtf50 - truth).abs() < 0.003 && encoding == "linear" && reason == "develop.json beside it", "{reason}");
+    assert!((mtf50 - truth).abs() < 0.003 && encoding == "linear" && reason == "develop.json next to it", "{reason}");
     let (wrong, _, reason) = found(&picture, &["--encoding", "srgb"]);
     assert!((wrong - truth).abs() > 0.02 && reason == "--encoding", "{wrong} {truth} {reason}");
     sidecar("\"sepia\"");

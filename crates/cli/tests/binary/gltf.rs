@@ -159,9 +159,9 @@ fn a_ply_file_is_a_mesh_without_materials() {
     assert_eq!(ran.status, 1, "a larger square is found: {}", ran.out);
     fs::write(&file, &of_ply).expect("written");
     let plan = etendue(["plan", &text(&file)]).ok().out.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(plan.contains("m.ply: colours of vertices or faces are not used: give the object a material"), "{plan}");
+    assert!(plan.contains("m.ply: vertex and face colours are not used: give the object a material"), "{plan}");
     let inspected = etendue(["inspect", &text(&mesh)]).ok().out;
-    assert!(inspected.contains("mesh, PLY") && inspected.contains("none: faceted"), "{inspected}");
+    assert!(inspected.contains("mesh, PLY") && inspected.contains("none (faceted)"), "{inspected}");
     fs::write(&mesh, &ply[..ply.len() - 12]).expect("written");
     let out = text(&place.path().join("out"));
     etendue(["render", &text(&file), "-o", &out]).refused(&["m.ply:14: ", "truncated", "job.toml:5:8", "file"]);

@@ -183,11 +183,11 @@ fn what_cannot_move_is_said_and_damage_is_refused() {
     for (file, phrase) in [
         (
             change("/nodes/0/scale", json!([2, 1, 2])),
-            "node \"arm\" is not used: nodes above it are mirrored or scaled unevenly",
+            "node \"arm\" is not used: nodes above it are mirrored or scaled non-uniformly",
         ),
         (
             change("/animations/0/channels/3/target/node", json!(1)),
-            "node \"hand\" is not used: what it stands in changes its size",
+            "node \"hand\" is not used: its parent changes size",
         ),
     ] {
         let place = tempfile::tempdir().expect("a temporary folder");
@@ -207,7 +207,7 @@ fn what_cannot_move_is_said_and_damage_is_refused() {
                 "/accessors/4",
                 json!({ "bufferView": 6, "byteOffset": 24, "componentType": 5126, "count": 3, "type": "VEC4" }),
             ),
-            "key 0 of its rotations is a quaternion without length",
+            "key 0 of its rotations is a quaternion of length 0",
         ),
     ] {
         let place = tempfile::tempdir().expect("a temporary folder");

@@ -14,7 +14,7 @@ fn pipe(path: &Path) -> String {
 /// Reading any of them would block indefinitely.
 #[test]
 fn pipes_in_the_place_of_files_are_refused() {
-    const PIPE: &str = "this is a pipe, not a file on a disk; save what it gives as a file and name that";
+    const PIPE: &str = "this is a pipe, not a regular file; save its content as a file and give that";
     for name in ["tower.obj", "tower.mtl", "checker.png", "sky.hdr"] {
         let spoilt = Spoilt::new();
         pipe(&spoilt.folder().join(name));
@@ -59,7 +59,7 @@ fn unused_files_need_not_exist() {
         assert!(plan.contains(told), "{plan}");
     }
     spoilt.spoil("small.toml", "texture = \"checker\"", "texture = \"big\"");
-    etendue(["plan", &spoilt.job()]).refused(&["no.png", "no such picture file"]);
+    etendue(["plan", &spoilt.job()]).refused(&["no.png", "no such image file"]);
 }
 
 #[test]

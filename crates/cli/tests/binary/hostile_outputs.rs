@@ -26,15 +26,15 @@ fn folders_that_cannot_be_are_refused_before_the_work() {
     assert_eq!(fs::read(&file).expect("a file"), b"theirs");
     // The kernel's own folder accepts no files, even from root.
     if cfg!(target_os = "linux") {
-        refused(Path::new("/proc/etendue"), "this output folder cannot be made");
+        refused(Path::new("/proc/etendue"), "this output folder cannot be created");
         refused(Path::new("/proc"), "this output folder cannot be written to");
     }
-    refused(&place.path().join("n".repeat(300)), "this output folder cannot be made: File name too long");
+    refused(&place.path().join("n".repeat(300)), "this output folder cannot be created: File name too long");
     // A file in place of a camera's folder, and a folder in place of a file.
     let out = place.path().join("out");
     fs::create_dir_all(out.join("front/radiance.exr")).expect("made");
     etendue(["render", &small(), "-o", &text(&out), "--overwrite"].iter().chain(&endless))
-        .refused(&["radiance.exr", "a folder of this name is in the way"]);
+        .refused(&["radiance.exr", "a folder has the name of a result"]);
     fs::remove_dir_all(out.join("front")).expect("removed");
     fs::write(out.join("front"), b"").expect("written");
     etendue(["render", &small(), "-o", &text(&out), "--overwrite"].iter().chain(&endless))

@@ -147,7 +147,7 @@ fn scenes_that_cannot_be_imported_are_refused_and_nothing_is_written() {
         (json!({ "/nodes/1/extensions/KHR_lights_punctual/light": 7 }), "out of bounds"),
         (json!({ "/cameras/0/perspective/yfov": 0 }), "yfov"),
         (json!({ "/nodes/2/camera": 9 }), "out of bounds"),
-        (json!({ "/nodes/1": { "children": [1] } }), "among its own children"),
+        (json!({ "/nodes/1": { "children": [1] } }), "its own descendant"),
     ] {
         let place = tempfile::tempdir().expect("a temporary folder");
         let mut file = floor(&point, still);

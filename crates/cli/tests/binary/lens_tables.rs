@@ -99,10 +99,10 @@ fn exports_of_distortion_that_cannot_be_used_are_told_with_their_line() {
     for (listing, phrases) in [
         (
             whole.replace("Distortion", "Astigmatism").replace("distortion", "astigmatism"),
-            &["d.txt", "no export of distortion"][..],
+            &["d.txt", "not a distortion export"][..],
         ),
-        (whole.replace("(deg)", "(mm)").replace("Degrees", "mm"), &["d.txt", "no angles"]),
-        (whole.replace(five, " 3.50000000E+000"), &["d.txt:63", "does not lie beyond 4"]),
+        (whole.replace("(deg)", "(mm)").replace("Degrees", "mm"), &["d.txt", "not angles"]),
+        (whole.replace(five, " 3.50000000E+000"), &["d.txt:63", "follows 4; expected increasing"]),
         (whole.replace(" 0.00000000E+000", " 0.50000000E+000"), &["d.txt:58", "expected 0, the axis"]),
     ] {
         std::fs::write(folder.path().join("d.txt"), &listing).expect("written");
@@ -231,10 +231,10 @@ fn tables_of_modulation_that_cannot_be_used_are_told_with_their_line() {
     let sensor = "width_px = 8, height_px = 8, pixel_pitch_um = 5";
     for (listing, phrases) in [
         (whole.replace("cycles per mm", "cycles per mrad"), &["mtf.txt", "in cycles per mm"][..]),
-        (whole.replace("MTF", "spots"), &["mtf.txt", "no table of modulation"]),
+        (whole.replace("MTF", "spots"), &["mtf.txt", "not a table of modulation"]),
         (
             whole.replace("0.00 (deg)", "diffraction limit").replace("14.00 (deg)", "diffraction limit"),
-            &["the diffraction limit alone"],
+            &["only the diffraction limit"],
         ),
         (whole.replace("  20.000000  0.", "  20.000000  1."), &["mtf.txt:28", "expected 0 … 1"]),
     ] {

@@ -26,13 +26,13 @@ fn a_picture_of_many_pixels_in_few_bytes_is_refused_by_its_head() {
     let spoilt = Spoilt::new();
     spoilt.write("checker.png", png_head(50_000, 40_000));
     spoilt.render(&[]).refused(&[
-        "checker.png: unpacks to 1908 MiB, where a file of its size may unpack to 1024 MiB",
+        "checker.png: decompresses to 1908 MiB; at most 1024 MiB are allowed for a file of its size",
         "or raise the limit: --limit picture-mib=1908 (named at ",
         "small.toml:6",
     ]);
     // With the limit raised the file is read, and found to be damaged.
     let raised = ["--limit", "picture-mib=1908", "--limit", "texture-cache-mib=65536"];
-    spoilt.render(&raised).refused(&["checker.png: not a readable picture"]);
+    spoilt.render(&raised).refused(&["checker.png: not a readable image"]);
     spoilt.write("checker.png", png_head(3000, 3000));
     spoilt.render(&["--limit", "picture-mib=8"]).refused(&["checker.png: unpacks to 9 MiB", "picture-mib=9"]);
     // Measurements store images as floats.

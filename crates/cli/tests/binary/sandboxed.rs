@@ -7,7 +7,7 @@ use std::os::unix::fs::symlink;
 use std::path::Path;
 use tempfile::TempDir;
 
-const OUT: &str = "this path leads out of the job's folder";
+const OUT: &str = "this path is outside the job's folder";
 
 /// A job in a folder next to files of others.
 struct Foreign {

@@ -127,7 +127,7 @@ fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder()
         .for_each(|(name, bytes)| assert!(fs::read(out.join(name)).is_ok_and(|found| found == *bytes), "{name}"));
     // The job itself needs more than the limit: refused before an image is unpacked.
     let limited = ["--limit", "texture-cache-mib=10"];
-    let told = ["scene.textures", "the cache of textures may have 10 MiB", "--limit texture-cache-mib="];
+    let told = ["scene.textures", "the texture cache is limited to 10 MiB", "--limit texture-cache-mib="];
     etendue(["plan", &job].iter().chain(&small).chain(&limited)).refused(&told);
     etendue(
         ["render", &job, "-o", &text(&place.path("other")), "--cache", &cache].iter().chain(&small).chain(&limited),
@@ -170,7 +170,7 @@ fn damaged_tiles_are_made_anew() {
     let output = text(&place.path("out"));
     let ran = etendue(["render", &job, "-o", &output].into_iter().chain(small));
     assert_eq!(ran.status, 1, "{ran:?}");
-    ran.says(&["error: ", "is damaged; the file was removed: run again, and it is made anew"]);
+    ran.says(&["error: ", "is damaged; the file was removed: run again to create it again"]);
     assert!(!damaged.exists());
     assert_same(&held, &rendered(&job, &small), "the next run");
 }
@@ -199,7 +199,7 @@ fn a_broken_picture_is_refused_as_one_in_memory() {
     fs::write(place.path("b.png"), &whole[..whole.len() / 2]).expect("written");
     let plan = |options: &[&str]| etendue(["plan", &job].iter().chain(options));
     let words =
-        ["b.png: not a readable picture (", "it may be truncated or damaged: make or fetch it again", "scene.textures"];
+        ["b.png: not a readable image (", "it may be truncated or damaged: create or download it again", "scene.textures"];
     plan(&[]).refused(&words);
     plan(&["--texture-memory", "1", "--cache", &cache]).refused(&words);
     let output = text(&place.path("out"));
@@ -209,7 +209,7 @@ fn a_broken_picture_is_refused_as_one_in_memory() {
         "nothing half-written"
     );
     fs::remove_file(place.path("b.png")).expect("removed");
-    plan(&["--texture-memory", "1", "--cache", &cache]).refused(&["b.png: no such picture file; check the path"]);
+    plan(&["--texture-memory", "1", "--cache", &cache]).refused(&["b.png: no such image file; check the path"]);
     plan(&["--texture-memory", "0"]).refused(&["--texture-memory", "from 1 to"]);
 }
 
@@ -238,5 +238,5 @@ sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 150 }
     let job = text(&place.path().join("job.toml"));
     rendered(&job, &["--spp", "1"]);
     write("m.obj", &format!("{mesh}usemtl unseen\nf 3 2 1\n"));
-    etendue(["plan", &job]).refused(&["lost.png: no such picture file", "named at", "m.obj"]);
+    etendue(["plan", &job]).refused(&["lost.png: no such image file", "named at", "m.obj"]);
 }

@@ -90,7 +90,7 @@ fn included_files_lie_in_the_sandbox() {
     fs::write(&file, "<scene version=\"3.0.0\"><include filename=\"../secret.xml\"/></scene>").expect("written");
     let sandbox = Sandbox::about(&file, &[]).expect("a sandbox");
     let message = read_mitsuba(&file, &[], &sandbox).expect_err("outside").to_string();
-    assert!(message.contains("a.xml:1: ") && message.contains("leads out of"), "{message}");
+    assert!(message.contains("a.xml:1: ") && message.contains("is outside"), "{message}");
 }
 
 /// Names of parameters are unchanged, and `$name` uses them so.

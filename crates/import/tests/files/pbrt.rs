@@ -94,5 +94,5 @@ fn included_files_lie_in_the_sandbox() {
     fs::write(&file, "Include \"../secret.pbrt\"").expect("written");
     let sandbox = Sandbox::about(Path::new(&file), &[]).expect("a sandbox");
     let message = read_pbrt(&file, &sandbox, &mut |_, _| Ok(())).expect_err("outside").to_string();
-    assert!(message.contains("a.pbrt:1: ") && message.contains("leads out of"), "{message}");
+    assert!(message.contains("a.pbrt:1: ") && message.contains("is outside"), "{message}");
 }

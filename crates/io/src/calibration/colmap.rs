@@ -59,12 +59,12 @@ struct Line<'a> {
 fn chosen<'a, 'b>(cameras: &'b [Line<'a>], camera: Option<&str>) -> Read<&'b Line<'a>> {
     let names = cameras.iter().map(|c| c.id).collect::<Vec<_>>().join(", ");
     match (cameras, camera) {
-        ([], _) => Err(Fault::at(0, "holds no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
+        ([], _) => Err(Fault::at(0, "contains no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
         (all, Some(asked)) => all.iter().find(|c| c.id == asked).ok_or_else(|| {
-            Fault::coded(ErrorCode::UnknownName, 0, format!("holds no camera \"{asked}\"; it holds {names}"))
+            Fault::coded(ErrorCode::UnknownName, 0, format!("contains no camera \"{asked}\"; it contains {names}"))
         }),
         ([one], None) => Ok(one),
-        _ => Err(Fault::coded(ErrorCode::UnknownName, 0, format!("holds the cameras {names}; choose one by its id"))),
+        _ => Err(Fault::coded(ErrorCode::UnknownName, 0, format!("contains the cameras {names}; select one by its id"))),
     }
 }
 
@@ -89,11 +89,11 @@ impl<'a> Line<'a> {
             return Err(Fault::coded(
                 ErrorCode::UnsupportedFile,
                 self.number,
-                format!("the model {} is none of {known}", self.model),
+                format!("unknown camera model {}; expected one of {known}", self.model),
             ));
         };
         if self.parameters.len() != *count {
-            let what = format!("found {} parameters; {} has {count}", self.parameters.len(), self.model);
+            let what = format!("found {} parameters; the model {} has {count}", self.parameters.len(), self.model);
             return Err(Fault::at(self.number, what));
         }
         let (matrix, k) = self.matrix();
@@ -149,7 +149,7 @@ fn thin_prism(k: &[f64], terms: DistortionTerms) -> Result<Model, ModelError> {
 
 fn count(line: usize, word: &str) -> Read<usize> {
     let count = word.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
-    count.ok_or_else(|| Fault::at(line, format!("found \"{word}\"; expected a number of pixels from 1")))
+    count.ok_or_else(|| Fault::at(line, format!("found \"{word}\"; expected a number of pixels of at least 1")))
 }
 
 fn finite(line: usize, word: &str) -> Read<f64> {

@@ -59,19 +59,19 @@ fn sensor<'a>(rig: &'a Node, camera: Option<&str>) -> Read<(String, &'a Node)> {
     let cameras: Vec<(&str, &Node)> = cameras.collect();
     let names = cameras.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     let chosen = match (camera, &cameras[..]) {
-        (_, []) => return Err(Fault::at(rig.line, "holds no f-theta camera (properties with Model = \"ftheta\")")),
+        (_, []) => return Err(Fault::at(rig.line, "contains no f-theta camera (properties with Model = \"ftheta\")")),
         (None, [only]) => Some(only),
         (None, _) => {
             return Err(Fault::coded(
                 ErrorCode::UnknownName,
                 rig.line,
-                format!("holds the f-theta cameras {names}; choose one by its name"),
+                format!("contains the f-theta cameras {names}; select one by its name"),
             ));
         }
         (Some(asked), _) => cameras.iter().find(|(name, _)| *name == asked),
     };
     let asked = camera.unwrap_or_default();
-    let what = || format!("holds no f-theta camera \"{asked}\"; it holds {names}");
+    let what = || format!("contains no f-theta camera \"{asked}\"; it contains {names}");
     chosen.map(|(name, properties)| ((*name).to_owned(), *properties)).ok_or_else(|| Fault::at(rig.line, what()))
 }
 
@@ -119,7 +119,7 @@ fn ncore(node: &Node) -> Read<Found> {
         return Err(Fault::coded(
             ErrorCode::UnsupportedFile,
             external.line,
-            "a distortion by a wind-screen, which is not read; expected null",
+            "distortion by a windscreen is not supported; expected null",
         ));
     }
     let [width, height] = node.key("resolution")?.items().unwrap_or_default() else {
@@ -149,7 +149,7 @@ fn sense(node: &Node) -> Read<FThetaSense> {
             Err(Fault::coded(
                 ErrorCode::UnsupportedFile,
                 node.line,
-                format!("the polynomial's type {other} is none of {known}"),
+                format!("unknown polynomial type {other}; expected one of {known}"),
             ))
         }
     }
@@ -160,7 +160,7 @@ fn words(node: &Node) -> Read<Vec<f64>> {
     let Ok(text) = node.text() else { return node.numbers() };
     let number = |word: &str| {
         let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
-        number.ok_or_else(|| Fault::at(node.line, format!("found \"{word}\"; expected the polynomial's numbers")))
+        number.ok_or_else(|| Fault::at(node.line, format!("found \"{word}\"; expected a coefficient of the polynomial, a number")))
     };
     text.split_whitespace().map(number).collect()
 }
@@ -169,7 +169,7 @@ fn found(numbers: Numbers, notes: Vec<String>) -> Read<Found> {
     let Numbers { line, size_px, centre_px: [cx, cy], sense, polynomial, greatest_angle_rad, linear } = numbers;
     let [c, d, e] = if linear == [0.0; 3] { [1.0, 0.0, 0.0] } else { linear };
     if c <= 0.0 {
-        return Err(Fault::at(line, format!("the linear term c = {c}; expected a positive number")));
+        return Err(Fault::at(line, format!("the linear term c is {c}; expected a positive number")));
     }
     // (c x + d y, e x + y) stretches columns; `Affine` stretches rows: c goes into the unit of the radius.
     let stretch = Affine { c: 1.0 / c, d: e / c, e: d / c };

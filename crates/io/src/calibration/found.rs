@@ -18,12 +18,12 @@ impl Found {
     pub(super) fn chosen(self, camera: Option<&str>) -> Read<(String, Calibration, Vec<String>)> {
         match camera {
             Some(asked) if asked != self.name && self.name.is_empty() => {
-                Err(Fault::at(0, format!("holds one camera without a name; do not ask for \"{asked}\"")))
+                Err(Fault::at(0, format!("contains one camera, which has no name; do not request \"{asked}\"")))
             }
             Some(asked) if asked != self.name => Err(Fault::coded(
                 ErrorCode::UnknownName,
                 0,
-                format!("holds no camera \"{asked}\"; it holds \"{}\"", self.name),
+                format!("contains no camera \"{asked}\"; it contains \"{}\"", self.name),
             )),
             _ => Ok((self.name, self.calibration, self.notes)),
         }

@@ -39,7 +39,7 @@ fn chosen<'a>(root: &'a Node, camera: Option<&str>) -> Read<(&'a str, &'a Node)>
                 Fault::coded(
                     ErrorCode::UnknownName,
                     0,
-                    format!("holds no camera \"{asked}\"; it holds {}", list(&names)),
+                    format!("contains no camera \"{asked}\"; it contains {}", list(&names)),
                 )
             })
         }
@@ -47,7 +47,7 @@ fn chosen<'a>(root: &'a Node, camera: Option<&str>) -> Read<(&'a str, &'a Node)>
         _ => Err(Fault::coded(
             ErrorCode::UnknownName,
             0,
-            format!("holds the cameras {}; choose one by its name", list(&names)),
+            format!("contains the cameras {}; select one by its name", list(&names)),
         )),
     }
 }
@@ -77,7 +77,7 @@ fn model(node: &Node) -> Read<(Model, [f64; 4])> {
         other => Err(Fault::coded(
             ErrorCode::UnsupportedFile,
             camera.line,
-            format!("the camera model {other} is none of pinhole, omni, eucm, ds"),
+            format!("unknown camera model \"{other}\"; expected \"pinhole\", \"omni\", \"eucm\" or \"ds\""),
         )),
     }
 }
@@ -100,7 +100,7 @@ fn pinhole(node: &Node) -> Read<Model> {
             FieldOfView::new(omega).map(Model::FieldOfView).map_err(wrong(coefficients.line))
         }
         "none" => no_distortion(node).map(|()| Model::Perspective(Perspective::pinhole())),
-        other => Err(unknown(name, other, "pinhole goes with radtan, equi, fov, none")),
+        other => Err(unknown(name, other, "for \"pinhole\", expected \"radtan\", \"equi\", \"fov\" or \"none\"")),
     }
 }
 
@@ -109,7 +109,7 @@ fn omni(node: &Node, xi: f64) -> Read<Model> {
     let k = match name.text()? {
         "radtan" => node.key("distortion_coeffs")?.exactly("k1, k2, p1, p2")?,
         "none" => no_distortion(node).map(|()| [0.0; 4])?,
-        other => return Err(unknown(name, other, "omni goes with radtan, none")),
+        other => return Err(unknown(name, other, "for \"omni\", expected \"radtan\" or \"none\"")),
     };
     unified(xi, k).map_err(wrong(node.key("intrinsics")?.line))
 }
@@ -119,13 +119,13 @@ fn no_distortion(node: &Node) -> Read<()> {
     let name = node.key("distortion_model")?;
     let found = name.text()?;
     if found != "none" {
-        return Err(unknown(name, found, "this camera model goes with none"));
+        return Err(unknown(name, found, "for this camera model, expected \"none\""));
     }
     match node.find("distortion_coeffs") {
         Some(list) if !list.numbers()?.is_empty() => Err(Fault::coded(
             ErrorCode::UnsupportedFile,
             list.line,
-            "coefficients of the distortion model none; expected []",
+            "the distortion model \"none\" has no coefficients; expected []",
         )),
         _ => Ok(()),
     }
@@ -135,6 +135,6 @@ fn unknown(name: &Node, found: &str, known: &str) -> Fault {
     Fault::coded(
         ErrorCode::UnsupportedFile,
         name.line,
-        format!("the distortion model {found} is not known here: {known}"),
+        format!("the distortion model \"{found}\" is not supported; {known}"),
     )
 }

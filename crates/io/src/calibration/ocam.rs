@@ -70,7 +70,7 @@ fn counted(row: &Row) -> Read<&[f64]> {
     match &row.numbers[..] {
         [count, rest @ ..] if *count == rest.len() as f64 => Ok(rest),
         [count, rest @ ..] => {
-            Err(Fault::at(row.line, format!("counts {count} but holds {}: {}", rest.len(), row.what)))
+            Err(Fault::at(row.line, format!("the count is {count}, but {} numbers follow: {}", rest.len(), row.what)))
         }
         [] => Err(Fault::at(row.line, format!("expected {}", row.what))),
     }
@@ -86,7 +86,7 @@ fn size(row: &Row) -> Read<[usize; 2]> {
     let [height, width] = exactly(row)?;
     let pixels = |x: f64| (1.0..=1e6).contains(&x) && x.fract() == 0.0;
     if !(pixels(height) && pixels(width)) {
-        return Err(Fault::at(row.line, format!("found {height} {width}; expected whole numbers of pixels from 1")));
+        return Err(Fault::at(row.line, format!("found {height} {width}; expected whole numbers of pixels of at least 1")));
     }
     Ok([width as usize, height as usize])
 }
@@ -105,6 +105,6 @@ fn note(direct: &[f64], inverse: &[f64], [width, height]: [usize; 2]) -> Option<
     });
     let worst = off.fold(0.0, f64::max);
     Some(format!(
-        "the exact inverse is used; the file's inverse polynomial is up to {worst:.3} px off within half the diagonal"
+        "the exact inverse is used; the file's inverse polynomial deviates from it by up to {worst:.3} px within half the diagonal"
     ))
 }

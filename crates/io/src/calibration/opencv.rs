@@ -45,7 +45,7 @@ pub(super) fn read_opencv(text: &str, fisheye: bool) -> Read<Found> {
 
 fn perspective(at: usize, matrix: CameraMatrix, line: usize, k: &[f64]) -> Read<Model> {
     if matrix.skew != 0.0 {
-        let what = format!("a skew of {} px, which OpenCV's perspective functions ignore; expected 0", matrix.skew);
+        let what = format!("the skew is {} px, which OpenCV's perspective functions ignore; expected 0", matrix.skew);
         return Err(Fault::at(at, what));
     }
     Perspective::from_opencv(k).map(Model::Perspective).map_err(wrong(line))
@@ -105,7 +105,7 @@ fn model(name: &Node, coefficients: &Node) -> Read<Model> {
             return Err(Fault::coded(
                 ErrorCode::UnsupportedFile,
                 name.line,
-                format!("the distortion model {other} is none of {known}"),
+                format!("unknown distortion model {other}; expected one of {known}"),
             ));
         }
     };

@@ -35,7 +35,7 @@ use crate::{Error, exr::EncodeError, source::read_bytes};
 /// # Errors
 /// If it is missing or damaged.
 pub fn read_flow(file: &Path) -> Result<Option<Plane<OpticalFlow>>, Error> {
-    let bytes = read_bytes(file, "flow or picture")?;
+    let bytes = read_bytes(file, "flow or image")?;
     match (is_flo(&bytes), is_kitti_flow(&bytes)) {
         (true, _) => decode_flo(file, &bytes).map(Some),
         (_, true) => decode_kitti_flow(file, &bytes).map(Some),
@@ -94,13 +94,13 @@ pub(crate) fn is_kitti_flow(bytes: &[u8]) -> bool {
 pub(crate) fn decode_kitti_flow(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error> {
     let (_, picture) = decode_raster(file, bytes, "KITTI's PNG", Kept::Floats)?;
     let image::DynamicImage::ImageRgb16(picture) = picture else {
-        return Err(Error::new(file, "not KITTI's optical flow: expected a PNG of three channels of 16 bits"));
+        return Err(Error::new(file, "not KITTI's optical flow: expected a PNG with three 16-bit channels"));
     };
     let px = |number: u16| ((f64::from(number) - FLOW_ZERO) / FLOW_UNITS) as f32;
     let vector = |[u, v, known]: [u16; 3]| if known == 0 { [f32::NAN; 2] } else { [px(u), px(v)] };
     let vectors = picture.pixels().map(|pixel| vector(pixel.0)).collect();
     let plane = Plane::from_samples(picture.width() as usize, picture.height() as usize, vectors);
-    plane.ok_or_else(|| Error::new(file, "fewer pixels than its header says"))
+    plane.ok_or_else(|| Error::new(file, "has fewer pixels than its header states"))
 }
 
 const MAGIC: &[u8; 4] = b"PIEH";
@@ -135,7 +135,7 @@ pub(crate) fn is_flo(bytes: &[u8]) -> bool {
 /// # Errors
 /// If the bytes are no such file, or are truncated.
 pub fn decode_flo(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error> {
-    let wrong = || Error::new(file, "not a .flo file: expected PIEH, width and height above 0, and two floats a pixel");
+    let wrong = || Error::new(file, "not a .flo file: expected PIEH, width and height above 0, and two floats per pixel");
     let (head, body) = bytes.split_at_checked(12).filter(|(head, _)| is_flo(head)).ok_or_else(wrong)?;
     let size = |at: usize| i32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
     let side = |at: usize| usize::try_from(size(at)).ok().filter(|n| (1..=1 << 20).contains(n));
@@ -144,7 +144,7 @@ pub fn decode_flo(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error
         let expected = 8 * width * height;
         return Err(Error::new(
             file,
-            format!("{} bytes of vectors, where {width} × {height} are {expected}", body.len()),
+            format!("has {} bytes of vectors; expected {expected} for {width} × {height} pixels", body.len()),
         ));
     }
     let float = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
@@ -232,7 +232,7 @@ mod tests {
     fn damaged_files_and_empty_planes_are_refused() {
         let bytes = encode_flo(&flow(2, &[[1.0; 2]; 4])).expect("four pixels");
         let message = decode_flo(Path::new("a.flo"), &bytes[..bytes.len() - 1]).expect_err("cut").to_string();
-        assert!(message.contains("31 bytes of vectors, where 2 × 2 are 32"), "{message}");
+        assert!(message.contains("has 31 bytes of vectors; expected 32 for 2 × 2 pixels"), "{message}");
         assert!(decode_flo(Path::new("a.flo"), b"PIEH").is_err());
         let negative = [&bytes[..4], &(-2_i32).to_le_bytes(), &bytes[8..]].concat();
         assert!(decode_flo(Path::new("a.flo"), &negative).is_err());

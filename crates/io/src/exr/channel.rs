@@ -132,7 +132,7 @@ impl ImageRows<'_> {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EncodeError {
     /// Zero pixels.
-    #[error("a picture of {width} × {height} pixels cannot be stored; expected at least one pixel")]
+    #[error("an image of {width} × {height} pixels cannot be stored; expected at least one pixel")]
     Empty {
         /// Pixels per row.
         width: usize,
@@ -140,16 +140,16 @@ pub enum EncodeError {
         height: usize,
     },
     /// Digital number that does not fit into 16 bits.
-    #[error("the digital number {value} does not fit into 16 bits; write the raw as TIFF")]
+    #[error("the digital number {value} does not fit into 16 bits; write the raw image as TIFF")]
     Wide {
         /// The number.
         value: u32,
     },
     /// An image without channels.
-    #[error("a picture without channels cannot be stored; expected at least one plane")]
+    #[error("an image without channels cannot be stored; expected at least one plane")]
     NoChannels,
     /// Planes of different sizes.
-    #[error("plane `{name}` has {found} samples, expected {expected}; all planes of one file have the same size")]
+    #[error("plane `{name}` has {found} samples, expected {expected}; all planes of a file must have the same size")]
     Size {
         /// Name of the plane.
         name: String,
@@ -159,7 +159,7 @@ pub enum EncodeError {
         expected: usize,
     },
     /// Text outside Latin-1, or name longer than 31 bytes, which EXR headers do not support.
-    #[error("`{0}` cannot stand in an EXR header: texts are Latin-1 without NUL, attribute names at most 31 bytes")]
+    #[error("`{0}` cannot be stored in an EXR header; texts are Latin-1 without NUL, attribute names at most 31 bytes")]
     Text(String),
     /// Samples on the disk cannot be read.
     #[error("{0}")]

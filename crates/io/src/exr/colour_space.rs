@@ -31,8 +31,8 @@ pub(crate) fn to_rec_709(file: &Path, stated: &Chromaticities) -> Result<Option<
         return Ok(None);
     }
     let matrix = primaries.to_linear_srgb().ok_or_else(|| {
-        let what = format!("its chromaticities ({}) make no colour space", text(stated));
-        Error::new(file, format!("{what}; correct the attribute, or remove it where the colours are of Rec. 709"))
+        let what = format!("its chromaticities ({}) do not define a colour space", text(stated));
+        Error::new(file, format!("{what}; correct the attribute, or remove it if the colours are Rec. 709"))
     })?;
     Ok(Some(ColourMatrix(matrix)))
 }

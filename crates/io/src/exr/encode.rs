@@ -152,7 +152,7 @@ fn sorted_head(headers: &Headers) -> Result<Vec<u8>, EncodeError> {
     }
     let mut bytes = bytes.into_inner();
     let length = sort_header(&mut bytes);
-    let length = length.ok_or_else(|| EncodeError::Encoder("the header cannot be followed".to_owned()))?;
+    let length = length.ok_or_else(|| EncodeError::Encoder("the header could not be parsed".to_owned()))?;
     bytes.truncate(length);
     Ok(bytes)
 }

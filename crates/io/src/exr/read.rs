@@ -109,8 +109,8 @@ impl ExrFile {
         Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            "a cube map (its attribute \"envmap\" says so), whose six faces are not read; store it as a panorama of latitude and longitude \
-             (OpenEXR's exrenvmap -latlong does so)",
+            "a cube map (by its attribute \"envmap\"), which is not supported; convert it to a latitude-longitude panorama, for example with \
+             OpenEXR's exrenvmap -latlong",
         ))
     }
 }
@@ -221,10 +221,10 @@ fn explain(cause: &::exr::error::Error) -> String {
     match cause {
         ::exr::error::Error::NotSupported(what) => {
             format!(
-                "an EXR feature that is not supported ({what}); store the file again as flat scan lines with ZIP compression"
+                "uses an EXR feature that is not supported ({what}); save the file as flat scan lines with ZIP compression"
             )
         }
-        other => format!("not a readable EXR file ({other}); it may be truncated: make or fetch it again"),
+        other => format!("not a readable EXR file ({other}); it may be truncated: create or download it again"),
     }
 }
 
@@ -242,7 +242,7 @@ fn add_layer(
         return Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            format!("parts of different sizes ({sizes}); store each part as a file of its own"),
+            format!("has parts of different sizes ({sizes}); store each part as a separate file"),
         ));
     }
     read.compression = layer.encoding.compression.to_string().trim_end_matches(" compression").to_uppercase();
@@ -307,7 +307,7 @@ mod tests {
     fn a_small_file_of_many_pixels_is_refused_by_its_header() {
         let message = decode_exr(Path::new("a.exr"), &large()).expect_err("too large").to_string();
         let expected =
-            "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller";
+            "a.exr: decompresses to 1526 MiB; at most 1024 MiB are allowed for a file of its size: make the image smaller";
         assert!(message.starts_with(expected), "{message}");
         assert_eq!(stated_samples(&large()), 400_000_000);
     }
@@ -319,6 +319,6 @@ mod tests {
         std::fs::write(&file, picture(20, 10, &["a", "b"], 1.0)).expect("write");
         assert_eq!(read_exr_within(&file, 1600).expect("a film").channels.len(), 2);
         let message = read_exr_within(&file, 1599).expect_err("more than known").to_string();
-        assert!(message.contains("unpacks to 1 MiB, where 1 MiB are expected"), "{message}");
+        assert!(message.contains("decompresses to 1 MiB; expected 1 MiB"), "{message}");
     }
 }

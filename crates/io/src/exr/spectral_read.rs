@@ -80,7 +80,7 @@ fn stated_quantity(file: &Path, exr: &ExrFile, notes: &mut Vec<String>) -> Resul
         let found = known.iter().find(|(name, its_unit)| name == quantity && its_unit == unit);
         let message = || {
             format!(
-                "holds {quantity} in {unit}; expected {} in {} or {} in {}",
+                "contains {quantity} in {unit}; expected {} in {} or {} in {}",
                 known[0].0, known[0].1, known[1].0, known[1].1
             )
         };
@@ -88,13 +88,13 @@ fn stated_quantity(file: &Path, exr: &ExrFile, notes: &mut Vec<String>) -> Resul
     }
     match exr.attributes.get("emissiveUnits").map(|unit| unit.trim_end_matches(".nm^-1")) {
         Some("W.m^-2.sr^-1") => {
-            notes.push("written by another program: values are taken as W.m^-2.sr^-1.nm^-1".to_owned());
+            notes.push("written by another program: values are assumed to be in W.m^-2.sr^-1.nm^-1".to_owned());
         }
         Some("W.m^-2") => return Ok(Irradiance::NAME),
         Some(unit) => {
             return Err(Error::new(file, format!("emissiveUnits is `{unit}`; expected W.m^-2.sr^-1 or W.m^-2")));
         }
-        None => notes.push("no unit is stated: values are taken as W.m^-2.sr^-1.nm^-1".to_owned()),
+        None => notes.push("no unit is stated: values are assumed to be in W.m^-2.sr^-1.nm^-1".to_owned()),
     }
     Ok(Radiance::NAME)
 }
@@ -108,11 +108,11 @@ fn cubes<Q: Quantity<Sample = f32>>(
         exr.channels.iter().enumerate().filter_map(|(i, c)| Some((parse_channel_name(&c.name)?, i))).collect();
     let passed = all.iter().filter(|(c, _)| matches!(c.stokes, Stokes::Emissive(1..))).count();
     if passed > 0 {
-        notes.push(format!("{passed} channels of polarisation (S1, S2, S3) are passed over"));
+        notes.push(format!("{passed} polarisation channels (S1, S2, S3) are ignored"));
     }
     let Some(cube) = cube(file, exr, &all, false)? else {
         let reflective = all.iter().any(|(c, _)| c.stokes == Stokes::Reflective);
-        let what = if reflective { "holds reflectances (T…nm)" } else { "has no spectral channels" };
+        let what = if reflective { "contains reflectances (T…nm)" } else { "has no spectral channels" };
         return Err(Error::new(file, format!("{what}; expected emission in channels such as S0.550,000000nm")));
     };
     let variance = cube_of_same_bands(file, cube.bands(), self::cube(file, exr, &all, true)?)?;
@@ -124,7 +124,7 @@ fn cube_of_same_bands(
     bands: Bands,
     variance: Option<SpectralCube<Variance>>,
 ) -> Result<Option<SpectralCube<Variance>>, Error> {
-    let told = "the variance channels have other wavelengths than the values; the file is not complete";
+    let told = "the variance channels and the values have different wavelengths; the file is incomplete";
     match variance {
         Some(cube) if cube.bands() != bands => Err(Error::new(file, told)),
         other => Ok(other),
@@ -162,17 +162,17 @@ fn bands_of(centres_nm: &[f64], stated_width_nm: Option<f64>) -> Result<Bands, S
     let spacing = if count > 1 { Some((last - first) / (count - 1) as f64) } else { None };
     let width = stated_width_nm
         .or(spacing)
-        .ok_or("has one wavelength and no band width; expected the attribute etendue:band_width_nm")?;
+        .ok_or("has one wavelength and states no band width; expected the attribute etendue:band_width_nm")?;
     for (i, nm) in centres_nm.iter().enumerate() {
         let even = first + width * i as f64;
         if (nm - even).abs() > 1e-3 * width {
             return Err(format!(
-                "wavelengths are not evenly spaced by {width} nm ({nm} nm stands where {even} nm was expected); resample the file"
+                "wavelengths are not evenly spaced by {width} nm (found {nm} nm instead of {even} nm); resample the file"
             ));
         }
     }
     Bands::new(first - 0.5 * width, width, count).ok_or_else(|| {
-        format!("wavelengths {first} to {last} nm leave the range of 300 to 1100 nm with their bands; cut the file")
+        format!("the bands of wavelengths {first} to {last} nm exceed the range of 300 to 1100 nm; crop the file to it")
     })
 }
 
@@ -191,7 +191,7 @@ mod tests {
     fn what_is_no_set_of_bands_is_refused_in_words() {
         let message = bands_of(&[400.0, 410.0, 425.0], None).expect_err("uneven");
         assert!(
-            message.contains("not evenly spaced by 12.5 nm (410 nm stands where 412.5 nm was expected)"),
+            message.contains("not evenly spaced by 12.5 nm (found 410 nm instead of 412.5 nm)"),
             "{message}"
         );
         assert!(bands_of(&[550.0], None).is_err());

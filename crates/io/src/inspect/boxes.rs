@@ -24,8 +24,8 @@ pub struct Boxes {
 /// # Errors
 /// If the file holds no boxes.
 pub fn read_boxes(file: &Path) -> Result<Boxes, Error> {
-    serde_json::from_slice(&read_description_bytes(file, "file of boxes")?).map_err(|cause| {
-        Error::at(file, cause.line(), format!("no boxes of objects, as boxes.0000.json has them: {cause}"))
+    serde_json::from_slice(&read_description_bytes(file, "boxes")?).map_err(|cause| {
+        Error::at(file, cause.line(), format!("does not contain boxes of objects in the form of boxes.0000.json: {cause}"))
     })
 }
 
@@ -39,20 +39,20 @@ pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
         return Err(Error::coded(
             ErrorCode::UnsuitableFile,
             &report.file,
-            "there is no picture on which boxes could be drawn; give a picture",
+            "contains no image to draw boxes on; give an image",
         ));
     };
     let Preview { width, height, .. } = *preview;
     if (width, height) != (found.width_px, found.height_px) {
         let (w, h) = (found.width_px, found.height_px);
         let message =
-            format!("boxes of a picture of {w} x {h} pixels, for one of {width} x {height}; give those of it");
+            format!("the boxes are of an image of {w} x {h} pixels, but the image has {width} x {height}; give the boxes of this image");
         return Err(Error::new(boxes, message));
     }
     drawing::draw_boxes(preview, &found.objects);
     let seen = found.objects.iter().filter(|object| object.visible_box_px.is_some()).count();
     report.notes.push(format!(
-        "boxes of {seen} objects that are seen: full lines about what is seen, dots about the whole object, in the colours of their ids"
+        "boxes of {seen} visible objects in the colours of their ids: solid lines around the visible part, dots around the whole object"
     ));
     Ok(())
 }

@@ -27,7 +27,7 @@ fn no_layer(file: &Path, exr: &ExrFile, name: &str) -> Error {
     Error::coded(
         ErrorCode::UnknownName,
         file,
-        format!("there is no layer \"{name}\"; give one of {}", layer::names(exr).join(", ")),
+        format!("has no layer \"{name}\"; expected one of {}", layer::names(exr).join(", ")),
     )
 }
 

@@ -76,7 +76,7 @@ mod tests {
             assert_eq!(report.kind, kind);
             assert_eq!((report.channels[0].max, report.channels[1].nan_count), (Some(2.0), 1));
             assert_eq!(report.preview.expect("drawn").rgb, [[255, 0, 0], [255, 229, 0], [0; 3], [255; 3]]);
-            assert!(report.notes[0].contains("full colour at 2.0000 px"), "{:?}", report.notes);
+            assert!(report.notes[0].contains("full saturation at 2.0000 px"), "{:?}", report.notes);
         }
         let path = folder.path().join("d.pfm");
         fs::write(&path, encode_pfm(2, &[1.0, 3.0, f32::NAN, 3.0]).expect("four pixels")).expect("write");

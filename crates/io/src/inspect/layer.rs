@@ -40,14 +40,14 @@ fn flow(name: &str, [u, v]: [&[f32]; 2]) -> (Vec<[u8; 3]>, String) {
 /// Note on an image of flow.
 pub(super) fn wheel_note(name: &str, scale: f32, unit: &str) -> String {
     format!(
-        "the picture shows {name} on the colour wheel of Baker et al. 2011 (right red, down yellow, left cyan, up violet), full colour at \
-         {scale:.4}{unit}, darker beyond; black is not known"
+        "the image shows {name} on the colour wheel of Baker et al. 2011 (right red, down yellow, left cyan, up violet), full saturation at \
+         {scale:.4}{unit}, darker beyond; black: unknown"
     )
 }
 
 fn vectors(name: &str, components: [&[f32]; 3]) -> (Vec<[u8; 3]>, String) {
     let (rgb, scale) = of_vectors(components, name == "N");
-    (rgb, format!("the picture shows {name}: x, y, z as red, green, blue, from {:.4} to {scale:.4}", -scale))
+    (rgb, format!("the image shows {name}: x, y, z as red, green, blue, from {:.4} to {scale:.4}", -scale))
 }
 
 fn single(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
@@ -55,10 +55,10 @@ fn single(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
     let found = exr.channels.iter().find(|c| c.name == name || c.name.rsplit_once('.').is_some_and(|(l, _)| l == name));
     let channel = found?;
     let (rgb, message) = match &channel.samples {
-        Samples::Uint(ids) => (of_identities(ids), format!("the picture shows {}, a colour each", channel.name)),
+        Samples::Uint(ids) => (of_identities(ids), format!("the image shows {}, one colour per value", channel.name)),
         samples if channel.name.ends_with(".Z") => lengths(&channel.name, &samples.to_floats()),
         samples => {
-            let message = format!("the picture shows channel {}", channel.name);
+            let message = format!("the image shows channel {}", channel.name);
             return Some((Preview::of_grey(width, height, &samples.to_floats()), message));
         }
     };
@@ -68,7 +68,7 @@ fn single(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
 fn lengths(name: &str, values: &[f32]) -> (Vec<[u8; 3]>, String) {
     let (rgb, [near, far]) = of_lengths(values);
     let message = format!(
-        "the picture shows {name} in the colours of viridis by the logarithm, from {near:.4} (yellow) to {far:.4} (violet); white is infinite"
+        "the image shows {name} in the viridis colour map, logarithmic, from {near:.4} (yellow) to {far:.4} (violet); white: infinite"
     );
     (rgb, message)
 }
@@ -77,7 +77,7 @@ fn lengths(name: &str, values: &[f32]) -> (Vec<[u8; 3]>, String) {
 pub(super) fn differences(width: usize, height: usize, values: &[f32]) -> (Preview, String) {
     let (rgb, [low, high]) = of_differences(values);
     let message = format!(
-        "the picture shows the numbers in the colours of viridis, from {low:.4} (violet) to {high:.4} (yellow); white is infinite"
+        "the image shows the numbers in the viridis colour map, from {low:.4} (violet) to {high:.4} (yellow); white: infinite"
     );
     (Preview { width, height, rgb }, message)
 }

@@ -69,7 +69,7 @@ fn report(file: &Path, layer: Option<&str>) -> Result<FileReport, Error> {
         return Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            format!("no EXR, which alone has layers such as \"{layer}\"; leave the layer out"),
+            format!("not an EXR file; only EXR files have layers such as \"{layer}\": omit the layer"),
         ));
     }
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
@@ -81,7 +81,7 @@ fn report(file: &Path, layer: Option<&str>) -> Result<FileReport, Error> {
         Some("toml") => Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            "a description, neither result nor asset; `etendue plan` says what a job describes",
+            "a description, neither a result nor an asset; `etendue plan` reports what a job describes",
         )),
         _ if is_flo(&bytes) => flow::middlebury(file, &bytes),
         _ if is_kitti_flow(&bytes) => flow::kitti(file, &bytes),

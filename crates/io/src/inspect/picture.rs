@@ -10,7 +10,7 @@ use crate::picture::{Kept, decode_raster};
 
 pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     let (format, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", Kept::Floats)?;
-    let mut report = FileReport::new(file, format!("picture, {}", format!("{format:?}").to_uppercase()));
+    let mut report = FileReport::new(file, format!("image, {}", format!("{format:?}").to_uppercase()));
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     report.state("size", format!("{width} x {height} pixels"));
     let names = channel_names(picture.color());
@@ -22,7 +22,7 @@ pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     }
     let step = thinning(width, height);
     if step > 1 {
-        report.notes.push(format!("the picture shows one of {step} pixels of one of {step} rows"));
+        report.notes.push(format!("the image is subsampled by a factor of {step}"));
     }
     report.preview = Some(preview(&picture, &stored, step));
     Ok(report)

@@ -22,8 +22,8 @@ pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
     let mut report = FileReport::new(file, kind);
     report.state("triangles", mesh.triangles.len());
     report.state("vertices", mesh.positions.len());
-    report.state("normals", if mesh.normals.is_empty() { "none: faceted" } else { "at each vertex" });
-    report.state("texture coordinates", if mesh.uvs.is_empty() { "none" } else { "at each vertex" });
+    report.state("normals", if mesh.normals.is_empty() { "none (faceted)" } else { "per vertex" });
+    report.state("texture coordinates", if mesh.uvs.is_empty() { "none" } else { "per vertex" });
     for (slot, material) in mesh.slot_materials.iter().enumerate() {
         report.state(&format!("material slot {slot}"), slot_text(&mesh, slot, material));
     }
@@ -38,7 +38,7 @@ pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
 fn slot_text(mesh: &MeshAsset, slot: usize, material: &SlotMaterial) -> String {
     let count = mesh.slots.iter().filter(|s| usize::from(**s) == slot).count();
     let surface = match &material.surface {
-        None => "no material of its own".to_owned(),
+        None => "no material".to_owned(),
         Some(SlotSurface::Diffuse { reflectance }) => format!("diffuse, {}", reflectance_text(reflectance)),
         Some(SlotSurface::Coated { reflectance, index, alpha }) => {
             format!("coated, index {index}, alpha {alpha:.4}, {}", reflectance_text(reflectance))
@@ -51,7 +51,7 @@ fn slot_text(mesh: &MeshAsset, slot: usize, material: &SlotMaterial) -> String {
 fn reflectance_text(reflectance: &SlotReflectance) -> String {
     match reflectance {
         SlotReflectance::LinearSrgb(rgb) => format!("linear sRGB {rgb:?}"),
-        SlotReflectance::Image(path) => format!("picture {}", path.display()),
+        SlotReflectance::Image(path) => format!("image {}", path.display()),
     }
 }
 
@@ -102,7 +102,7 @@ fn index(file: &Path) -> Result<FileReport, Error> {
 
 fn retro(file: &Path) -> Result<FileReport, Error> {
     let table = read_retro_table(file)?;
-    let mut report = FileReport::new(file, "coefficients of retro-reflection, CSV");
+    let mut report = FileReport::new(file, "coefficients of retroreflection, CSV");
     report.state("observation angles", format!("{:?}°", table.observation_deg));
     report.state("entrance angles", format!("{:?}°", table.entrance_deg));
     report.channels.push(ChannelReport::of("R_A (cd/lx/m2)", "text", table.coefficients.iter().copied()));

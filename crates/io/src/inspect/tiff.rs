@@ -9,7 +9,7 @@ use crate::photograph::{Encoding, Photograph, decode_photograph};
 pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     let photograph = decode_photograph(file, bytes)?;
     let negative = file.extension().is_some_and(|name| name.eq_ignore_ascii_case("dng"));
-    let mut report = FileReport::new(file, if negative { "raw, DNG" } else { "picture, TIFF" });
+    let mut report = FileReport::new(file, if negative { "raw, DNG" } else { "image, TIFF" });
     report.state("size", format!("{} x {} pixels", photograph.width, photograph.height));
     for channel in &photograph.channels {
         let values = channel.samples.iter().map(|v| f64::from(*v));
@@ -62,7 +62,7 @@ mod tests {
     fn numbers_are_told_as_they_are_and_exposed_for_the_picture() {
         let bytes = grey16(&[100, 100, 300, 300]);
         let found = report(Path::new("raw.0000.tif"), &bytes).expect("grey");
-        assert_eq!((found.kind.as_str(), found.channels[0].stored_as.as_str()), ("picture, TIFF", "16 bit"));
+        assert_eq!((found.kind.as_str(), found.channels[0].stored_as.as_str()), ("image, TIFF", "16 bit"));
         assert_eq!((found.channels[0].min, found.channels[0].mean), (Some(100.0), Some(200.0)));
         // A third of the brightest, 1/3 encoded after IEC 61966-2-1.
         let preview = found.preview.expect("a picture");

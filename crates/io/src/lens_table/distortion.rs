@@ -18,10 +18,10 @@ const WIDEST_DEG: f64 = 89.0;
 
 pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     if !listing.speaks_of("distortion") {
-        return Err(listing.fault(0, "is no export of distortion: its head does not speak of it"));
+        return Err(listing.fault(0, "not a distortion export: its header does not mention distortion"));
     }
     if listing.unit_of(&listing.tables[0])? != FieldUnit::Degrees {
-        let told = "the fields are no angles; export with fields in degrees";
+        let told = "the fields are not angles; export with fields in degrees";
         return Err(listing.fault(listing.tables[0].rows[0].line, told));
     }
     let beside = if ["f-theta", "f*theta", "f theta"].iter().any(|words| listing.speaks_of(words)) {
@@ -35,14 +35,14 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     let points = points(listing, table, beside)?;
     let focal_length_mm = listing.stated(table, "focal length").or_else(|| by_heights(table, beside));
     let mut notes = vec![match wavelength_nm(&table.above).or_else(|| wavelength_nm(&listing.head)) {
-        Some(nm) => format!("distortion computed for {nm} nm, taken for all wavelengths"),
-        None => "distortion taken for all wavelengths".to_owned(),
+        Some(nm) => format!("distortion computed for {nm} nm, used for all wavelengths"),
+        None => "distortion used for all wavelengths".to_owned(),
     }];
     if listing.tables.len() > 1 {
-        notes.push(format!("its tables of {} other wavelengths are not used", listing.tables.len() - 1));
+        notes.push(format!("the tables of {} other wavelengths are not used", listing.tables.len() - 1));
     }
     if table.rows[0].numbers.len() >= WHOLE {
-        notes.push("its field curvature is not used".to_owned());
+        notes.push("the field curvature is not used".to_owned());
     }
     let numbers = LensNumbers::Distortion { beside, focal_length_mm };
     Ok(LensTableAsset { numbers, points, notes, hash: [0; 32] })
@@ -56,8 +56,8 @@ fn points(listing: &Listing<'_>, table: &Table<'_>, kind: Undistorted) -> Result
     for (field, row) in listing.rows_from_axis(table)? {
         let percent = row.numbers[row.numbers.len() - 1];
         let wrong = match percent {
-            _ if field > widest => Some(format!("the field {field} lies beyond {widest}°")),
-            _ if percent <= -100.0 => Some(format!("found the distortion {percent} %; expected more than −100")),
+            _ if field > widest => Some(format!("the field angle {field}° exceeds {widest}°")),
+            _ if percent <= -100.0 => Some(format!("the distortion is {percent} %; expected more than −100 %")),
             _ => None,
         };
         if let Some(wrong) = wrong {
@@ -66,7 +66,7 @@ fn points(listing: &Listing<'_>, table: &Table<'_>, kind: Undistorted) -> Result
         points.push((field, 1.0 + PERCENT * percent));
     }
     if points.len() < 3 {
-        return Err(listing.fault(table.rows[0].line, "has fewer than two fields beyond the axis"));
+        return Err(listing.fault(table.rows[0].line, "has fewer than two fields off the axis; expected at least two"));
     }
     Ok(points)
 }

@@ -7,11 +7,11 @@ use crate::Error;
 
 pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     if !["relative illumination", "rel. ill"].iter().any(|words| listing.speaks_of(words)) {
-        return Err(listing.fault(0, "is no export of relative illumination: its head does not speak of it"));
+        return Err(listing.fault(0, "not an export of relative illumination: its header does not mention it"));
     }
     let [table] = &listing.tables[..] else {
         let second = listing.tables[1].rows[0].line;
-        return Err(listing.fault(second, "a second table; export one wavelength and one direction from the axis"));
+        return Err(listing.fault(second, "contains a second table; export one wavelength and one direction from the axis"));
     };
     let numbers = match listing.unit_of(table)? {
         FieldUnit::Degrees => LensNumbers::IlluminationByAngle,
@@ -22,14 +22,14 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     points.iter_mut().for_each(|point| point.1 /= on_axis);
     let wavelength_nm = wavelength_nm(&listing.head);
     let mut notes = vec![match wavelength_nm {
-        Some(nm) => format!("relative illumination computed for {nm} nm, taken for all wavelengths"),
-        None => "relative illumination taken for all wavelengths".to_owned(),
+        Some(nm) => format!("relative illumination computed for {nm} nm, used for all wavelengths"),
+        None => "relative illumination used for all wavelengths".to_owned(),
     }];
     if on_axis != 1.0 {
-        notes.push(format!("divided by its value on the axis, {on_axis}"));
+        notes.push(format!("normalised by its value on the axis, {on_axis}"));
     }
     if table.rows[0].numbers.len() > 2 {
-        notes.push("its effective f-numbers are not used".to_owned());
+        notes.push("the effective f-numbers are not used".to_owned());
     }
     Ok(LensTableAsset { numbers, points, notes, hash: [0; 32] })
 }
@@ -40,9 +40,9 @@ fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, E
     for (field, row) in listing.rows_from_axis(table)? {
         let ratio = row.numbers[1];
         let wrong = match ratio {
-            _ if ratio < 0.0 => Some(format!("found the relative illumination {ratio}; expected 0 or more")),
+            _ if ratio < 0.0 => Some(format!("the relative illumination is {ratio}; expected 0 or more")),
             _ if ratio == 0.0 && points.is_empty() => {
-                Some("the axis is dark: nothing can be compared with it".to_owned())
+                Some("the relative illumination on the axis is 0; expected more, as the other values are normalised by it".to_owned())
             }
             _ => None,
         };

@@ -57,7 +57,7 @@ impl<'a> Listing<'a> {
                     let rows = &mut tables.last_mut().expect("one was begun").rows;
                     if let Some(first) = rows.first().filter(|first| first.numbers.len() != numbers.len()) {
                         let (found, before) = (numbers.len(), first.numbers.len());
-                        let message = format!("found {found} numbers where the table has {before} in a row");
+                        let message = format!("found {found} numbers; expected {before} as in the rows before");
                         return Err(Error::at(file, number, message));
                     }
                     if let Some(wrong) = numbers.iter().find(|number| !number.is_finite()) {
@@ -69,7 +69,8 @@ impl<'a> Listing<'a> {
         }
         let head = tables.first().map(|table| table.above.clone());
         let head = head.ok_or_else(|| {
-            Error::coded(ErrorCode::Empty, file, "holds no row of numbers (decimal points, at least two in a row); expected a table that Zemax exported as text")
+            Error::coded(ErrorCode::Empty, file, "contains no row of numbers (with decimal points, at least two per row); expected a table exported \
+                by Zemax as text")
         })?;
         Ok(Self { file, head, tables })
     }
@@ -102,7 +103,7 @@ impl<'a> Listing<'a> {
             let wrong = match made.last() {
                 None if field != 0.0 => format!("the first field is {field}; expected 0, the axis"),
                 Some((before, _)) if field <= *before => {
-                    format!("the field {field} does not lie beyond {before}; expected rising distances from the axis")
+                    format!("the field {field} follows {before}; expected increasing distances from the axis")
                 }
                 _ => {
                     made.push((field, row));
@@ -121,7 +122,8 @@ impl<'a> Listing<'a> {
         for (number, line) in stated.chain(titles) {
             let line = line.to_lowercase();
             if line.contains("object height") {
-                let told = "the fields are heights of the object, which no direction or place of the picture follows from; export with fields of angle or of image height";
+                let told = "the fields are object heights, which do not determine a direction or image position; export with fields as angles or \
+                    image heights";
                 return Err(self.fault(number, told));
             }
             let has = |words: &[&str]| words.iter().any(|word| line.contains(word));
@@ -129,7 +131,7 @@ impl<'a> Listing<'a> {
                 return Ok(FieldUnit::Degrees);
             }
             if has(&["inch", "centimet", "(cm", "(in)", "in inch", "(m)"]) {
-                return Err(self.fault(number, "the fields are neither in degrees nor in mm; export with a lens in mm"));
+                return Err(self.fault(number, "the fields are neither in degrees nor in mm; export with lens units of mm"));
             }
             if has(&["millimet", "(mm", "in mm"]) {
                 return Ok(FieldUnit::Millimetres);
@@ -137,7 +139,7 @@ impl<'a> Listing<'a> {
         }
         Err(self.fault(
             titles.map_or(0, |(number, _)| number),
-            "no line of the head says in what the fields are counted; expected one such as \"Field values are in degrees\" or \"... in millimeters\"",
+            "the header does not state the unit of the fields; expected a line such as \"Field values are in degrees\" or \"... in millimeters\"",
         ))
     }
 }

@@ -15,26 +15,27 @@ const PER_MM: [&str; 5] = ["cycles per mm", "cycles/mm", "cycles per millimet", 
 
 pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     if !["mtf", "modulation"].iter().any(|words| listing.speaks_of(words)) {
-        return Err(listing.fault(0, "is no table of modulation: its head speaks neither of MTF nor of modulation"));
+        return Err(listing.fault(0, "not a table of modulation: its header mentions neither MTF nor modulation"));
     }
     if !PER_MM.iter().any(|words| listing.speaks_of(words)) {
-        let told = "its head does not say that frequencies are in cycles per mm of the picture, as \"Spatial Frequency units are cycles per mm\" does";
+        let told = "its header does not state that frequencies are in cycles per mm of the image; expected a line such as \"Spatial Frequency units \
+            are cycles per mm\"";
         return Err(listing.fault(0, told));
     }
     let is_limit =
         |table: &Table<'_>| table.above.iter().any(|(_, line)| line.to_lowercase().contains("diffraction limit"));
     let tables: Vec<&Table<'_>> = listing.tables.iter().filter(|table| !is_limit(table)).collect();
     let [table, others @ ..] = &tables[..] else {
-        return Err(listing.fault(listing.tables[0].rows[0].line, "the diffraction limit alone, which is no lens's"));
+        return Err(listing.fault(listing.tables[0].rows[0].line, "contains only the diffraction limit; expected the modulation of a lens"));
     };
     let points = points(listing, table)?;
     let mut notes =
-        vec!["modulation taken for all wavelengths, directions and the whole picture, without phase".to_owned()];
+        vec!["modulation used for all wavelengths, directions and image positions, without phase".to_owned()];
     if table.rows[0].numbers.len() > 2 {
         notes.push("mean of tangential and sagittal modulation".to_owned());
     }
     if !others.is_empty() {
-        notes.push(format!("its tables of {} other fields are not used", others.len()));
+        notes.push(format!("the tables of {} other fields are not used", others.len()));
     }
     Ok(LensTableAsset { numbers: LensNumbers::Modulation, points, notes, hash: [0; 32] })
 }
@@ -47,14 +48,14 @@ fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, E
         let modulation = columns.iter().sum::<f64>() / columns.len() as f64;
         let wrong = match points.last() {
             _ if !(0.0..=1.0 + WHOLE).contains(&modulation) => {
-                Some(format!("found the modulation {modulation}; expected 0 … 1"))
+                Some(format!("the modulation is {modulation}; expected 0 … 1"))
             }
-            None if frequency < 0.0 => Some(format!("found the frequency {frequency}; expected 0 or more")),
+            None if frequency < 0.0 => Some(format!("the frequency is {frequency}; expected 0 or more")),
             None if frequency == 0.0 && (modulation - 1.0).abs() > WHOLE => {
-                Some(format!("the modulation at 0 is {modulation}; expected 1"))
+                Some(format!("the modulation at frequency 0 is {modulation}; expected 1"))
             }
             Some((before, _)) if frequency <= *before => {
-                Some(format!("the frequency {frequency} does not lie beyond {before}; expected rising ones"))
+                Some(format!("the frequency {frequency} follows {before}; expected increasing frequencies"))
             }
             _ => None,
         };
@@ -64,7 +65,7 @@ fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, E
         points.push((frequency, modulation.min(1.0)));
     }
     if points.iter().filter(|(frequency, _)| *frequency > 0.0).count() < 2 {
-        return Err(listing.fault(table.rows[0].line, "has fewer than two frequencies above 0"));
+        return Err(listing.fault(table.rows[0].line, "has fewer than two frequencies above 0; expected at least two"));
     }
     Ok(points)
 }

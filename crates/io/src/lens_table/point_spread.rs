@@ -39,13 +39,13 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<PointSpreadAsset, Error> {
         [true, _] => Analysis::Huygens,
         [_, true] => Analysis::Fft,
         _ => {
-            let told = "is no listing of a point spread: its head speaks neither of \"Huygens PSF\" nor of \"FFT PSF\"";
+            let told = "not a listing of a point-spread function: its header mentions neither \"Huygens PSF\" nor \"FFT PSF\"";
             return Err(listing.fault(0, told));
         }
     };
     let [table] = &listing.tables[..] else {
         let second = listing.tables[1].rows[0].line;
-        return Err(listing.fault(second, "a second table; export one field position to a file"));
+        return Err(listing.fault(second, "contains a second table; export one field position per file"));
     };
     let mut notes = Vec::new();
     let [width, height] = size(listing, table)?;
@@ -55,7 +55,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<PointSpreadAsset, Error> {
     let point = point(listing, analysis, [width, height], &mut notes)?;
     let light = light(listing, table)?;
     if place_mm.is_none() && matches!(field, FieldPoint::Millimetres(_)) {
-        notes.push("its field in mm is taken for a place in the picture".to_owned());
+        notes.push("its field in mm is interpreted as an image position".to_owned());
     }
     let asset =
         PointSpreadAsset { field, place_mm, wavelengths_nm, spacing_um, width, light, point, notes, hash: [0; 32] };
@@ -69,7 +69,7 @@ fn size(listing: &Listing<'_>, table: &Table<'_>) -> Result<[usize; 2], Error> {
     match stated {
         Some((line, stated)) if stated.len() == 2 && stated != found.map(|n| n as f64) => {
             let message = format!(
-                "the head states {} by {} samples, and {} rows of {} are there; save the whole listing",
+                "the header states {} by {} samples, but the file has {} rows of {}; save the whole listing",
                 stated[0], stated[1], found[1], found[0]
             );
             Err(listing.fault(line, message))
@@ -88,15 +88,15 @@ fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
         .into_iter()
         .find(|(_, light, _, field, _)| (1..=2).contains(&light.len()) && (1..=2).contains(&field.len()))
     else {
-        let told = "its head does not say of which wavelength and field it is, as \"0.5500 µm at 0.0000, 14.0000 (deg).\" does";
+        let told = "its header does not state wavelength and field; expected a line such as \"0.5500 µm at 0.0000, 14.0000 (deg).\"";
         return Err(listing.fault(0, told));
     };
     let um =
-        length_um(unit).ok_or_else(|| listing.fault(line, "the wavelength is in no unit of length; expected µm"))?;
+        length_um(unit).ok_or_else(|| listing.fault(line, "the wavelength is not in a unit of length; expected µm"))?;
     let nm = [light[0], light[light.len() - 1]].map(|value| (value * um * 1e9).round() / 1e6);
     if !nm.iter().all(|nm| (100.0..20_000.0).contains(nm)) || nm[0] > nm[1] {
         return Err(listing
-            .fault(line, format!("found wavelengths from {} to {} nm; expected 100 … 20 000, rising", nm[0], nm[1])));
+            .fault(line, format!("found wavelengths from {} to {} nm; expected 100 … 20 000 nm, increasing", nm[0], nm[1])));
     }
     // A single number is y.
     let at = if let [y] = field[..] { [0.0, y] } else { [field[0], field[1]] };
@@ -106,7 +106,7 @@ fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
     } else if words.contains("mm") || words.contains("millimet") {
         FieldPoint::Millimetres(at)
     } else {
-        let told = "the field is neither in degrees nor in mm; export with fields of angle or of image height";
+        let told = "the field is neither in degrees nor in mm; export with fields as angles or image heights";
         return Err(listing.fault(line, told));
     };
     Ok((nm, field))
@@ -115,13 +115,13 @@ fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
 fn spacing_um(listing: &Listing<'_>) -> Result<f64, Error> {
     let Some((line, text)) = said(listing, "data spacing") else {
         return Err(listing
-            .fault(0, "its head does not say how far its samples are apart, as \"Data spacing is 0.250 µm.\" does"));
+            .fault(0, "its header does not state the sample spacing; expected a line such as \"Data spacing is 0.250 µm.\""));
     };
     let spacing = numbers(text).first().copied().zip(length_um(text)).map(|(number, um)| number * um);
     spacing.filter(|um| um.is_finite() && *um > 0.0).ok_or_else(|| {
         listing.fault(
             line,
-            "the spacing is no length above 0 on the sensor; expected µm, of a lens that focuses on its image",
+            "the sample spacing is not a length above 0 on the sensor; expected µm, of a lens that forms an image",
         )
     })
 }
@@ -131,7 +131,7 @@ fn place_mm(listing: &Listing<'_>, notes: &mut Vec<String>) -> Option<[f64; 2]> 
     let (_, text) = said(listing, "center coordinates").or_else(|| said(listing, "reference coordinates"))?;
     let unit = lens_unit_mm(text);
     if unit.is_none() {
-        notes.push("its coordinates on the sensor are taken for mm".to_owned());
+        notes.push("its coordinates on the sensor are assumed to be in mm".to_owned());
     }
     match numbers(text)[..] {
         [x, y] => Some([x, y].map(|value| value * unit.unwrap_or(1.0))),
@@ -147,7 +147,7 @@ fn point(
     notes: &mut Vec<String>,
 ) -> Result<[usize; 2], Error> {
     let Some((line, text)) = said(listing, "center point") else {
-        notes.push("it states no centre: the sample in the middle is taken, as listings with one have it".to_owned());
+        notes.push("no centre is stated: the middle sample is used, as in listings that state one".to_owned());
         return Ok(match analysis {
             Analysis::Huygens => [width / 2, (height - 1) / 2],
             Analysis::Fft => [(width - 1) / 2, height / 2],
@@ -162,7 +162,7 @@ fn point(
     };
     let told = || {
         listing
-            .fault(line, format!("the centre is no sample of the {width} by {height}; expected whole numbers from 1"))
+            .fault(line, format!("the centre is not one of the {width} by {height} samples; expected whole numbers from 1"))
     };
     found.map(|(column, row)| [column - 1, row - 1]).ok_or_else(told)
 }
@@ -175,13 +175,13 @@ fn light(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<f32>, Error> {
     for row in &table.rows {
         if let Some(wrong) = row.numbers.iter().find(|value| **value < 0.0) {
             return Err(
-                listing.fault(row.line, format!("found the light {wrong}; expected 0 or more (the type \"Linear\")"))
+                listing.fault(row.line, format!("found the value {wrong}; expected 0 or more (the type \"Linear\")"))
             );
         }
         light.extend(row.numbers.iter().map(|value| *value as f32));
     }
     if light.iter().all(|value| *value == 0.0) {
-        return Err(listing.fault(table.rows[0].line, "is 0 everywhere; expected some light"));
+        return Err(listing.fault(table.rows[0].line, "all values are 0; expected values above 0"));
     }
     Ok(light)
 }
@@ -204,7 +204,7 @@ fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAss
     let border = f64::from(border / most);
     if border > CUT_OFF {
         asset.notes.push(format!(
-            "light at its border is {:.1} % of its greatest: what lies beyond is left out",
+            "the value at its border is {:.1} % of the maximum: light beyond the border is omitted",
             100.0 * border
         ));
     }
@@ -214,7 +214,8 @@ fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAss
         let stated = [stated[0], stated[1]].map(|value| value * mm * 1e3);
         if found.iter().zip(stated).any(|(found, stated)| (found - stated).abs() > asset.spacing_um) {
             asset.notes.push(format!(
-                "its centroid lies {:.2}, {:.2} µm from its centre, and its head says {:.2}, {:.2} µm: its rows may run otherwise than is known",
+                "the centroid is {:.2}, {:.2} µm from the centre, but the header states {:.2}, {:.2} µm: the order of the rows may differ from the \
+                 expected one",
                 found[0], found[1], stated[0], stated[1]
             ));
         }

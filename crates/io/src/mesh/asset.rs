@@ -45,7 +45,7 @@ pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, 
     let mut mesh = builder.finish();
     mesh.hash = hash::of_parts(std::iter::once(&bytes).chain(&library_bytes).map(Vec::as_slice));
     if !bytes.ends_with(b"\n") {
-        mesh.report.push("the last line has no end: the file may be truncated".to_owned());
+        mesh.report.push("the last line has no line end: the file may be truncated".to_owned());
     }
     mesh.report.extend(notes(&obj));
     name_notes(file, mesh.report.iter_mut().chain(&mut mesh.warnings));
@@ -144,8 +144,8 @@ impl Builder {
     fn finish(self) -> MeshAsset {
         let mut mesh = self.mesh;
         let notes = [
-            (self.flat_corners, "without a usable normal take that of their face"),
-            (self.bare_corners, "without texture coordinates stand at u = v = 0"),
+            (self.flat_corners, "without a usable normal use that of their face"),
+            (self.bare_corners, "without texture coordinates use u = v = 0"),
         ];
         mesh.report.extend(notes.iter().filter(|(n, _)| *n > 0).map(|(n, told)| format!("{n} vertices {told}")));
         mesh
@@ -159,7 +159,7 @@ fn notes(obj: &Obj) -> Vec<String> {
         .map(|(keyword, (count, line))| format!("`{keyword}` is not used ({count} times, first on line {line})"))
         .collect();
     if let (Some(line), [_, _, 0]) = (obj.smoothing_line, obj.counts) {
-        notes.push(format!("line {line}: smoothing groups are not used: export normals, or the mesh stays faceted"));
+        notes.push(format!("line {line}: smoothing groups are not used: export normals, otherwise the mesh is faceted"));
     }
     notes
 }

@@ -60,7 +60,7 @@ impl Scan<'_> {
             return self.begin(statement, place);
         }
         let Some((name, _)) = self.places.last() else {
-            return Err(format!("`{}` stands before any `newmtl`", statement.keyword()));
+            return Err(format!("`{}` precedes the first `newmtl`", statement.keyword()));
         };
         let (value, notes) = field(statement)?;
         self.report.extend(notes.into_iter().map(|note| format!("{place}: material \"{name}\": {note}")));
@@ -73,7 +73,7 @@ impl Scan<'_> {
     fn begin(&mut self, statement: &Statement<'_>, place: String) -> Result<(), String> {
         let name = statement.rest().to_owned();
         if let Some(first) = self.first.insert(name.clone(), place.clone()) {
-            return Err(format!("material \"{name}\" is defined a second time, first at {first}; rename one of them"));
+            return Err(format!("material \"{name}\" is defined twice, first at {first}; rename one of them"));
         }
         self.input.push(statement.line, &format!("newmtl {name}"));
         self.places.push((name, place));
@@ -94,7 +94,7 @@ fn field(statement: &Statement<'_>) -> Result<(Option<String>, Vec<String>), Str
     };
     let note = match (keyword, value.as_str()) {
         ("Ka", "0 0 0") | ("Tf", "1 1 1") => None,
-        ("Ka", _) => Some("`Ka` is not used: ambient light is no property of a surface".to_owned()),
+        ("Ka", _) => Some("`Ka` is not used: ambient light is not a property of a surface".to_owned()),
         ("Tf", _) => Some("`Tf` is not used".to_owned()),
         _ => None,
     };
@@ -143,7 +143,7 @@ impl LibraryMaterial {
     pub(super) fn slot(&self, name: &str) -> (SlotMaterial, Vec<String>) {
         let (material, mut notes) = self.fields.to_slot(name);
         if self.fields.diffuse_map.is_some() && self.fields.diffuse.is_some_and(|kd| kd != [1.0; 3]) {
-            notes.push(format!("material \"{name}\": Kd is not used beside map_Kd"));
+            notes.push(format!("material \"{name}\": Kd is not used with map_Kd"));
         }
         (material, notes.into_iter().map(|note| format!("{}: {note}", self.place)).collect())
     }
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(
             library.report,
             [
-                "a.mtl:3: material \"red paint\": `Ka` is not used: ambient light is no property of a surface",
+                "a.mtl:3: material \"red paint\": `Ka` is not used: ambient light is not a property of a surface",
                 "a.mtl:6: material \"red paint\": `Pc` is not used",
                 "a.mtl:7: material \"red paint\": `norm` is not used",
                 "a.mtl:9: material \"red paint\": the texture option `-bm 1` is not used",
@@ -199,10 +199,10 @@ mod tests {
         );
         assert_eq!(message("newmtl a\n\nPr 1.5"), "lib/a.mtl:3: `Pr 1.5`: out of range; expected a number from 0 to 1");
         assert_eq!(message("newmtl a\nNs"), "lib/a.mtl:2: `Ns `: 0 numbers; expected a number of 0 or more");
-        assert_eq!(message("Kd 1 1 1"), "lib/a.mtl:1: `Kd` stands before any `newmtl`");
+        assert_eq!(message("Kd 1 1 1"), "lib/a.mtl:1: `Kd` precedes the first `newmtl`");
         assert_eq!(
             message("newmtl a\nnewmtl a"),
-            "lib/a.mtl:2: material \"a\" is defined a second time, first at a.mtl:1; rename one of them"
+            "lib/a.mtl:2: material \"a\" is defined twice, first at a.mtl:1; rename one of them"
         );
     }
 }

@@ -51,7 +51,7 @@ pub(super) fn scan(file: &Path, text: &str) -> Result<Obj, Error> {
         return Err(Error::coded(
             ErrorCode::Empty,
             file,
-            "this mesh has no faces; the file may be truncated, or hold only lines or points",
+            "the mesh has no faces; the file may be truncated, or contain only lines or points",
         ));
     }
     Ok(obj)
@@ -100,7 +100,7 @@ impl Obj {
             [x, y, z, 1.0] => self.feed(0, statement.line, &[&format!("v {x} {y} {z}")]),
             [_, _, _, w] => {
                 return Err(format!(
-                    "vertex with the weight {w}; expected three coordinates, weights belong to curves"
+                    "the vertex has the weight {w}; expected three coordinates (weights belong to curves)"
                 )
                 .into());
             }
@@ -141,7 +141,7 @@ impl Obj {
         }
         if !form[0] || !is_even {
             return Err(format!(
-                "corners of no form or of several in `f {}`; expected all as v, v/vt, v//vn or v/vt/vn",
+                "the corners in `f {}` have no valid form, or several; expected all as v, v/vt, v//vn or v/vt/vn",
                 statement.rest()
             )
             .into());
@@ -150,7 +150,7 @@ impl Obj {
         let most = CORNERS.most();
         self.corners = sum.filter(|sum| u64::from(*sum) <= most).ok_or_else(|| {
             let remedy = CORNERS.remedy(CORNERS.next(most));
-            let words = format!("more than {most} corners of faces; split the mesh, {remedy}");
+            let words = format!("the mesh has more than {most} corners of faces; split it, {remedy}");
             Problem::new(ErrorCode::TooLarge, words)
         })?;
         if self.materials.is_empty() {
@@ -186,7 +186,7 @@ impl Obj {
             self.materials.push(name.to_owned());
         }
         if self.materials.len() > 1 << 16 {
-            return Err("more than 65 536 materials in one mesh; split the mesh".into());
+            return Err("the mesh has more than 65 536 materials; split it".into());
         }
         if let Some(line) = line {
             self.input.push_parts(line, &["usemtl", name]);
@@ -200,11 +200,11 @@ impl Obj {
 }
 
 fn out_of_range(name: &str, stated: isize, count: usize) -> String {
-    format!("face names {name} {stated}, but there are {count}; the file is damaged or truncated")
+    format!("the face refers to {name} {stated}, but there are {count}; the file is damaged or truncated")
 }
 
 fn wrong_count(keyword: &str, expected: &str, found: usize) -> Problem {
-    format!("`{keyword}` has {found}, expected {expected}; the line may be cut off").into()
+    format!("`{keyword}` has {found}, expected {expected}; the line may be truncated").into()
 }
 
 #[cfg(test)]
@@ -238,43 +238,43 @@ mod tests {
     fn faults_name_their_line() {
         assert_eq!(
             refused("f 1 2 4"),
-            "a.obj:4: face names vertex 4, but there are 3; the file is damaged or truncated"
+            "a.obj:4: the face refers to vertex 4, but there are 3; the file is damaged or truncated"
         );
         assert_eq!(
             refused("f 1 2 -4"),
-            "a.obj:4: face names vertex -4, but there are 3; the file is damaged or truncated"
+            "a.obj:4: the face refers to vertex -4, but there are 3; the file is damaged or truncated"
         );
         assert_eq!(
             refused("f 0 1 2"),
-            "a.obj:4: face names vertex 0, but there are 3; the file is damaged or truncated"
+            "a.obj:4: the face refers to vertex 0, but there are 3; the file is damaged or truncated"
         );
         assert_eq!(
             refused("\nf 1/1 2/1 3/1"),
-            "a.obj:5: face names texture coordinate 1, but there are 0; the file is damaged or truncated"
+            "a.obj:5: the face refers to texture coordinate 1, but there are 0; the file is damaged or truncated"
         );
         assert_eq!(refused("v 0 nan 0"), "a.obj:4: `nan` is not finite; expected a finite number");
         assert_eq!(refused("v 0 -inf 0"), "a.obj:4: `-inf` is not finite; expected a finite number");
         assert_eq!(
             refused("f 1 2 3\nv 0.25 0."),
-            "a.obj:5: `v` has 2, expected 3 coordinates; the line may be cut off"
+            "a.obj:5: `v` has 2, expected 3 coordinates; the line may be truncated"
         );
         assert_eq!(
             refused("f 1 2 3\nf 1 2"),
-            "a.obj:5: `f` has 2, expected 3 or more corners; the line may be cut off"
+            "a.obj:5: `f` has 2, expected 3 or more corners; the line may be truncated"
         );
-        assert_eq!(refused("f 1 2 x"), "a.obj:4: `f 1 2 x` is refused (face parse error); correct or remove this line");
+        assert_eq!(refused("f 1 2 x"), "a.obj:4: `f 1 2 x` is invalid (face parse error); correct or remove this line");
         assert_eq!(
             refused("vt 0 0\nvn 0 0 1\nf 1 2 3/1/1/1"),
-            "a.obj:6: corners of no form or of several in `f 1 2 3/1/1/1`; expected all as v, v/vt, v//vn or v/vt/vn"
+            "a.obj:6: the corners in `f 1 2 3/1/1/1` have no valid form, or several; expected all as v, v/vt, v//vn or v/vt/vn"
         );
         assert_eq!(
             refused("vn 0 0 1\nf 1//1 2//0 3//1"),
-            "a.obj:5: face names normal 0, but there are 1; the file is damaged or truncated"
+            "a.obj:5: the face refers to normal 0, but there are 1; the file is damaged or truncated"
         );
-        assert!(refused("vt 0 0\nf /1 /1 /1").starts_with("a.obj:5: corners of no form or of several"));
+        assert!(refused("vt 0 0\nf /1 /1 /1").starts_with("a.obj:5: the corners in `f "));
         assert_eq!(
             refused("usemtl\nf 1 2 3"),
-            "a.obj:4: `usemtl ` is refused (material parse error); correct or remove this line"
+            "a.obj:4: `usemtl ` is invalid (material parse error); correct or remove this line"
         );
         assert_eq!(refused("vn 0 0 1 1"), "a.obj:4: `vn` has 4 numbers, expected at most 3");
         assert!(refused("").contains("no faces"));

@@ -24,7 +24,7 @@ impl PolygonFault {
     pub(super) fn of(self, corners: usize) -> String {
         match self {
             Self::CrossesItself => {
-                format!("polygon of {corners} corners crosses itself; triangulate the mesh where it was modelled")
+                format!("a polygon of {corners} corners intersects itself; triangulate the mesh in the modelling program")
             }
         }
     }

@@ -124,7 +124,7 @@ impl TobjInput {
         read(&mut rest).map_err(|cause| {
             let taken = &self.text[..self.text.len() - rest.len()];
             let (statement, line) = taken.lines().zip(&self.lines).last().unwrap_or(("", &0));
-            Error::at(file, *line, format!("`{statement}` is refused ({cause}); correct or remove this line"))
+            Error::at(file, *line, format!("`{statement}` is invalid ({cause}); correct or remove this line"))
         })
     }
 
@@ -183,7 +183,7 @@ mod tests {
         let error = input.read(Path::new("a.mtl"), |text| tobj::load_mtl_buf(text)).expect_err("no number");
         assert_eq!(
             error.to_string(),
-            "a.mtl:5: `illum two` is refused (material parse error); correct or remove this line"
+            "a.mtl:5: `illum two` is invalid (material parse error); correct or remove this line"
         );
     }
 

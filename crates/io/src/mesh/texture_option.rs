@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str) -> Result<TextureReference, String> {
     }
     texture.file = name.replace('\\', "/");
     if texture.file != name {
-        texture.notes.push(format!("`{name}` is read as `{}`", texture.file));
+        texture.notes.push(format!("`{name}` is interpreted as `{}`", texture.file));
     }
     Ok(texture)
 }
@@ -75,7 +75,7 @@ impl TextureReference {
             "-clamp" => {
                 let (word, after) = first_word(after).ok_or("`-clamp` without on or off")?;
                 if word == "on" {
-                    self.notes.push("the texture option `-clamp on` is not used: the picture repeats".to_owned());
+                    self.notes.push("the texture option `-clamp on` is not used: the texture repeats".to_owned());
                 }
                 Ok(after)
             }
@@ -131,7 +131,7 @@ mod tests {
             [
                 "the texture option `-blendu on` is not used",
                 "the texture option `-mm 0 1` is not used",
-                "the texture option `-clamp on` is not used: the picture repeats",
+                "the texture option `-clamp on` is not used: the texture repeats",
             ]
         );
     }

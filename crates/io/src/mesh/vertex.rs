@@ -22,7 +22,7 @@ pub(super) fn check_corners(corners: u64) -> Result<(), Problem> {
         return Ok(());
     }
     let remedy = CORNERS.remedy(corners);
-    let words = format!("its faces have {corners} corners, at most {most} are read; make it smaller, {remedy}");
+    let words = format!("the faces have {corners} corners; at most {most} are supported: make the mesh smaller, {remedy}");
     Err(Problem::new(ErrorCode::TooLarge, words))
 }
 

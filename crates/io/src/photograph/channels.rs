@@ -68,12 +68,12 @@ pub(super) fn of_floats() -> Stated {
 pub(super) fn guess(full_scale: Option<f64>, colour: bool) -> Stated {
     match full_scale {
         None => of_floats(),
-        Some(full) if full > 65_535.0 => Stated::guessed(Encoding::Linear, "whole numbers of 32 bits mostly are"),
+        Some(full) if full > 65_535.0 => Stated::guessed(Encoding::Linear, "32-bit integers usually are"),
         Some(full) if full > 255.0 && !colour => {
-            Stated::guessed(Encoding::Linear, "grey numbers of 16 bits mostly are")
+            Stated::guessed(Encoding::Linear, "16-bit grey values usually are")
         }
-        Some(full) if full > 255.0 => Stated::guessed(Encoding::Srgb, "colours of 16 bits mostly are"),
-        Some(_) => Stated::guessed(Encoding::Srgb, "numbers of 8 bits mostly are"),
+        Some(full) if full > 255.0 => Stated::guessed(Encoding::Srgb, "16-bit colours usually are"),
+        Some(_) => Stated::guessed(Encoding::Srgb, "8-bit values usually are"),
     }
 }
 
@@ -103,7 +103,7 @@ pub(super) fn decode_grid(file: &Path, bytes: &[u8]) -> Result<Photograph, Error
     let (samples, full_scale) = samples(&picture);
     let channels = usize::from(colour.channel_count());
     let names = channel_names(channels).ok_or_else(|| {
-        Error::coded(ErrorCode::UnsupportedFile, file, format!("{channels} channels; expected 1 to 4"))
+        Error::coded(ErrorCode::UnsupportedFile, file, format!("has {channels} channels; expected 1 to 4"))
     })?;
     let stated = stated(bytes, guess(full_scale, colour.has_color()));
     Ok(Photograph {
@@ -120,7 +120,7 @@ pub(super) fn decode_grid(file: &Path, bytes: &[u8]) -> Result<Photograph, Error
 /// Encoding that a PNG states, else the guess with the names of unsupported statements.
 fn stated(bytes: &[u8], guess: Stated) -> Stated {
     let said = png::said(bytes);
-    let named = |name| format!("{name} is not understood: {}", guess.reason);
+    let named = |name| format!("{name} is not supported: {}", guess.reason);
     let reason = said.not_understood.map_or_else(|| guess.reason.clone(), named);
     said.stated.unwrap_or(Stated { reason, ..guess })
 }
@@ -143,7 +143,7 @@ pub(crate) fn is_pfm(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn decode_pfm(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
-    let wrong = || Error::new(file, "not a PFM: expected Pf or PF, width, height and a scale other than 0");
+    let wrong = || Error::new(file, "not a PFM file: expected Pf or PF, width, height and a scale other than 0");
     let channels = if bytes[1] == b'F' { 3 } else { 1 };
     let mut rest = &bytes[2..];
     let mut word = || {
@@ -160,7 +160,7 @@ pub(super) fn decode_pfm(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     let expected = width * height * channels * 4;
     if rest.len() != expected {
         let told =
-            format!("{} bytes of pixels, where {width} × {height} × {channels} floats are {expected}", rest.len());
+            format!("has {} bytes of pixels; expected {expected} for {width} × {height} × {channels} floats", rest.len());
         return Err(Error::new(file, told));
     }
     let float = |b: &[u8]| {

@@ -34,10 +34,10 @@ pub(crate) use tiff::is_tiff;
 /// # Errors
 /// If the file is missing, of another kind, damaged or not finite, or the side-car is unreadable.
 pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
-    let mut photograph = decode_photograph(file, &read_bytes(file, "picture")?)?;
+    let mut photograph = decode_photograph(file, &read_bytes(file, "image")?)?;
     let Some(beside) = side_car::beside(file)? else { return Ok(photograph) };
     photograph.correlated_block_px = beside.correlated_block_px()?;
-    let reason = format!("{} beside it", beside.name());
+    let reason = format!("{} next to it", beside.name());
     if photograph.channels.len() == 1
         && let Some(facts) = side_car::facts(&beside)?
     {
@@ -67,7 +67,7 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
         return Err(Error::coded(
             ErrorCode::Empty,
             file,
-            "a picture without pixels; expected at least one pixel of one channel",
+            "an image without pixels; expected at least one pixel of one channel",
         ));
     }
     Ok(photograph)

@@ -58,7 +58,7 @@ impl SideCar {
         let number = stated.as_u64().and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0);
         let strange = || {
             format!(
-                "its sampling.correlated_block_px is {stated}, where a whole number above 0 is expected; render again"
+                "sampling.correlated_block_px is {stated}; expected a whole number above 0: render again"
             )
         };
         number.ok_or_else(|| Error::new(&self.file, strange()))
@@ -68,7 +68,7 @@ impl SideCar {
     pub(super) fn encoding(&self) -> Result<Option<Encoding>, Error> {
         let said = &self.entry()["encoding"];
         let strange = || {
-            let problem = format!("it states an unknown encoding of {}; render again", self.picture);
+            let problem = format!("states an unknown encoding of {}; render again", self.picture);
             Error::new(&self.file, problem)
         };
         if said.is_null() { Ok(None) } else { Encoding::from_json(said).map(Some).ok_or_else(strange) }
@@ -123,7 +123,7 @@ pub(super) fn facts(beside: &SideCar) -> Result<Option<RawFacts>, Error> {
     }
     let lacks = || {
         let problem = format!(
-            "it lists {} as raw and lacks levels, filters or a possible exposure; render again",
+            "lists {} as raw, but lacks levels, filters or a valid exposure; render again",
             beside.picture
         );
         Error::new(&beside.file, problem)
@@ -230,10 +230,10 @@ fn rows(shutter: &Value, frame: Option<&Value>) -> StatedRows {
         Some(word) => word,
     };
     if word != "rolling" {
-        return StatedRows::Otherwise("rows are exposed the longer the later they are read (global reset)".to_owned());
+        return StatedRows::Otherwise("rows that are read later are exposed longer (global reset)".to_owned());
     }
     if shutter["direction"] == "up" {
-        return StatedRows::Otherwise("rows are read upwards".to_owned());
+        return StatedRows::Otherwise("rows are read from bottom to top".to_owned());
     }
     if shutter["fields"].as_u64().is_some_and(|fields| fields > 1) {
         return StatedRows::Otherwise("rows are read in fields".to_owned());

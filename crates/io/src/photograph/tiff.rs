@@ -24,7 +24,7 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         Error::new(
             file,
             format!(
-                "not a readable TIFF ({cause}); it may be truncated, or of a kind that is not supported: store it as plain grey or RGB"
+                "not a readable TIFF ({cause}); it may be truncated, or of a kind that is not supported: save it as plain grey or RGB"
             ),
         )
     };
@@ -37,7 +37,7 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         return Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            format!("a TIFF of {colour:?}; expected grey or RGB: convert it"),
+            format!("a TIFF in {colour:?}; expected grey or RGB: convert it"),
         ));
     }
     let count = usize::from(colour.num_samples());
@@ -47,7 +47,7 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         return Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            "a TIFF of separate planes; store the samples of a pixel side by side",
+            "a TIFF with separate planes; save it with interleaved samples",
         ));
     }
     let samples = u128::from(width) * u128::from(height) * count as u128;
@@ -56,12 +56,12 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         return Err(Error::coded(
             ErrorCode::UnsupportedFile,
             file,
-            "a TIFF of several pictures; store each as a file of its own",
+            "a TIFF with several images; save each as a separate file",
         ));
     }
     let (samples, full_scale) = numbers(file, decoder.read_image().map_err(damaged)?)?;
     let names = channel_names(count)
-        .ok_or_else(|| Error::coded(ErrorCode::UnsupportedFile, file, format!("{count} channels; expected 1 to 4")))?;
+        .ok_or_else(|| Error::coded(ErrorCode::UnsupportedFile, file, format!("has {count} channels; expected 1 to 4")))?;
     Ok(Photograph {
         width: width as usize,
         height: height as usize,
@@ -127,7 +127,7 @@ fn numbers(file: &Path, samples: DecodingResult) -> Result<(Vec<f32>, Option<f64
             return Err(Error::coded(
                 ErrorCode::UnsupportedFile,
                 file,
-                "a TIFF of signed or 64-bit numbers; expected unsigned ones of up to 32 bits, or floats",
+                "a TIFF with signed or 64-bit numbers; expected unsigned integers of up to 32 bits, or floats",
             ));
         }
     };

@@ -46,7 +46,7 @@ impl<'a> Fields<'a> {
     pub(super) fn number(&mut self, what: &str) -> Result<f64, Error> {
         let Some((line, word)) = self.words.next() else {
             return Err(self.fault(format!(
-                "the file ends here; expected {what}: it is truncated or its counts of angles are wrong"
+                "the file ends here; expected {what}: it is truncated, or its numbers of angles are wrong"
             )));
         };
         self.line = line;
@@ -98,7 +98,7 @@ impl<'a> Fields<'a> {
     pub(super) fn intensities(&mut self, count: usize) -> Result<Vec<f64>, Error> {
         self.list(count, "intensity", |_, value| {
             (value < 0.0)
-                .then(|| format!("found the intensity {value}; expected 0 or more: no lamp gives less than nothing"))
+                .then(|| format!("the intensity is {value}; expected 0 or more"))
         })
     }
 
@@ -111,7 +111,7 @@ impl<'a> Fields<'a> {
                 self.file,
                 line,
                 format!(
-                    "found \"{}\" and {} more values behind {expected}; expected the end: correct the counts of angles",
+                    "found \"{}\" and {} more values after {expected}; expected the end of the file: correct the numbers of angles",
                     short(word),
                     count - 1
                 ),
@@ -168,14 +168,13 @@ pub(super) fn read(
     fields.list(count as usize, &format!("{which} angle"), |before, angle| {
         let (low, high) = (range.start(), range.end());
         if !range.contains(&angle) {
-            return Some(format!("found the {which} angle {angle}°; expected one from {low}° to {high}°"));
+            return Some(format!("the {which} angle is {angle}°; expected {low}° to {high}°"));
         }
         let last = *before.last()?;
         let number = before.len() + 1;
         (angle <= last).then(|| {
             format!(
-                "{which} angle {number} of {count} is {angle}° and follows {last}°: sort them by rising angle, each once, \
-                 or correct their count"
+                "{which} angle {number} of {count} is {angle}° and follows {last}°: sort the angles in increasing order, each once, or correct their number"
             )
         })
     })
@@ -185,7 +184,7 @@ pub(super) fn read(
 pub(super) fn dark_beyond(which: &str, grid: &[f64], firsts: &[f64], lasts: &[f64]) -> Option<String> {
     let (first, last) = (*grid.first()?, *grid.last()?);
     let whole = firsts.contains(&first) && lasts.contains(&last);
-    (!whole).then(|| format!("{which} angles from {first}° to {last}° were measured; beyond them the lamp is dark"))
+    (!whole).then(|| format!("{which} angles from {first}° to {last}° were measured; outside this range the intensity is 0"))
 }
 
 /// The same for vertical angles. Type C may stop at the horizon: many lamps emit to one side only.
@@ -204,7 +203,7 @@ const DOS_END: char = '\u{1a}';
 pub(super) fn decode<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, Error> {
     if let Some(at) = bytes.iter().position(|b| *b == 0) {
         let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();
-        return Err(Error::at(file, line, "no text; expected a lamp file in ASCII, Latin-1 or UTF-8: save it as such"));
+        return Err(Error::at(file, line, "not text; expected a photometric file in ASCII, Latin-1 or UTF-8"));
     }
     let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
     let text = match std::str::from_utf8(bytes) {
@@ -237,10 +236,10 @@ impl<'a> Statement<'a> {
 /// Reads the next numbers as a table of tilts.
 pub(super) fn table(fields: &mut Fields<'_>) -> Result<Tilt, Error> {
     let geometry = fields.whole("the lamp-to-luminaire geometry", 1..=3)? as u8;
-    let count = fields.whole("the count of tilts", 1..=MOST)?;
+    let count = fields.whole("the number of tilts", 1..=MOST)?;
     let tilts = read(fields, count, "tilt", &(-180.0..=180.0))?;
     let factors = fields.list(count as usize, "factor of a tilt", |_, factor| {
-        (factor < 0.0).then(|| format!("found the factor {factor}; expected 0 or more"))
+        (factor < 0.0).then(|| format!("the factor is {factor}; expected 0 or more"))
     })?;
     Ok(Tilt::Table { geometry, factors: tilts.into_iter().zip(factors).collect() })
 }
@@ -269,13 +268,12 @@ pub(super) fn remark(tilt: &Tilt) -> Option<String> {
             let (low, high) =
                 factors.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), (_, f)| (low.min(*f), high.max(*f)));
             Some(format!(
-                "its light changes with the tilt of the lamp (factors {low} to {high}); they are not applied: the intensities \
-                 are those of the position it was measured in"
+                "the tilt factors ({low} to {high}) are not applied: the intensities are those of the measured position"
             ))
         }
         Tilt::Measured(degrees) if *degrees == 0.0 => None,
         Tilt::Measured(degrees) => Some(format!(
-            "it was measured at a tilt of {degrees}°; its angles are used as the file gives them, without turning them back"
+            "measured at a tilt of {degrees}°; the angles are used as in the file, without correction for the tilt"
         )),
     }
 }

@@ -101,8 +101,7 @@ fn head<'a>(file: &Path, text: &'a str) -> Result<Head<'a>, Error> {
             _ => add_text(&mut texts, line.trim()),
         }
     }
-    let what = "no line begins with TILT=; expected TILT=NONE, TILT=INCLUDE or TILT=file before the numbers: this is no \
-                IES file, or a damaged one";
+    let what = "no line begins with TILT=; expected TILT=NONE, TILT=INCLUDE or TILT=file before the numbers: not an IES file, or a damaged one";
     Err(Error::new(file, what))
 }
 
@@ -128,26 +127,26 @@ fn add_text(texts: &mut Vec<(String, String)>, line: &str) {
 
 fn body(fields: &mut Fields<'_>) -> Result<Body, Error> {
     Ok(Body {
-        lamps: fields.whole("the count of lamps", 1..=1_000_000)?,
+        lamps: fields.whole("the number of lamps", 1..=1_000_000)?,
         lumens: lumens(fields)?,
-        multiplier: fields.positive("the multiplier of intensities")?,
-        verticals: fields.whole("the count of vertical angles", 2..=fields::MOST)?,
-        horizontals: fields.whole("the count of horizontal angles", 1..=fields::MOST)?,
+        multiplier: fields.positive("the multiplier of the intensities")?,
+        verticals: fields.whole("the number of vertical angles", 2..=fields::MOST)?,
+        horizontals: fields.whole("the number of horizontal angles", 1..=fields::MOST)?,
         axes: axes(fields)?,
         metres: if fields.whole("the unit (1 feet, 2 metres)", 1..=2)? == 1 { 0.3048 } else { 1.0 },
         size: [size(fields, "width")?, size(fields, "length")?, size(fields, "height")?],
         ballast: fields.positive("the ballast factor")?,
-        further: fields.number("the ballast-lamp factor, or what later editions put there")?,
+        further: fields.number("the ballast-lamp factor, or its replacement in later editions")?,
         watts: fields.amount("the watts")?,
     })
 }
 
 fn lumens(fields: &mut Fields<'_>) -> Result<f64, Error> {
-    let lumens = fields.number("the lumens of a lamp")?;
+    let lumens = fields.number("the lumens per lamp")?;
     if lumens >= 0.0 || lumens == -1.0 {
         return Ok(lumens);
     }
-    Err(fields.fault(format!("found {lumens} lumens; expected those of a lamp, or -1 for absolute photometry")))
+    Err(fields.fault(format!("found {lumens} lumens; expected the lumens per lamp, or -1 for absolute photometry")))
 }
 
 fn axes(fields: &mut Fields<'_>) -> Result<PhotometryAxes, Error> {
@@ -170,8 +169,8 @@ impl Body {
     fn remarks(&self, edition: Edition) -> Vec<String> {
         let reserved = edition == Edition::Of2002 && self.further != 1.0;
         let notes = [
-            (self.lumens == 0.0, "its lamps are rated 0 lumens: its flux cannot be checked".to_owned()),
-            (reserved, format!("the number {} in the place that LM-63-2002 reserves is not used", self.further)),
+            (self.lumens == 0.0, "the lamps are rated 0 lumens: the flux cannot be checked".to_owned()),
+            (reserved, format!("the number {} in the field reserved by LM-63-2002 is not used", self.further)),
         ];
         notes.into_iter().filter(|(is, _)| *is).map(|(_, note)| note).collect()
     }
@@ -182,7 +181,7 @@ impl Body {
         match (self.axes, horizontal.len()) {
             (PhotometryAxes::C, 1) => Ok(Symmetry::Round),
             (PhotometryAxes::C, _) => turn(first, last, horizontal),
-            (_, 1) => Err("one horizontal angle; expected two at least, for the lamp has a width".to_owned()),
+            (_, 1) => Err("found one horizontal angle; expected at least two for photometry of type A or B".to_owned()),
             _ if first == 0.0 => Ok(Symmetry::LeftRight),
             _ => Ok(Symmetry::None),
         }
@@ -202,8 +201,8 @@ fn turn(first: f64, last: f64, horizontal: &[f64]) -> Result<Symmetry, String> {
         Ok(Symmetry::None)
     } else {
         Err(format!(
-            "horizontal angles from {first}° to {last}°; expected 0° alone, or from 0° to 90°, 180° or 360°, or from 90° to \
-             270°: measure the rest or state the symmetry"
+            "found horizontal angles from {first}° to {last}°; expected 0° alone, or from 0° to 90°, 180° or 360°, or from 90° to 270°: measure the \
+             rest or state the symmetry"
         ))
     }
 }
@@ -217,7 +216,7 @@ fn grid(
     report: &mut Vec<String>,
 ) -> Result<(Vec<f64>, Vec<symmetry::Plane>), Error> {
     if factor.is_nan() || factor <= 0.0 {
-        return Err(fields.fault(format!("multiplier and ballast factors make {factor}; expected a number above 0")));
+        return Err(fields.fault(format!("the product of multiplier and ballast factors is {factor}; expected a number above 0")));
     }
     let (up, across) = (fields::vertical_range(body.axes), fields::horizontal_range(body.axes));
     let vertical = fields::read(fields, body.verticals, "vertical", &up)?;

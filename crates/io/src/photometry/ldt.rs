@@ -70,13 +70,13 @@ struct Lamps {
 pub(super) fn read(file: &Path, text: &str) -> Result<PhotometryAsset, Error> {
     let lines = Lines { file, lines: text.lines().collect() };
     lines.whole(2, "the type of the luminaire (1, 2 or 3)", 0, 3)?;
-    let code = lines.whole(3, "the symmetry (0 none, 1 round, 2 about C0, 3 about C90, 4 both)", 0, 4)?;
-    let planes = lines.whole(4, "the count of C planes", 1, fields::MOST as i32)? as usize;
-    let verticals = lines.whole(6, "the count of angles in a plane", 2, fields::MOST as i32)? as u32;
+    let code = lines.whole(3, "the symmetry (0 none, 1 rotational, 2 about C0, 3 about C90, 4 both)", 0, 4)?;
+    let planes = lines.whole(4, "the number of C planes", 1, fields::MOST as i32)? as usize;
+    let verticals = lines.whole(6, "the number of angles in a plane", 2, fields::MOST as i32)? as u32;
     let output_ratio = lines.above_0(23, "the light output ratio, per cent")? / 100.0;
-    let conversion = lines.above_0(24, "the conversion factor of intensities")?;
+    let conversion = lines.above_0(24, "the conversion factor of the intensities")?;
     let measured_tilt = lines.optional(25, "the tilt of the luminaire during measurement, degrees")?;
-    let sets = lines.whole(26, "the count of sets of lamps", 1, 1000)? as usize;
+    let sets = lines.whole(26, "the number of sets of lamps", 1, 1000)? as usize;
     let lamps = lamps(&lines)?;
     let rest = text.lines().enumerate().map(|(i, line)| (i + 1, line)).skip(HEAD_LINES + SET_LINES * sets);
     let mut fields = Fields::with_decimal_commas(file, rest);
@@ -108,9 +108,9 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PhotometryAsset, Error> {
 }
 
 fn lamps(lines: &Lines<'_>) -> Result<Lamps, Error> {
-    let count = lines.whole(HEAD_LINES + 1, "the count of lamps", -1_000_000, 1_000_000)?;
+    let count = lines.whole(HEAD_LINES + 1, "the number of lamps", -1_000_000, 1_000_000)?;
     if count == 0 {
-        let what = "found 0 lamps; expected their count, negative for absolute photometry";
+        let what = "found 0 lamps; expected their number, negative for absolute photometry";
         return Err(Error::at(lines.file, HEAD_LINES + 1, what));
     }
     let lumens = lines.above_0(HEAD_LINES + 3, "the total lumens of the lamps")?;
@@ -193,8 +193,8 @@ impl Table {
         }
         let [first, last] = ends;
         Err(format!(
-            "a lamp of symmetry {} holds the planes from C{first} to C{last}; expected them among {count} planes at these \
-             places: correct the symmetry in line 3 or the planes",
+            "a light of symmetry {} contains the planes from C{first} to C{last}; expected them at these positions among {count} planes: correct the \
+             symmetry in line 3 or the planes",
             self.code
         ))
     }

@@ -30,7 +30,7 @@ pub fn read_photometry(file: &Path) -> Result<PhotometryAsset, Error> {
 
 /// Reads the same; a tilt file must lie in `sandbox`.
 pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<PhotometryAsset, Error> {
-    let bytes = read_description_bytes(file, "lamp")?;
+    let bytes = read_description_bytes(file, "photometric")?;
     let text = fields::decode(file, &bytes)?;
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
     let (mut asset, further) = match extension.to_str() {
@@ -40,7 +40,7 @@ pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<Photo
             return Err(Error::coded(
                 ErrorCode::UnsupportedFile,
                 file,
-                "expected a measured lamp by the name of .ies (LM-63) or .ldt (EULUMDAT)",
+                "expected a photometric file with the extension .ies (LM-63) or .ldt (EULUMDAT)",
             ));
         }
     };

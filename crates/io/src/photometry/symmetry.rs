@@ -45,7 +45,7 @@ pub(super) fn full_turn(file: &Path, planes: Vec<Plane>, symmetry: Symmetry) -> 
             .into_iter()
             .next()
             .map(|(_, plane)| vec![(0.0, plane.clone()), (360.0, plane)])
-            .ok_or_else(|| Error::coded(ErrorCode::Empty, file, "holds no plane; expected one at least"));
+            .ok_or_else(|| Error::coded(ErrorCode::Empty, file, "contains no plane; expected at least one"));
     }
     let mut all = planes;
     if matches!(symmetry, Symmetry::AboutC90 | Symmetry::Quadrants) {
@@ -104,7 +104,7 @@ fn check_gaps(file: &Path, planes: &[Plane]) -> Result<(), Error> {
     gap.map_or(Ok(()), |(a, b)| {
         Err(Error::new(
             file,
-            format!("no plane was measured between {a}° and {b}°; expected planes all around, or a symmetry"),
+            format!("no plane was measured between {a}° and {b}°; expected planes over the full turn, or a symmetry"),
         ))
     })
 }
@@ -119,7 +119,7 @@ const ABSURD_BEYOND: f64 = 3.0;
 pub(super) fn check(file: &Path, asset: &mut PhotometryAsset) -> Result<(), Error> {
     let flux = asset.flux_lm();
     if flux.is_nan() || flux <= 0.0 {
-        return Err(Error::new(file, "gives no light in any direction; expected an intensity above 0"));
+        return Err(Error::new(file, "all intensities are 0; expected an intensity above 0"));
     }
     let Some(stated) = asset.stated_flux_lm() else { return Ok(()) };
     let ratio = flux / stated;
@@ -136,28 +136,28 @@ fn absurd(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
     let (source, remedy) = match asset.output_ratio {
         Some(share) => (
             format!("lumens of the lamps × light output ratio ({share})"),
-            "times as much or as little: correct the lumens, the conversion factor or the light output ratio (in per cent)",
+            "times more or less: correct the lumens, the conversion factor or the light output ratio (in per cent)",
         ),
         None => (
             "lumens of the lamps".to_owned(),
-            "times as much: correct the lumens or the multiplier; lumens of -1 say that the luminaire was measured by itself",
+            "times more: correct the lumens or the multiplier; lumens of -1 denote absolute photometry of the luminaire",
         ),
     };
-    format!("its intensities make {flux:.4} lm, its {source} {stated:.4} lm; expected at most {ABSURD_BEYOND} {remedy}")
+    format!("the flux from the intensities is {flux:.4} lm, that from the {source} {stated:.4} lm; expected at most {ABSURD_BEYOND} {remedy}")
 }
 
 fn remark(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
     let ratio = flux / stated;
     let reason = match (asset.output_ratio, ratio < 1.0) {
         (Some(_), _) => {
-            "the lumens of its lamps × its light output ratio: one of them is wrong, or directions are missing"
+            "the lumens of the lamps × the light output ratio: one of them is wrong, or directions are missing"
         }
-        (None, true) => "the lumens of its lamps: the luminaire keeps the rest, or directions are missing",
+        (None, true) => "the lumens of the lamps: the luminaire absorbs the rest, or directions are missing",
         (None, false) => {
-            "the lumens of its lamps, and no luminaire gives more than its lamps: check lumens and multiplier"
+            "the lumens of the lamps, but a luminaire cannot emit more than its lamps: check lumens and multiplier"
         }
     };
     format!(
-        "its intensities make {flux:.1} lm, {ratio:.3} times the {stated:.1} lm that are {reason}; the intensities are used"
+        "the flux from the intensities is {flux:.1} lm, {ratio:.3} times the {stated:.1} lm from {reason}; the intensities are used"
     )
 }

@@ -72,7 +72,7 @@ fn raster_head(file: &Path) -> Option<PictureHead> {
 /// Large image whose header has been read.
 pub(crate) fn large_picture(file: &Path, head: PictureHead) -> Result<LargeImage, Error> {
     let PictureHead { width, height, format } = head;
-    let bytes = read_bytes(file, "picture")?;
+    let bytes = read_bytes(file, "image")?;
     let (hash, to_rec_709) = (hash::of_bytes(&bytes), exr_colours(file, &bytes)?);
     let size = (width, height);
     let rows = Arc::new(PictureFile { path: file.to_path_buf(), size, format, hash });
@@ -90,7 +90,7 @@ struct PictureFile {
 
 impl PixelRows for PictureFile {
     fn read(&self, take: TakeRows<'_>) -> Result<(), String> {
-        let bytes = read_bytes(&self.path, "picture").map_err(|error| error.to_string())?;
+        let bytes = read_bytes(&self.path, "image").map_err(|error| error.to_string())?;
         if hash::of_bytes(&bytes) != self.hash {
             return Err(Error::coded(
                 ErrorCode::OtherRun,
@@ -116,7 +116,7 @@ impl PictureFile {
         let picture = decode_picture(&self.path, &bytes).map_err(|error| error.to_string())?;
         drop(bytes);
         if (picture.width, picture.height, format(&picture.pixels)) != (self.size.0, self.size.1, self.format) {
-            return Err(Error::new(&self.path, "its head and its pixels do not agree; store it again").to_string());
+            return Err(Error::new(&self.path, "its header and its pixels do not match; save it again").to_string());
         }
         take(&picture.pixels)
     }
@@ -283,7 +283,7 @@ mod tests {
         assert!(message.ends_with("t.png: the file was changed while it was read; run again"), "{message}");
         std::fs::remove_file(&file).expect("remove");
         let message = large.rows.read(&mut |_| Ok(())).expect_err("no file");
-        assert!(message.ends_with("t.png: no such picture file; check the path"), "{message}");
+        assert!(message.ends_with("t.png: no such image file; check the path"), "{message}");
     }
 
     #[test]

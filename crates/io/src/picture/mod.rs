@@ -30,7 +30,7 @@ pub(crate) const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 /// Reads an image.
 pub fn read_picture(file: &Path) -> Result<ImageAsset, Error> {
-    decode_picture(file, &read_bytes(file, "picture")?)
+    decode_picture(file, &read_bytes(file, "image")?)
 }
 
 /// Decodes the bytes of `file`.
@@ -44,7 +44,7 @@ pub fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
         raster::decode(file, bytes)?
     };
     if width == 0 || height == 0 {
-        return Err(Error::new(file, format!("a picture of {width} × {height} pixels; expected at least one pixel")));
+        return Err(Error::new(file, format!("the image has {width} × {height} pixels; expected at least one pixel")));
     }
     raster::check_finite(file, width, &pixels)?;
     Ok(ImageAsset { width, height, pixels, to_rec_709, hash: hash::of_bytes(bytes) })

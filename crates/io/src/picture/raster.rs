@@ -25,10 +25,10 @@ pub(crate) fn decode_raster(
     let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr];
     let format = image::guess_format(bytes).ok().filter(|format| known.contains(format));
     let unknown =
-        || Error::coded(ErrorCode::UnsupportedFile, file, format!("not a picture of a known kind; expected {kinds}"));
+        || Error::coded(ErrorCode::UnsupportedFile, file, format!("not an image of a known format; expected {kinds}"));
     let format = format.ok_or_else(unknown)?;
     if format == ImageFormat::Jpeg && !jpeg_is_whole(bytes) {
-        return Err(Error::new(file, "this JPEG has no end marker: it is truncated; make or fetch it again"));
+        return Err(Error::new(file, "the JPEG has no end marker: it is truncated; create or download it again"));
     }
     guarded(file, || decode_unguarded(file, bytes, format, kept))
 }
@@ -90,10 +90,10 @@ pub(super) fn stored_format(colours: ColorType) -> PixelFormat {
 fn explain(cause: &ImageError) -> String {
     match cause {
         ImageError::Unsupported(what) => {
-            format!("a feature that is not supported ({what}); store the picture again as plain PNG")
+            format!("uses a feature that is not supported ({what}); save the image as plain PNG")
         }
-        ImageError::Limits(what) => format!("too large to be read ({what}); make the picture smaller"),
-        other => format!("not a readable picture ({other}); it may be truncated or damaged: make or fetch it again"),
+        ImageError::Limits(what) => format!("too large to be read ({what}); make the image smaller"),
+        other => format!("not a readable image ({other}); it may be truncated or damaged: create or download it again"),
     }
 }
 
@@ -157,7 +157,7 @@ pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
         }
         (None, None, None, Some(y)) => (joined(y.iter().map(|y| [*y; 3]), a), None),
         _ => {
-            return Err(Error::new(file, format!("no picture of R, G, B or Y; its channels are {}", names.join(", "))));
+            return Err(Error::new(file, format!("not an image of R, G, B or Y; its channels are {}", names.join(", "))));
         }
     };
     Ok((width, height, pixels, to_rec_709))
@@ -188,7 +188,7 @@ fn check<const N: usize>(file: &Path, width: u32, pixels: &[[f32; N]]) -> Result
     let Some(at) = pixels.iter().position(|p| !p.iter().all(|v| v.is_finite())) else { return Ok(()) };
     let (x, y) = (at % width as usize, at / width as usize);
     let message = format!(
-        "pixel ({x}, {y}) is {:?}; expected finite numbers: cut the picture to its range before use",
+        "pixel ({x}, {y}) is {:?}; expected finite numbers: clip the image to the range of its format",
         pixels[at]
     );
     Err(Error::new(file, message))
@@ -274,7 +274,7 @@ mod tests {
             assert!(message.starts_with("t.png: ") && message.contains("truncated"), "{message}");
         }
         let message = read(b"#!/bin/sh\n").expect_err("a script");
-        assert_eq!(message, "t.png: not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR");
+        assert_eq!(message, "t.png: not an image of a known format; expected PNG, JPEG, Radiance HDR or OpenEXR");
     }
 
     #[test]
@@ -285,7 +285,7 @@ mod tests {
         let message = read(&exr).expect_err("infinite");
         assert!(message.starts_with("t.png: pixel (0, 0) is [inf, inf, inf]; expected finite numbers"), "{message}");
         let message = read(&crate::exr::tests_support::picture(2, 2, &["depth.Z"], 1.0)).expect_err("no colours");
-        assert_eq!(message, "t.png: no picture of R, G, B or Y; its channels are depth.Z");
+        assert_eq!(message, "t.png: not an image of R, G, B or Y; its channels are depth.Z");
     }
 
     #[test]

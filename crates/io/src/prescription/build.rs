@@ -121,14 +121,14 @@ impl Primary {
         }
         let found = wavelengths_nm.get(place.wrapping_sub(1)).filter(|_| place as f64 == self.number);
         let nm = *found.ok_or_else(|| {
-            let what = format!("the primary wavelength is number {}; expected one of the file's {count}", self.number);
+            let what = format!("the primary wavelength has number {}; expected 1 to {count}, the file's wavelengths", self.number);
             Error::at(file, self.line, what)
         })?;
         if (SHORTEST_NM..=MAX_NM).contains(&nm) {
             return Ok(Some(nm));
         }
-        let what = format!("the primary wavelength is {nm} nm; light of {SHORTEST_NM} to {MAX_NM} nm is modelled");
-        Err(Error::at(file, self.line, format!("{what}: name another wavelength of the file")))
+        let what = format!("the primary wavelength is {nm} nm; expected {SHORTEST_NM} to {MAX_NM} nm");
+        Err(Error::at(file, self.line, format!("{what}: select another wavelength of the file")))
     }
 }
 
@@ -228,7 +228,7 @@ impl Raw {
         let [object, surfaces @ .., image] = &self.surfaces[..] else {
             return Err(Error::new(
                 file,
-                "expected object, surfaces and image; the file has fewer than three surfaces",
+                "the file has fewer than three surfaces; expected object, surfaces and image",
             ));
         };
         let (before_mm, mut surfaces) = kept(surfaces, unit);
@@ -256,7 +256,7 @@ impl Raw {
                 notes: self.notes,
                 hash: [0; 32],
             }),
-            found => Err(Error::new(file, format!("{found} surfaces are the stop; expected one (STOP or STO)"))),
+            found => Err(Error::new(file, format!("{found} surfaces are aperture stops; expected one (STOP or STO)"))),
         }
     }
 }
@@ -268,7 +268,7 @@ fn near_enough(file: &Path, opening: Opening, object_distance_mm: f64) -> Result
         LensOpening::ObjectCone { .. } if !near => Err(Error::at(
             file,
             opening.line,
-            "the aperture is a cone of light from the object (NAO, OBNA), and no object stands at a distance in front of the lens; give the \
+            "the aperture is a cone of light from the object (NAO, OBNA), but no object is at a finite distance in front of the lens; give the \
              diameter of the entrance pupil (EPD, ENPD)",
         )),
         _ => Ok(()),

@@ -37,7 +37,7 @@ pub fn read_prescription(file: &Path) -> Result<PrescriptionAsset, Error> {
             return Err(Error::coded(
                 ErrorCode::UnsupportedFile,
                 file,
-                "expected a lens by the name of .zmx (Zemax) or .seq (CODE V)",
+                "expected a lens file with the extension .zmx (Zemax) or .seq (CODE V)",
             ));
         }
     };

@@ -49,7 +49,7 @@ impl PrivateGlasses {
         if indices.is_empty() || indices.len() != self.wavelengths_nm.len() {
             let (found, expected) = (indices.len(), self.wavelengths_nm.len());
             return Err(w.fault(format!(
-                "a private glass with {found} indices; expected one for each of {expected} wavelengths of PWL"
+                "the private glass has {found} indices; expected one for each of {expected} wavelengths of PWL"
             )));
         }
         let points = self.wavelengths_nm.iter().zip(indices).map(|(nm, index)| IndexSample { nm: *nm, index });

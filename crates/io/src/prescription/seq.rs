@@ -120,7 +120,7 @@ impl Reader {
             _ if name.strip_prefix('S').is_some_and(is_count) => self.surface(&name, w)?,
             _ if REFUSED.contains(&name.as_str()) => {
                 return Err(w
-                    .fault(format!("{name} is not modelled; only centred surfaces of revolution are"))
+                    .fault(format!("{name} is not supported; only centred surfaces of revolution are"))
                     .with_code(ErrorCode::UnsupportedFile));
             }
             _ if self.edit(&name, w)? || PASSED_OVER.contains(&name.as_str()) => {}
@@ -134,7 +134,7 @@ impl Reader {
             let list: Vec<String> = self.unknown.iter().map(|(name, line)| format!("{name} (line {line})")).collect();
             let list = list.join(", ");
             self.raw.notes.push(format!(
-                "commands that are not known here are passed over, as if they left the lens as it stands: {list}"
+                "unknown commands are ignored, as if they did not change the lens: {list}"
             ));
         }
         self.raw.finish(file)
@@ -142,7 +142,7 @@ impl Reader {
 
     fn fields_across(&mut self, name: &str, w: &Words<'_>) -> Result<(), Error> {
         if w.numbers(1)?.iter().any(|x| *x != 0.0) {
-            let note = format!("line {}: {name}: fields beside the meridional plane are not read", w.line);
+            let note = format!("line {}: {name}: fields outside the meridional plane are ignored", w.line);
             self.raw.notes.push(note);
         }
         Ok(())
@@ -158,7 +158,7 @@ impl Reader {
             }
             _ => {
                 Err(w
-                    .fault("SCA: expected one factor above 0 (SCA 2.0), which scales the whole lens as it stands here"))
+                    .fault("SCA: expected one factor above 0 (SCA 2.0), which scales all lengths before this line"))
             }
         }
     }
@@ -176,16 +176,16 @@ impl Reader {
         if place > count || (place == count && self.has_image) {
             let last = count.saturating_sub(1);
             return Err(w.fault(format!(
-                "{name}: expected a surface given before (S0 to S{last}), or the next one before the image (SI)"
+                "{name}: expected a surface defined before (S0 to S{last}), or the next one before the image (SI)"
             )));
         }
         if name == "S" && self.current + 1 < count {
             return Err(w
-                .fault(format!("S after S{}: inserting surfaces is not read; write them in their order", self.current))
+                .fault(format!("S after S{}: inserting surfaces is not supported; write them in order", self.current))
                 .with_code(ErrorCode::UnsupportedFile));
         }
         let Some(radii) = self.radii else {
-            return Err(w.fault("surfaces before RDM: say whether they give radii (RDM) or curvatures (RDM N)"));
+            return Err(w.fault("surfaces precede RDM; state whether they have radii (RDM) or curvatures (RDM N)"));
         };
         if place == count {
             self.raw.surfaces.push(RawSurface::new(w.line));
@@ -213,7 +213,7 @@ impl Reader {
             "" | "AIR" => return Ok(GlassAsset::Air),
             "REFL" => {
                 return Err(w
-                    .fault("a mirror; only refracting lenses are modelled")
+                    .fault("mirrors are not supported; only refracting lenses are")
                     .with_code(ErrorCode::UnsupportedFile));
             }
             _ => {}
@@ -223,11 +223,11 @@ impl Reader {
         }
         let Some((glass, today)) = successor(plain) else {
             return Err(w.fault(format!(
-                "no glass is called `{plain}`; give a name of the Schott or Ohara catalogue, a number as 517642, or its indices in a private \
+                "unknown glass `{plain}`; give a name of the Schott or Ohara catalogue, a number such as 517642, or its indices in a private \
                  catalogue (PRV) before the surfaces"
             )).with_code(ErrorCode::UnknownName));
         };
-        let note = format!("line {}: no catalogue here has {plain}: its successor {today} is taken", w.line);
+        let note = format!("line {}: {plain} is in no supported catalogue: its successor {today} is used", w.line);
         self.raw.notes.push(note);
         Ok(glass)
     }

@@ -30,7 +30,7 @@ impl Reader {
         {
             let solve = w.words[..].join(" ");
             self.raw.notes.push(format!(
-                "line {}: the solve {solve} is not read: the value of the surface's own line is taken",
+                "line {}: the solve {solve} is ignored: the value of the surface's own line is used",
                 w.line
             ));
             return Ok(true);
@@ -53,7 +53,7 @@ impl Reader {
         let zoom = |word: &str| word.strip_prefix(['Z', 'z']).is_some_and(is_count);
         if zoom(w.word(1)) || zoom(w.word(2)) {
             return Err(w
-                .fault(format!("{name} of a zoom position: zooms are not modelled"))
+                .fault(format!("{name} of a zoom position: zooms are not supported"))
                 .with_code(ErrorCode::UnsupportedFile));
         }
         // A glass may have the name of a surface.
@@ -64,13 +64,13 @@ impl Reader {
                 let surfaces = surfaces.ok_or_else(|| {
                     let count = self.raw.surfaces.len();
                     w.fault(format!(
-                        "{name} {}: no such surface is given before; the lens has {count} here, SO among them",
+                        "{name} {}: no such surface is defined before; the lens has {count} surfaces here, including SO",
                         w.word(1)
                     ))
                 })?;
                 Ok(Target { surfaces, named: true, value: 2 })
             }
-            None if self.raw.surfaces.is_empty() => Err(w.fault(format!("{name} before the first surface (SO)"))),
+            None if self.raw.surfaces.is_empty() => Err(w.fault(format!("{name} precedes the first surface (SO)"))),
             None => Ok(Target { surfaces: self.current..=self.current, named: false, value: 1 }),
         }
     }
@@ -130,7 +130,7 @@ fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>, value: usize) -
             "EDG" | "HOL" => {}
             "OBS" => {
                 return Err(w
-                    .fault("an obscuration is not modelled; only round, open apertures are")
+                    .fault("obscurations are not supported; only round, open apertures are")
                     .with_code(ErrorCode::UnsupportedFile));
             }
             _ => (surface.semi_aperture, surface.rim) = (Some(w.number(value)?), true),

@@ -26,7 +26,7 @@ impl Words<'_> {
         let number = self.word(place).parse::<f64>().ok().filter(|n| n.is_finite());
         number.ok_or_else(|| {
             let (key, found) = (self.word(0), self.word(place));
-            self.fault(format!("{key}: found `{found}`, expected a number"))
+            self.fault(format!("{key}: found `{found}`; expected a number"))
         })
     }
 

@@ -67,7 +67,7 @@ impl Reader {
             }
             "MNUM" if w.number(1)? > 1.0 => {
                 self.raw.notes.push(format!(
-                    "line {}: of {} configurations the one that the surfaces state is taken",
+                    "line {}: of {} configurations, the one stated by the surfaces is used",
                     w.line,
                     w.word(1)
                 ));
@@ -103,7 +103,7 @@ impl Reader {
         let name = w.word(0);
         let of_surface = indented && !self.raw.surfaces.is_empty() && !SURFACE_KEYWORDS.contains(&name);
         if of_surface && self.unknown.insert(name.to_owned()) {
-            self.raw.notes.push(format!("line {}: {name} of a surface is not read", w.line));
+            self.raw.notes.push(format!("line {}: {name} of a surface is ignored", w.line));
         }
     }
 
@@ -156,7 +156,7 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         "TYPE" if !["STANDARD", "EVENASPH"].contains(&w.word(1)) => {
             let kind = w.word(1);
             return Err(w
-                .fault(format!("a surface of type {kind}; only STANDARD and EVENASPH are modelled"))
+                .fault(format!("surfaces of type {kind} are not supported; only STANDARD and EVENASPH are"))
                 .with_code(ErrorCode::UnsupportedFile));
         }
         "TYPE" => surface.aspheric = w.word(1) == "EVENASPH",
@@ -168,7 +168,7 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         // A clear aperture overrides the diameter for drawing.
         "CLAP" if w.number(1)? != 0.0 => {
             return Err(w
-                .fault("an obscuration; only round, open apertures are modelled")
+                .fault("obscurations are not supported; only round, open apertures are")
                 .with_code(ErrorCode::UnsupportedFile));
         }
         "CLAP" => (surface.semi_aperture, surface.rim) = (Some(w.number(2)?), true),
@@ -179,7 +179,7 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         "OBDC" if w.numbers(1)?.iter().all(|shift| *shift == 0.0) => {}
         aperture @ ("SQAP" | "ELAP" | "OBSC" | "SQOB" | "ELOB" | "UDAD" | "OBDC") => {
             return Err(w
-                .fault(format!("an aperture {aperture}; only round, centred apertures are modelled"))
+                .fault(format!("apertures of type {aperture} are not supported; only round, centred apertures are"))
                 .with_code(ErrorCode::UnsupportedFile));
         }
         _ => {}
@@ -210,7 +210,7 @@ fn opening(w: &Words<'_>) -> Result<Option<Opening>, Error> {
     match (w.word(0), w.word(2)) {
         ("ENPD", _) => Opening::pupil(w).map(Some),
         ("FNUM", "1") => Err(w
-            .fault("a working f-number; give the image-space f-number (FNUM with 0), ENPD or FLOA")
+            .fault("a working f-number is not supported; give the image-space f-number (FNUM with 0), ENPD or FLOA")
             .with_code(ErrorCode::UnsupportedFile)),
         ("FNUM", _) => Opening::f_number(w).map(Some),
         ("OBNA", "1") => Opening::object_angle(w).map(Some),
@@ -244,14 +244,14 @@ impl Glasses {
         surfaces: &[RawSurface],
     ) -> Result<(GlassAsset, Option<String>), Error> {
         if w.word(1) == "MIRROR" {
-            return Err(w.fault("a mirror; only refracting lenses are modelled").with_code(ErrorCode::UnsupportedFile));
+            return Err(w.fault("mirrors are not supported; only refracting lenses are").with_code(ErrorCode::UnsupportedFile));
         }
         match w.word(2) {
             "1" => Ok((GlassAsset::Abbe { index: w.number(4)?, abbe: w.number(5)? }, None)),
             "2" => {
                 let from = surfaces.get(w.number(3)? as usize);
                 let from = from.ok_or_else(|| {
-                    w.fault("the glass is picked up from a surface that is not given before")
+                    w.fault("the glass is picked up from a surface that is not defined before")
                         .with_code(ErrorCode::UnsupportedFile)
                 })?;
                 Ok((from.glass.clone(), None))
@@ -268,19 +268,19 @@ impl Glasses {
         let numbers = own_numbers(w);
         if let Some((glass, today)) = successor(name) {
             let beside = numbers.map_or_else(String::new, |[index, abbe]| {
-                format!(", not n_d {index} and V_d {abbe} of its line, which a catalogue glass leaves unused")
+                format!(", not n_d {index} and V_d {abbe} of its line, which are not used for a catalogue glass")
             });
-            return Ok((glass, Some(format!("no catalogue here has {name}: its successor {today} is taken{beside}"))));
+            return Ok((glass, Some(format!("{name} is in no supported catalogue: its successor {today} is used{beside}"))));
         }
         let Some(numbers) = numbers else {
             return Err(w.fault(format!(
-                "no glass is called `{name}`; give a name of the Schott or Ohara catalogue, or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)"
+                "unknown glass `{name}`; give a name of the Schott or Ohara catalogue, or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)"
             )).with_code(ErrorCode::UnknownName));
         };
         self.check_same(w, numbers)?;
         let [index, abbe] = numbers;
         self.by_line.push(GlassOfLine { name: name.to_owned(), line: w.line, numbers });
-        let note = format!("no catalogue here has {name}: n_d {index} and V_d {abbe} of its line are taken");
+        let note = format!("{name} is in no supported catalogue: n_d {index} and V_d {abbe} of its line are used");
         Ok((GlassAsset::Abbe { index, abbe }, Some(note)))
     }
 
@@ -293,8 +293,8 @@ impl Glasses {
         let Some(other) = self.by_line.iter().find(differs) else { return Ok(()) };
         let ([index, abbe], [first_index, first_abbe]) = (numbers, other.numbers);
         Err(w.fault(format!(
-            "{} has n_d {index} and V_d {abbe} here, n_d {first_index} and V_d {first_abbe} in line {}: one of them is left over from another \
-             glass; give the right n_d and V_d in both lines (GLAS {} 1 0 n_d V_d)",
+            "{} has n_d {index} and V_d {abbe} here, n_d {first_index} and V_d {first_abbe} in line {}: one pair belongs to another glass; give the \
+             right n_d and V_d in both lines (GLAS {} 1 0 n_d V_d)",
             other.name, other.line, other.name
         )))
     }

@@ -34,11 +34,11 @@ pub(super) fn read(node: &Node, output_offset_mm: f64, with_dz: bool) -> Read<(T
             return Err(Fault::coded(
                 ErrorCode::UnsupportedFile,
                 name.line,
-                format!("the output \"{text}\" is none of {known}"),
+                format!("unknown output \"{text}\"; expected one of {known}"),
             ));
         };
         if found[which].replace(terms(item)?).is_some() {
-            return Err(Fault::coded(ErrorCode::Duplicate, name.line, format!("the output \"{text}\" is there twice")));
+            return Err(Fault::coded(ErrorCode::Duplicate, name.line, format!("the output \"{text}\" is defined twice")));
         }
     }
     let [x, y, z, dx, dy, dz] = found;
@@ -63,14 +63,14 @@ fn terms(item: &Node) -> Read<Vec<TermAsset>> {
     let counts = [coefficients.len(), powers[0].len(), powers[1].len(), powers[2].len()];
     if counts.iter().any(|count| *count != counts[0]) {
         let [c, r, dx, dy] = counts;
-        let message = format!("found {c} coefficients and {r}, {dx} and {dy} powers; expected as many of each");
+        let message = format!("found {c} coefficients and {r}, {dx} and {dy} powers; expected equal numbers");
         return Err(Fault::at(item.line, message));
     }
     if counts[0] > MAX_TERMS {
         return Err(Fault::coded(
             ErrorCode::UnsupportedFile,
             item.line,
-            format!("found {} terms; at most {MAX_TERMS} are read", counts[0]),
+            format!("found {} terms; at most {MAX_TERMS} are supported", counts[0]),
         ));
     }
     let term = |(i, coefficient): (usize, f64)| TermAsset { coefficient, powers: [0, 1, 2].map(|k| powers[k][i]) };
@@ -100,7 +100,7 @@ fn pass(node: &Node) -> Read<(f64, PassAsset)> {
         other => Err(Fault::coded(
             ErrorCode::UnsupportedFile,
             method.line,
-            format!("the method \"{other}\" is none of \"minimalellipse\", \"circles\""),
+            format!("unknown method \"{other}\"; expected \"minimalellipse\" or \"circles\""),
         )),
     }
 }
@@ -115,17 +115,17 @@ fn ellipses(pass: &Node) -> Read<PassAsset> {
     let [radii_x, radii_y] = [list("radiiX")?, list("radiiY")?];
     let [centres_x, centres_y] = [list("centersX")?, list("centersY")?];
     if [&radii_x, &radii_y, &centres_x, &centres_y].iter().any(|other| other.len() != heights.len()) {
-        return Err(Fault::at(positions.line, "expected as many radii and centres as positions"));
+        return Err(Fault::at(positions.line, "the numbers of positions, radii and centres differ; expected equal numbers"));
     }
     if heights.len() > MAX_REGIONS {
         return Err(Fault::at(
             positions.line,
-            format!("found {} positions; expected {MAX_REGIONS} at most", heights.len()),
+            format!("found {} positions; expected at most {MAX_REGIONS}", heights.len()),
         ));
     }
     let rising = heights.windows(2).all(|pair| pair[1] > pair[0]);
     if heights.first() != Some(&0.0) || !rising {
-        return Err(Fault::at(positions.line, "expected positions that rise from 0"));
+        return Err(Fault::at(positions.line, "expected positions that increase from 0"));
     }
     let legal = radii_x.iter().chain(&radii_y).all(|r| *r >= 0.0) && radii_x[0] > 0.0 && radii_y[0] > 0.0;
     if !legal {
@@ -138,10 +138,10 @@ fn ellipses(pass: &Node) -> Read<PassAsset> {
 fn circles(radii: &Node, sensitivities: &Node) -> Read<PassAsset> {
     let (values, centres) = (radii.numbers()?, sensitivities.numbers()?);
     if values.len() > MAX_REGIONS {
-        return Err(Fault::at(radii.line, format!("found {} circles; expected {MAX_REGIONS} at most", values.len())));
+        return Err(Fault::at(radii.line, format!("found {} circles; expected at most {MAX_REGIONS}", values.len())));
     }
     if values.len() != centres.len() || values.is_empty() || values.iter().any(|r| *r <= 0.0) {
-        return Err(Fault::at(radii.line, "expected radii above 0, and as many sensitivities"));
+        return Err(Fault::at(radii.line, "expected radii above 0, and the same number of sensitivities"));
     }
     Ok(PassAsset::Circles(values.into_iter().zip(centres).collect()))
 }

@@ -62,18 +62,18 @@ fn read(text: &str) -> Read<RayTransferAsset> {
     let read = |node: &Node| functions::read(node, output_offset_mm, with_dz);
     let mut transfers = items.iter().map(read).collect::<Read<Vec<_>>>()?;
     if transfers.len() > MAX_WAVELENGTHS {
-        let message = format!("holds {} wavelengths; expected {MAX_WAVELENGTHS} at most", transfers.len());
+        let message = format!("contains {} wavelengths; expected at most {MAX_WAVELENGTHS}", transfers.len());
         return Err(Fault::at(polynomials.line, message));
     }
     if transfers.is_empty() {
-        return Err(Fault::coded(ErrorCode::Empty, polynomials.line, "holds no wavelength; expected one at least"));
+        return Err(Fault::coded(ErrorCode::Empty, polynomials.line, "contains no wavelength; expected at least one"));
     }
     transfers.sort_by(|a, b| a.0.wavelength_nm.total_cmp(&b.0.wavelength_nm));
     if let Some(pair) = transfers.windows(2).find(|pair| pair[0].0.wavelength_nm == pair[1].0.wavelength_nm) {
         return Err(Fault::coded(
             ErrorCode::Duplicate,
             polynomials.line,
-            format!("the wavelength {} nm is there twice", pair[0].0.wavelength_nm),
+            format!("the wavelength {} nm appears twice", pair[0].0.wavelength_nm),
         ));
     }
     for note in transfers.iter().flat_map(|(_, notes)| notes) {

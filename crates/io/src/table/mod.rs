@@ -39,7 +39,7 @@ pub fn read_complex_index(file: &Path) -> Result<ComplexIndexAsset, Error> {
         return Err(Error::coded(
             ErrorCode::Empty,
             file,
-            "holds no row; expected three columns: wavelength in nm, n, k",
+            "contains no row; expected three columns: wavelength in nm, n, k",
         ));
     }
     Ok(ComplexIndexAsset { points, hash: hash::of_bytes(&bytes) })
@@ -51,7 +51,7 @@ fn index_of(row: &Row<'_>, before: Option<f64>) -> Result<(f64, f64, f64), Strin
         return Err(format!("found {} columns; expected three: wavelength in nm, n, k", values.len()));
     };
     if let Some(last) = before.filter(|last| nm <= *last) {
-        return Err(format!("wavelength {nm} nm follows {last} nm: sort the table by rising wavelength, each once"));
+        return Err(format!("wavelength {nm} nm follows {last} nm: sort the table by increasing wavelength, each once"));
     }
     let wrong =
         [(nm <= 0.0, "a wavelength in nm above 0", nm), (n <= 0.0, "n above 0", n), (k < 0.0, "k of 0 or more", k)];
@@ -66,11 +66,11 @@ fn index_of(row: &Row<'_>, before: Option<f64>) -> Result<(f64, f64, f64), Strin
 /// # Errors
 /// The first error, with its line.
 pub fn read_retro_table(file: &Path) -> Result<RetroTableAsset, Error> {
-    let bytes = read_bytes(file, "retro-reflection")?;
+    let bytes = read_bytes(file, "retroreflection")?;
     let mut rows = rows(decode_text(file, &bytes)?);
     let head = rows.next().filter(|row| row.cells.len() > 1);
     let head =
-        head.ok_or_else(|| Error::new(file, "has no row of entrance angles; expected a word and one angle at least"))?;
+        head.ok_or_else(|| Error::new(file, "has no row of entrance angles; expected a word and at least one angle"))?;
     let mut table = RetroTableAsset { hash: hash::of_bytes(&bytes), ..RetroTableAsset::default() };
     for cell in &head.cells[1..] {
         let angle = angle(cell, "entrance", 90.0, table.entrance_deg.last());
@@ -83,7 +83,7 @@ pub fn read_retro_table(file: &Path) -> Result<RetroTableAsset, Error> {
         return Err(Error::coded(
             ErrorCode::Empty,
             file,
-            "holds no observation angle; expected one row at least behind the entrance angles",
+            "contains no observation angle; expected at least one row after the entrance angles",
         ));
     }
     Ok(table)
@@ -100,7 +100,7 @@ fn add_row(table: &mut RetroTableAsset, row: &Row<'_>) -> Result<(), String> {
     table.observation_deg.push(angle);
     for value in row.numbers()?.into_iter().skip(1) {
         if value < 0.0 {
-            return Err(format!("found the coefficient {value}; expected 0 or more"));
+            return Err(format!("the coefficient is {value}; expected 0 or more"));
         }
         table.coefficients.push(value);
     }
@@ -110,10 +110,10 @@ fn add_row(table: &mut RetroTableAsset, row: &Row<'_>) -> Result<(), String> {
 fn angle(cell: &str, which: &str, most: f64, before: Option<&f64>) -> Result<f64, String> {
     let found = number(cell).ok_or_else(|| format!("found \"{cell}\"; expected an {which} angle: a number"))?;
     if !(0.0..=most).contains(&found) {
-        return Err(format!("found the {which} angle {found}°; expected one from 0° to {most}°"));
+        return Err(format!("the {which} angle is {found}°; expected 0° to {most}°"));
     }
     match before.filter(|last| found <= **last) {
-        Some(last) => Err(format!("{which} angle {found}° follows {last}°: sort the table by rising angle, each once")),
+        Some(last) => Err(format!("{which} angle {found}° follows {last}°: sort the table by increasing angle, each once")),
         None => Ok(found),
     }
 }
@@ -138,7 +138,7 @@ pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
         table.values.extend(values);
     }
     if table.values.is_empty() {
-        Err(Error::coded(ErrorCode::Empty, file, "holds no row; expected rows of numbers"))
+        Err(Error::coded(ErrorCode::Empty, file, "contains no row; expected rows of numbers"))
     } else {
         Ok(table)
     }

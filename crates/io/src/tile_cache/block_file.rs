@@ -104,13 +104,13 @@ impl Blocks for TileFile {
     fn read(&self, block: usize, bytes: &mut [u8]) -> Result<(), String> {
         let file = self.path.display();
         read_at(&self.file, bytes, self.offsets[block])
-            .map_err(|cause| format!("{file}: block {block} of this cache of textures cannot be read: {cause}"))?;
+            .map_err(|cause| format!("{file}: block {block} of this texture cache cannot be read: {cause}"))?;
         if of(bytes) == self.checksums[block] {
             return Ok(());
         }
         let is_removed = std::fs::remove_file(&self.path).is_ok() || !self.path.exists();
         let remedy =
-            if is_removed { "the file was removed: run again, and it is made anew" } else { "remove the file" };
+            if is_removed { "the file was removed: run again to create it again" } else { "remove the file" };
         Err(format!("{file}: block {block} is damaged; {remedy}"))
     }
 }
@@ -142,7 +142,7 @@ impl Blocks for FirstBlock {
             bytes.copy_from_slice(&self.0);
             return Ok(());
         }
-        Err(format!("block {block} of this texture was not kept, as its job was opened for its plan alone"))
+        Err(format!("block {block} of this texture was not stored, because the job was opened only for its plan"))
     }
 }
 

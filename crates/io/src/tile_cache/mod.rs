@@ -193,7 +193,7 @@ mod tests {
         assert_eq!(read(&*found, 0), Ok(block(0)));
         let message = read(&*found, 2).expect_err("one bit is another");
         assert!(
-            message.ends_with(".tiles: block 2 is damaged; the file was removed: run again, and it is made anew"),
+            message.ends_with(".tiles: block 2 is damaged; the file was removed: run again to create it again"),
             "{message}"
         );
         assert!(!file.exists());
@@ -240,7 +240,7 @@ mod tests {
         assert!(place.path().join("theirs.tiles").exists());
         let told = cache.check_room(&[9; 32], &[u32::MAX]).expect_err("too large beside the own");
         assert!(
-            told.contains("the cache of textures may have 2048 MiB") && told.contains("`limit` texture-cache-mib="),
+            told.contains("the texture cache is limited to 2048 MiB") && told.contains("`limit` texture-cache-mib="),
             "{told}"
         );
         assert_eq!(cache.check_room(&keys[3], &LENGTHS), Ok(()));

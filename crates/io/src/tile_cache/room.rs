@@ -31,7 +31,8 @@ impl OwnFiles {
         }
         let (mib, most) = (needed.div_ceil(1 << 20), TEXTURE_CACHE.most());
         Err(format!(
-            "the tiles of the job's textures take {mib} MiB, where the cache of textures may have {most} MiB; use smaller pictures, give textures more memory, {}",
+            "the tiles of the job's textures need {mib} MiB, but the texture cache is limited to {most} MiB; use smaller images, give textures more \
+             memory, {}",
             TEXTURE_CACHE.remedy_bytes(needed.into())
         ))
     }

@@ -123,15 +123,13 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
     assert_eq!(told.len(), 3, "{told:#?}");
     assert_eq!(
         told[0],
-        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once \
-         (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
+        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by increasing wavelength, each once (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
     );
     assert_eq!(
         told[1],
-        "m.obj:2: face names vertex 2, but there are 1; the file is damaged or truncated \
-         (named at job.toml:5:8: scene.meshes.m.file)"
+        "m.obj:2: the face refers to vertex 2, but there are 1; the file is damaged or truncated (named at job.toml:5:8: scene.meshes.m.file)"
     );
-    assert!(told[2].starts_with("t.png: not a readable picture (") && told[2].contains("truncated"), "{}", told[2]);
+    assert!(told[2].starts_with("t.png: not a readable image (") && told[2].contains("truncated"), "{}", told[2]);
     assert!(told[2].ends_with("(named at job.toml:9:8: scene.textures.t.file)"), "{}", told[2]);
 }
 
@@ -162,11 +160,11 @@ fn a_texture_that_a_mesh_names_in_vain_is_told_with_the_mesh() {
     write(folder, &[("t.png", &png(10)), ("b.csv", b"400,0.5\n700,0.5\n")]);
     let errors = load_assets(&description(folder).assets()).expect_err("a lost texture");
     let message = errors[0].to_string().replace(&format!("{}/", folder.display()), "");
-    assert!(errors.len() == 1 && message.starts_with("lost.png: no such picture file; check the path"), "{message}");
+    assert!(errors.len() == 1 && message.starts_with("lost.png: no such image file; check the path"), "{message}");
     assert!(message.contains("named at m.obj"), "{message}");
     assert!(message.ends_with("; a path is relative to the file that names it)"), "{message}");
     let message = read_picture(&folder.join("lost.png")).expect_err("nobody names it").to_string();
-    assert!(message.ends_with("lost.png: no such picture file; check the path"), "{message}");
+    assert!(message.ends_with("lost.png: no such image file; check the path"), "{message}");
     let message = read_picture(folder).expect_err("a folder").to_string();
-    assert!(message.ends_with(": this is a folder; name a file in it"), "{message}");
+    assert!(message.ends_with(": this is a folder; give a file in it"), "{message}");
 }

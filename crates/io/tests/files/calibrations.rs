@@ -58,7 +58,7 @@ fn files_that_opencv_wrote_are_its_cameras() {
     for (name, table) in cases {
         let camera = read(&written(name), CalibrationFormat::OpenCv, None);
         assert_eq!(camera.calibration.size_px(), [640, 480]);
-        assert_eq!(camera.notes, ["passed over: avg_reprojection_error"]);
+        assert_eq!(camera.notes, ["ignored: avg_reprojection_error"]);
         compare(&camera.calibration, table, 0.5);
     }
 }
@@ -106,7 +106,7 @@ fn follows(camera: &Calibration, focal: [f64; 2], centre: [f64; 2], definition: 
 fn a_camera_info_file_is_what_ros_defines() {
     // sensor_msgs/CameraInfo: plumb_bob is k1, k2, t1, t2, k3 on the raw image.
     let camera = read(&sample("camera_info.yaml"), CalibrationFormat::Ros, Some("narrow_stereo"));
-    assert_eq!(camera.notes, ["passed over: rectification_matrix, projection_matrix"]);
+    assert_eq!(camera.notes, ["ignored: rectification_matrix, projection_matrix"]);
     let k = [-0.361976, 0.110510, 0.001014, 0.000505, 0.0];
     let (focal, centre) = ([438.783367, 437.302876], [305.593336, 243.738352]);
     follows(&camera.calibration, focal, centre, |p| radtan([p.x / p.z, p.y / p.z], k));
@@ -148,14 +148,14 @@ fn every_camera_of_a_kalibr_chain_is_what_kalibr_defines() {
         flat(p).map(|x| if r > 0.0 { x * distorted / r } else { x })
     });
     let notes = read(&chain, CalibrationFormat::Kalibr, Some("cam1")).notes;
-    assert_eq!(notes, ["passed over: T_cn_cnm1, cam_overlaps, rostopic, timeshift_cam_imu"]);
+    assert_eq!(notes, ["ignored: T_cn_cnm1, cam_overlaps, rostopic, timeshift_cam_imu"]);
 }
 
 #[test]
 fn an_ocam_file_is_what_its_toolbox_defines() {
     let camera = read(&sample("calib_results.txt"), CalibrationFormat::Ocam, None);
     assert_eq!(camera.calibration.size_px(), [640, 480]);
-    assert!(camera.notes[0].contains("inverse polynomial is up to 0."), "{:?}", camera.notes);
+    assert!(camera.notes[0].contains("inverse polynomial deviates from it by up to 0."), "{:?}", camera.notes);
     let (row0, column0, [c, d, e]) = (241.25, 319.8, [0.9991, 0.00031, -0.00017]);
     for (i, j) in (0..48).flat_map(|i| (0..64).map(move |j| (10 * i, 10 * j))) {
         // cam2world of the toolbox: its first axis goes down the rows, its second along them, its third backwards.
@@ -181,12 +181,12 @@ fn a_camera_of_several_is_chosen_by_its_name() {
         let file = if name == "cameras.txt" { written(name) } else { sample(name) };
         read_calibration(&file, format, camera).expect_err("wrong").what().to_owned()
     };
-    let chain = "holds the cameras cam0, cam1, cam2, cam3, cam4, cam5; choose one by its name";
+    let chain = "contains the cameras cam0, cam1, cam2, cam3, cam4, cam5; select one by its name";
     assert_eq!(fault("camchain.yaml", CalibrationFormat::Kalibr, None), chain);
     assert!(
-        fault("camchain.yaml", CalibrationFormat::Kalibr, Some("cam9")).contains("no camera \"cam9\"; it holds cam0")
+        fault("camchain.yaml", CalibrationFormat::Kalibr, Some("cam9")).contains("no camera \"cam9\"; it contains cam0")
     );
-    assert!(fault("cameras.txt", CalibrationFormat::Colmap, None).contains("choose one by its id"));
+    assert!(fault("cameras.txt", CalibrationFormat::Colmap, None).contains("select one by its id"));
     assert!(fault("camera_info.yaml", CalibrationFormat::Ros, Some("wide")).contains("narrow_stereo"));
     assert!(fault("calib_results.txt", CalibrationFormat::Ocam, Some("wide")).contains("without a name"));
 }
@@ -218,20 +218,20 @@ fn faults_name_the_line_and_what_was_expected() {
         (Ros, ros.replace("image_width: 640\n", ""), Some(1), "expected the key image_width; found image_height"),
         (Ros, ros.replace("image_width: 640", "image_width: -1"), Some(1), "number of pixels"),
         (Ros, ros.replace("camera_name", "image_width"), Some(3), "twice"),
-        (Kalibr, kalibr.replace("pinhole", "fish"), Some(2), "none of pinhole, omni, eucm, ds"),
-        (Kalibr, kalibr.replace("equi", "poly"), Some(3), "radtan, equi, fov, none"),
+        (Kalibr, kalibr.replace("pinhole", "fish"), Some(2), "expected \"pinhole\", \"omni\", \"eucm\" or \"ds\""),
+        (Kalibr, kalibr.replace("equi", "poly"), Some(3), "expected \"radtan\", \"equi\", \"fov\" or \"none\""),
         (Kalibr, kalibr.replace("pinhole", "ds"), Some(5), "expected 6: xi, alpha"),
         (Kalibr, kalibr.replace("equi", "none"), Some(4), "expected []"),
         (Kalibr, kalibr.replace("[100, 100]", "[100]"), Some(6), "[width, height]"),
-        (Colmap, "1 SIMPLE_RADIAL 640 480 500 320 240\n".into(), Some(1), "found 3 parameters; SIMPLE_RADIAL has 4"),
+        (Colmap, "1 SIMPLE_RADIAL 640 480 500 320 240\n".into(), Some(1), "found 3 parameters; the model SIMPLE_RADIAL has 4"),
         (Colmap, "# no\n1 FISH 640 480 1\n".into(), Some(2), "none of SIMPLE_PINHOLE, SIMPLE_RADIAL"),
         (Colmap, "1 PINHOLE 640\n".into(), Some(1), "ends before the height"),
-        (Colmap, "# none\n".into(), None, "holds no camera"),
+        (Colmap, "# none\n".into(), None, "contains no camera"),
         (Ocam, ocam.replace("5 -2.186", "6 -2.186"), Some(3), "counts 6 but holds 5"),
         (Ocam, ocam.replace("-2.186000e+02", "2.186000e+02"), Some(3), "a0 = 218.6; expected a negative number"),
         (Ocam, ocam.replace("480 640", ""), None, "ends before the image size"),
         (Ocam, ocam.replace("480 640", "480 640\n1"), Some(20), "a sixth line"),
-        (OpenCv, opencv.replace("812.5, 0.,", "812.5, 1.,"), Some(5), "a skew of 1 px"),
+        (OpenCv, opencv.replace("812.5, 0.,", "812.5, 1.,"), Some(5), "the skew is 1 px"),
         (OpenCv, opencv.replace("camera_matrix", "matrix"), Some(3), "camera_matrix or cameraMatrix or K"),
         (OpenCvFisheye, opencv, Some(10), "found 14 numbers; expected k1, k2, k3, k4"),
         (OpenCv, "{\"a\": ".into(), None, "not YAML or JSON"),

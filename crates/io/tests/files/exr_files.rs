@@ -119,16 +119,16 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     let report = inspect(&path).expect("ground truth");
     assert_eq!(report.kind, "ground truth, EXR");
     assert_eq!(report.channels[3].infinite_count, 1);
-    assert!(report.notes[0].starts_with("the picture shows depth.Z in the colours of viridis"), "{:?}", report.notes);
+    assert!(report.notes[0].starts_with("the image shows depth.Z in the viridis colour map"), "{:?}", report.notes);
     let of = |layer: &str| inspect_showing(&path, &Shown { layer: Some(layer.to_owned()), boxes: None });
     let shown = |layer: &str| of(layer).expect("a layer").preview.expect("a picture").rgb;
     assert_eq!(shown("instance.ID"), shown("semantic"));
     assert_eq!(shown("instance")[0], [0; 3], "the background");
     assert_eq!(shown("N"), [[128, 204, 26]; 6]);
     let message = of("flow").expect_err("none").to_string();
-    assert!(message.ends_with("there is no layer \"flow\"; give one of N, depth, instance, semantic"), "{message}");
+    assert!(message.ends_with("has no layer \"flow\"; expected one of N, depth, instance, semantic"), "{message}");
     let message = inspect(&written(folder.path(), "job.toml", b"format = 1\n")).expect_err("no result").to_string();
-    assert!(message.contains("job.toml: a description, neither result nor asset"), "{message}");
+    assert!(message.contains("job.toml: a description, neither a result nor an asset"), "{message}");
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn what_is_no_spectral_image_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let plane = encode_plane(&Plane::<MeanElectrons>::new(2, 2), None, &provenance()).expect("encodable");
     let message = read_spectral(&written(folder.path(), "a.exr", &plane)).expect_err("electrons").to_string();
-    assert!(message.contains("holds electrons in e; expected spectral radiance in W.m^-2.sr^-1.nm^-1"), "{message}");
+    assert!(message.contains("contains electrons in e; expected spectral radiance in W.m^-2.sr^-1.nm^-1"), "{message}");
 }
 
 #[test]

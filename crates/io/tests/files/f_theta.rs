@@ -53,7 +53,7 @@ fn a_rig_s_pixels_look_where_its_polynomial_says() {
     assert_eq!(camera.name, "camera:front:wide:120fov");
     assert_eq!(
         (camera.calibration.size_px(), &camera.notes[..]),
-        ([3848, 2168], &["passed over: do-not-use".to_owned()][..])
+        ([3848, 2168], &["ignored: do-not-use".to_owned()][..])
     );
     let (c, back) = ([0.0, 5.42e-4, -1.9e-9, 4.1e-12, -6.2e-16], linear([0.9995, 2.1e-4, -1.3e-4]).inverse());
     for (column, row) in (0..40).flat_map(|i| (0..22).map(move |j| (100 * i, 100 * j))) {
@@ -77,7 +77,7 @@ fn a_rig_s_pixels_look_where_its_polynomial_says() {
 #[test]
 fn an_ncore_camera_projects_by_its_polynomial_up_to_its_angle() {
     let camera = read(NCORE, None).expect("a camera");
-    assert_eq!(camera.notes, ["passed over: shutter_type, pixeldist_to_angle_poly"]);
+    assert_eq!(camera.notes, ["ignored: shutter_type, pixeldist_to_angle_poly"]);
     let (c, there) = ([0.0, 473.61, -9.5876, 24.947, -42.339, 15.141], linear([0.99976, 6.278e-5, -1.0062e-4]));
     for (i, j) in (1..14).flat_map(|i| (0..16).map(move |j| (i, j))) {
         let (angle, azimuth) = (0.1 * f64::from(i), 0.4 * f64::from(j));
@@ -96,13 +96,13 @@ fn an_ncore_camera_projects_by_its_polynomial_up_to_its_angle() {
 #[test]
 fn faults_name_the_line_and_what_was_expected() {
     let cases = [
-        (RIG.to_owned(), None, "choose one by its name"),
-        (RIG.to_owned(), Some("camera:side"), "holds no f-theta camera \"camera:side\"; it holds camera:front:wide"),
-        (RIG.replace("\"ftheta\"", "\"pinhole\""), None, "2: holds no f-theta camera"),
+        (RIG.to_owned(), None, "select one by its name"),
+        (RIG.to_owned(), Some("camera:side"), "contains no f-theta camera \"camera:side\"; it contains camera:front:wide"),
+        (RIG.replace("\"ftheta\"", "\"pinhole\""), None, "2: contains no f-theta camera"),
         (
             RIG.replace("pixeldistance-to-angle", "sideways"),
             Some("camera:front:wide:120fov"),
-            "7: the polynomial's type sideways",
+            "7: unknown polynomial type sideways",
         ),
         (RIG.replace("\"0.0 5.42e-4", "\"0.1 5.42e-4"), Some("camera:front:wide:120fov"), "7: c0 = 0.1; expected 0"),
         (RIG.replace("5.42e-4", "many"), Some("camera:front:wide:120fov"), "7: found \"many\""),
@@ -111,7 +111,7 @@ fn faults_name_the_line_and_what_was_expected() {
             Some("camera:front:wide:120fov"),
             "c = -1; expected a positive",
         ),
-        (NCORE.replace("parameters\": null", "parameters\": {\"a\": 1}"), None, "2: a distortion by a wind-screen"),
+        (NCORE.replace("parameters\": null", "parameters\": {\"a\": 1}"), None, "2: distortion by a windscreen"),
         (NCORE.replace("\"resolution\": [960, 744]", "\"resolution\": [960]"), None, "2: expected [width, height]"),
         (NCORE.replace("\"max_angle\": 1.3461", "\"max_angle\": 0"), None, "the greatest angle = 0"),
         ("{\"Model\": \"kannala\"}".to_owned(), None, "1: expected the model \"ftheta\""),

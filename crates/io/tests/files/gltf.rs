@@ -191,7 +191,7 @@ fn a_skin_stands_as_its_joints_do_at_rest() {
     })
     .expect("whole");
     assert_eq!(corners(&mesh, 0)[0][2], DVec3::new(1.0, 4.0, 0.0));
-    assert!(mesh.report.iter().any(|note| note.contains("1 skins: used as they stand at rest")), "{:?}", mesh.report);
+    assert!(mesh.report.iter().any(|note| note.contains("1 skins: used in their rest pose")), "{:?}", mesh.report);
 }
 
 #[test]
@@ -320,7 +320,7 @@ fn damage_is_told() {
         file["extensionsUsed"] = json!(["EXT_unheard"]);
         file["extensionsRequired"] = json!(["EXT_unheard"]);
     });
-    refused(&["node 1", "among its own children"], |file| {
+    refused(&["node 1", "its own descendant"], |file| {
         file["nodes"] = json!([{ "mesh": 0 }, { "children": [2] }, { "children": [1] }]);
     });
     refused(&["child of both"], |file| {
@@ -329,7 +329,7 @@ fn damage_is_told() {
     refused(&["accessor 9", "not there"], |file| {
         file["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(9);
     });
-    refused(&["reaches beyond"], |file| file["accessors"][0]["count"] = json!(5));
+    refused(&["extends beyond"], |file| file["accessors"][0]["count"] = json!(5));
     refused(&["buffer 0", "truncated"], |file| file["buffers"][0]["byteLength"] = json!(1000));
     refused(&["index 5", "4 vertices"], |file| {
         file["buffers"][0]["uri"] =

@@ -33,20 +33,20 @@ fn damage_is_named_with_its_line() {
     let cut_in_a_vertex = &whole[..CUBE_FACE.len() - 4];
     assert_eq!(
         read(cut_in_a_vertex, &[]),
-        Err("a.obj:4: `v` has 1, expected 3 coordinates; the line may be cut off".to_owned())
+        Err("a.obj:4: `v` has 1, expected 3 coordinates; the line may be truncated".to_owned())
     );
     let cut_in_a_face = &whole[..whole.len() - 5];
     assert_eq!(
         read(cut_in_a_face, &[]),
-        Err("a.obj:5: `f` has 2, expected 3 or more corners; the line may be cut off".to_owned())
+        Err("a.obj:5: `f` has 2, expected 3 or more corners; the line may be truncated".to_owned())
     );
     let before_the_faces = read(CUBE_FACE, &[]).expect_err("no faces");
     assert!(before_the_faces.contains("no faces; the file may be truncated"), "{before_the_faces}");
     let without_an_end = read(whole.trim_end(), &[]).expect("still a mesh");
-    assert_eq!(without_an_end.report, ["a.obj: the last line has no end: the file may be truncated"]);
+    assert_eq!(without_an_end.report, ["a.obj: the last line has no line end: the file may be truncated"]);
     assert_eq!(
         read(&format!("{CUBE_FACE}f 1 2 9\n"), &[]),
-        Err("a.obj:5: face names vertex 9, but there are 4; the file is damaged or truncated".to_owned())
+        Err("a.obj:5: the face refers to vertex 9, but there are 4; the file is damaged or truncated".to_owned())
     );
     assert_eq!(
         read("v 0 0 0\r\nv 1 NaN 0\r\n", &[]),
@@ -54,7 +54,7 @@ fn damage_is_named_with_its_line() {
     );
     assert_eq!(
         read("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n", &[]),
-        Err("a.obj:5: polygon of 4 corners crosses itself; triangulate the mesh where it was modelled".to_owned())
+        Err("a.obj:5: a polygon of 4 corners intersects itself; triangulate the mesh in the modelling program".to_owned())
     );
 }
 
@@ -104,7 +104,7 @@ fn faces_without_normals_are_flat_among_faces_with_them() {
     let mesh = read(&text, &[]).expect("whole");
     assert_eq!(mesh.normals[..3], [[0.0, 0.6, 0.8]; 3]);
     assert_eq!(mesh.normals[3..], [[0.0, 0.0, 1.0]; 3]);
-    assert_eq!(mesh.report, ["a.obj: 3 vertices without a usable normal take that of their face"]);
+    assert_eq!(mesh.report, ["a.obj: 3 vertices without a usable normal use that of their face"]);
 }
 
 #[test]

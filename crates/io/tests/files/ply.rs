@@ -49,7 +49,7 @@ fn files_of_another_program_stand_as_that_program_has_them() {
             let expected = figures[name]["first normal"][axis].as_f64().expect("a normal");
             assert!((f64::from(found) - expected).abs() < 1e-6, "{name}: {found} for {expected}");
         }
-        let colours = format!("{name}.ply: colours of vertices or faces are not used: give the object a material");
+        let colours = format!("{name}.ply: vertex and face colours are not used: give the object a material");
         assert_eq!(mesh.report, [colours]);
     }
     let [little, big] = ["little.ply", "big.ply"].map(|name| read_mesh(&oracle(name)).expect("read"));
@@ -78,7 +78,7 @@ fn a_concave_polygon_is_that_of_an_obj_file() {
         found.report,
         [
             "a.ply: properties that are not used: confidence, flags",
-            "a.ply: its picture `star.png` is not used: name it as a texture of the object's material",
+            "a.ply: the image `star.png` is not used: give it as a texture of the object's material",
             "a.ply: 1 elements `edge` are not used",
         ]
     );
@@ -119,7 +119,7 @@ fn zero_normals_are_those_of_a_face() {
         property float nz\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0 0\n1 0 0 0 3 4\n0 1 0 0 0 1\n3 0 1 2";
     let mesh = read_bytes("a.ply", file.as_bytes()).expect("read, though the last line has no end");
     assert_eq!(mesh.normals, [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8], [0.0, 0.0, 1.0]]);
-    assert_eq!(mesh.report, ["a.ply: 1 vertices without a usable normal take that of a face"]);
+    assert_eq!(mesh.report, ["a.ply: 1 vertices without a usable normal use that of a face"]);
 }
 
 #[track_caller]
@@ -136,27 +136,27 @@ fn refused_star(from: &str, to: &str, told: &str) {
 
 #[test]
 fn damaged_heads_are_refused_with_their_line() {
-    refused(b"v 0 0 0\n", "a.ply:1: no PLY file: its first line is not `ply`");
+    refused(b"v 0 0 0\n", "a.ply:1: not a PLY file: the first line is not `ply`");
     refused(
         b"ply\nformat ascii 1.0\n",
-        "a.ply:3: the head has no `end_header` within 21 bytes: the file may be truncated",
+        "a.ply:3: the header has no `end_header` within 21 bytes: the file may be truncated",
     );
     refused_star(
         "ascii 1.0",
         "binary 1.0",
-        "a.ply:2: `format binary 1.0`: expected `format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`",
+        "a.ply:2: found `format binary 1.0`; expected `format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`",
     );
-    refused_star("element vertex 5", "element vertex -5", "a.ply:4: `-5` elements: expected a whole number from 0");
+    refused_star("element vertex 5", "element vertex -5", "a.ply:4: the element count is `-5`; expected a whole number of 0 or more");
     refused_star(
         "property double y",
         "property real y",
-        "a.ply:6: no type `real`; expected char, uchar, short, ushort, int, uint, float, double, or int8 … float64",
+        "a.ply:6: unknown type `real`; expected char, uchar, short, ushort, int, uint, float, double, or int8 … float64",
     );
-    refused_star("double y", "double x", "a.ply:6: a second property `x` of one element");
+    refused_star("double y", "double x", "a.ply:6: the property `x` is declared twice in one element");
     refused_star(
         "list uchar",
         "list float",
-        "a.ply:13: the count of a list is no whole number; expected a type such as uchar",
+        "a.ply:13: the count type of a list is not an integer type; expected a type such as uchar",
     );
 }
 
@@ -165,32 +165,32 @@ fn damaged_rows_are_refused_with_their_line() {
     refused_star(
         "2 2 0",
         "2 nan 0",
-        "a.ply:20: vertex 2: a number that is not finite (NaN or infinity): mend the mesh where it was modelled",
+        "a.ply:20: vertex 2: a number is not finite (NaN or infinity): correct the mesh in the modelling program",
     );
     refused_star("2 2 0", "2 1e39 0", "a.ply:20: vertex 2: coordinate 1e39 is beyond the range of 32-bit floats");
-    refused_star("2 2 0", "2 2 .5", "a.ply:20: vertex 2: `.5` where the head tells of a whole number");
-    refused_star("2 2 0", "2 two 0", "a.ply:20: vertex 2: `two` is no number");
+    refused_star("2 2 0", "2 2 .5", "a.ply:20: vertex 2: `.5` is not a whole number, which the header states");
+    refused_star("2 2 0", "2 two 0", "a.ply:20: vertex 2: `two` is not a number");
     refused_star(
         "7 5 0 1 2 3 4",
         "7 5 0 1 2 3 5",
         "a.ply:23: face 0: index 5 is out of range: there are 5 vertices, counted from 0; the file is damaged; export or copy it again",
     );
-    refused_star("7 5 0 1 2 3 4", "7 2 0 1", "a.ply:23: face 0: 2 corners; expected three or more");
+    refused_star("7 5 0 1 2 3 4", "7 2 0 1", "a.ply:23: face 0: has 2 corners; expected three or more");
     refused_star(
         "7 5 0 1 2 3 4",
         "7 4 0 2 1 4",
-        "a.ply:23: face 0: polygon of 4 corners crosses itself; triangulate the mesh where it was modelled",
+        "a.ply:23: face 0: a polygon of 4 corners intersects itself; triangulate the mesh in the modelling program",
     );
     let whole = STAR.len();
     let message = read_bytes("a.ply", &STAR.as_bytes()[..whole - 5]).expect_err("truncated");
     assert_eq!(
         message,
-        "a.ply:23: the head tells of 1 elements `edge`, for which the file is too short: it is truncated, or its head is wrong; export or copy it again"
+        "a.ply:23: the header states 1 elements `edge`, for which the file is too short: it is truncated, or its header is wrong; export or copy it again"
     );
     refused_star(
         "element face 1\r\n",
         "element face 0\r\n",
-        "a.ply:23: 17 bytes stand after the last element: the head does not tell of all of the file; export or copy it again",
+        "a.ply:23: 17 bytes follow the last element: the header does not describe the whole file; export or copy it again",
     );
     refused_star(
         "7 5 0 1 2 3 4\r\n",
@@ -213,7 +213,7 @@ fn huge_counts_are_refused_at_once() {
     refused_star(
         "7 5 0 1 2 3 4",
         "7 250 0 1 2 3 4",
-        "a.ply:23: face 0: a list `vertex_index` of 250 numbers, for which the file is too short: it is truncated; export or copy it again",
+        "a.ply:23: face 0: the list `vertex_index` has 250 numbers, for which the file is too short: it is truncated; export or copy it again",
     );
 }
 
@@ -227,7 +227,7 @@ fn the_wrong_order_of_bytes_is_told() {
     let message = read_bytes("a.ply", &bytes).expect_err("the wrong order");
     assert!(
         message.starts_with("a.ply: ")
-            && message.ends_with("or its numbers are little-endian where the head says big-endian; export it again"),
+            && message.ends_with("or its numbers are little-endian although the header states big-endian; export it again"),
         "{message}"
     );
     for end in [little.len() - 1, little.len() / 2, head + 20] {

@@ -42,7 +42,7 @@ fn heads_of_all_kinds_are_read() {
     // The third row from the last, which is the second.
     assert_eq!((old.point, old.light.len(), old.light[6]), ([2, 1], 16, 0.5));
     assert_eq!(old.notes.len(), 2, "{:?}", old.notes);
-    assert!(old.notes[0].contains("taken for mm") && old.notes[1].contains("border is 20.0 %"), "{:?}", old.notes);
+    assert!(old.notes[0].contains("assumed to be in mm") && old.notes[1].contains("border is 20.0 %"), "{:?}", old.notes);
 
     let new = read(NEW).expect("legal");
     assert_eq!((new.field, new.place_mm), (FieldPoint::Degrees([0.0, 1.225]), Some([0.0, 220.488_001])));
@@ -80,7 +80,7 @@ fn further_words_and_encodings_are_understood() {
     assert_eq!(read(&fft).expect("legal").point, [1, 2]);
     let turned = of("1.44500000E-04", "-1.44500000E-03");
     assert!(
-        turned.notes[1].contains("0.14 µm from its centre, and its head says 0.00, -1.45 µm"),
+        turned.notes[1].contains("0.14 µm from the centre, but the header states 0.00, -1.45 µm"),
         "{:?}",
         turned.notes
     );
@@ -96,21 +96,21 @@ fn further_words_and_encodings_are_understood() {
 #[test]
 fn listings_that_cannot_be_used_are_told_with_their_line() {
     for (listing, phrases) in [
-        (NEW.replace("PSF", "MTF"), &["psf.txt", "is no listing of a point spread"][..]),
-        (NEW.replace("Data spacing is 0.289 µm.\n", ""), &["how far its samples are apart"]),
-        (NEW.replace("spacing is 0.289 µm", "spacing is 0.289 mr"), &["psf.txt:10", "no length above 0"]),
-        (NEW.replace("spacing is 0.289", "spacing is 0"), &["psf.txt:10", "no length above 0"]),
-        (NEW.replace(" at 0.0000, 1.2250 (deg).", ""), &["of which wavelength and field"]),
+        (NEW.replace("PSF", "MTF"), &["psf.txt", "not a listing of a point-spread function"][..]),
+        (NEW.replace("Data spacing is 0.289 µm.\n", ""), &["does not state the sample spacing"]),
+        (NEW.replace("spacing is 0.289 µm", "spacing is 0.289 mr"), &["psf.txt:10", "not a length above 0"]),
+        (NEW.replace("spacing is 0.289", "spacing is 0"), &["psf.txt:10", "not a length above 0"]),
+        (NEW.replace(" at 0.0000, 1.2250 (deg).", ""), &["does not state wavelength and field"]),
         (NEW.replace("(deg)", "(furlong)"), &["psf.txt:9", "neither in degrees nor in mm"]),
         (NEW.replace("0.5000 µm", "50.000 µm"), &["psf.txt:9", "50000", "100 … 20 000"]),
-        (NEW.replace("4 by 4", "5 by 4"), &["psf.txt:14", "5 by 4 samples, and 4 rows of 4"]),
-        (NEW.replace("Center point is: 3, 3", "Center point is: 3, 9"), &["psf.txt:15", "no sample of the 4 by 4"]),
+        (NEW.replace("4 by 4", "5 by 4"), &["psf.txt:14", "5 by 4 samples, but the file has 4 rows of 4"]),
+        (NEW.replace("Center point is: 3, 3", "Center point is: 3, 9"), &["psf.txt:15", "not one of the 4 by 4"]),
         (NEW.replace("relative intensity", "log base 10"), &["psf.txt:20", "\"Linear\""]),
         (NEW.replace("5.0E-01", "-5.0E-01"), &["psf.txt:23", "-0.5", "0 or more"]),
         (NEW.replace("5.0E-01", "0.0E-01"), &["psf.txt:23", "0 everywhere"]),
         (
             NEW.replacen("5.0E-01\t  0.0E+00\n", "5.0E-01\n", 1),
-            &["psf.txt:24", "found 4 numbers where the table has 3"],
+            &["psf.txt:24", "found 4 numbers; expected 3"],
         ),
         (format!("{NEW}\nand\n1 2\n"), &["psf.txt:29", "second table"]),
         ("Listing of Huygens PSF Data\n".to_owned(), &["no row of numbers"]),

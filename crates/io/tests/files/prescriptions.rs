@@ -81,7 +81,7 @@ fn what_is_not_modelled_is_refused_with_its_line() {
     assert!(zmx("TYPE EVENASPH", "TYPE COORDBRK").contains("type COORDBRK"));
     assert!(zmx("MODE SEQ", "MODE NSC").starts_with("2: a non-sequential lens"));
     assert!(zmx("  STOP\n", "").contains("0 surfaces are the stop"));
-    assert!(zmx("CURV 0.04", "CURV x").contains("CURV: found `x`, expected a number"));
+    assert!(zmx("CURV 0.04", "CURV x").contains("CURV: found `x`; expected a number"));
     assert!(zmx("UNIT MM", "UNIT FURLONG").contains("UNIT is `FURLONG`"));
     let seq = |from: &str, to: &str| read("lens.seq", &SEQ.replacen(from, to, 1)).expect_err("refused");
     assert!(seq("NBK7_SCHOTT", "'mine'").contains("no glass is called `mine`"));
@@ -90,9 +90,9 @@ fn what_is_not_modelled_is_refused_with_its_line() {
     );
     assert!(zmx("ENPD 10.0", "FNUM 4 1").starts_with("5: a working f-number"));
     assert!(zmx("ENPD 10.0", "ENPD 0").contains("ENPD is 0; expected a number above 0"));
-    assert!(zmx("CLAP 0 6.5 0", "CLAP 2 6.5 0").contains("an obscuration"));
+    assert!(zmx("CLAP 0 6.5 0", "CLAP 2 6.5 0").contains("obscurations"));
     assert!(seq("  ASP", "  XDE 0.1").contains("XDE is not modelled"));
-    assert!(seq("RDM;LEN", "LEN").contains("surfaces before RDM"));
+    assert!(seq("RDM;LEN", "LEN").contains("surfaces precede RDM"));
     assert!(seq("3.5 NBK7_SCHOTT", "3.5 REFL").contains("a mirror"));
     assert!(read("lens.txt", SEQ).expect_err("what kind").contains(".zmx"));
     assert!(read_prescription(Path::new("nowhere.zmx")).is_err());
@@ -115,12 +115,12 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
         let (glass, notes) = glass_of(line);
         assert_eq!(glass, GlassAsset::Named(today.into()));
         let message = format!(
-            "line 26: no catalogue here has {}: its successor {today} is taken",
+            "line 26: {} is in no supported catalogue: its successor {today} is used",
             &line[5..line.find(" 0").expect("a mode")]
         );
         assert!(notes[0].starts_with(&message), "{notes:?}");
         assert_eq!(
-            notes[0].contains("of its line, which a catalogue glass leaves unused"),
+            notes[0].contains("of its line, which are not used for a catalogue glass"),
             !line.contains("1.5 "),
             "{notes:?}"
         );
@@ -134,7 +134,7 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
     for (name, today) in [("SK16_SCHOTT", "N-SK16"), ("LAH66_OHARA", "S-LAH66"), ("LAH66", "S-LAH66")] {
         let old = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", name)).expect("a lens");
         assert_eq!(old.surfaces[0].glass, GlassAsset::Named(today.into()));
-        assert!(old.notes[0].contains(&format!("line 11: no catalogue here has {name}")), "{:?}", old.notes);
+        assert!(old.notes[0].contains(&format!("line 11: {name} is in no supported catalogue")), "{:?}", old.notes);
     }
     let other = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", "LAH66_SCHOTT")).expect_err("not Schott's");
     assert!(other.contains("no glass is called `LAH66_SCHOTT`"), "{other}");
@@ -144,7 +144,7 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
 fn a_glass_without_successor_is_taken_by_its_line_and_one_name_has_one_index() {
     let (glass, notes) = glass_of("GLAS FCD505 0 0 1.59282 68.63");
     assert_eq!(glass, GlassAsset::Abbe { index: 1.59282, abbe: 68.63 });
-    assert!(notes[0].contains("line 26: no catalogue here has FCD505: n_d 1.59282 and V_d 68.63"), "{notes:?}");
+    assert!(notes[0].contains("line 26: FCD505 is in no supported catalogue: n_d 1.59282 and V_d 68.63"), "{notes:?}");
     let twice = |second: &str| {
         let text = ZMX.replace("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS FCD505 0 0 1.59282 68.63");
         read("lens.zmx", &text.replace("GLAS ___BLANK 1 0 1.62004 36.4 0", second))
@@ -271,16 +271,16 @@ fn edits_of_named_surfaces_and_of_the_whole_lens_count() {
 #[test]
 fn commands_of_codev_that_are_not_read_are_refused_or_noted() {
     for (edit, told) in [
-        ("RDY S7 25", "13: RDY S7: no such surface is given before"),
+        ("RDY S7 25", "13: RDY S7: no such surface is defined before"),
         ("RDY S1 Z2 25", "13: RDY of a zoom position"),
-        ("THI S2 PIM", "13: THI: found `PIM`, expected a number"),
+        ("THI S2 PIM", "13: THI: found `PIM`; expected a number"),
         ("SCA EFL 100", "13: SCA: expected one factor above 0"),
         ("SCA 0", "13: SCA: expected one factor above 0"),
         ("INS S2", "13: INS is not modelled"),
         ("DEL S2", "13: DEL is not modelled"),
         ("RDX S1 30", "13: RDX is not modelled"),
-        ("S 0 1", "13: S: expected a surface given before (S0 to S3)"),
-        ("S9 0 1", "13: S9: expected a surface given before"),
+        ("S 0 1", "13: S: expected a surface defined before (S0 to S3)"),
+        ("S9 0 1", "13: S9: expected a surface defined before"),
     ] {
         let found = edited(edit).map(|_| ()).expect_err(edit);
         assert!(found.starts_with(told), "{edit}: {found}");
@@ -289,7 +289,7 @@ fn commands_of_codev_that_are_not_read_are_refused_or_noted() {
     assert!(noted.notes[0].ends_with("XYZ (line 13), AUT (line 14)"), "{:?}", noted.notes);
     let solve = read("lens.seq", &SEQ.replace("S -50.0 2.0", "S -50.0 2.0\n CUY UMY -0.1")).expect("a lens");
     assert_eq!(solve.surfaces[1].radius_mm, -50.0);
-    assert!(solve.notes[0].starts_with("line 14: the solve CUY UMY -0.1 is not read"), "{:?}", solve.notes);
+    assert!(solve.notes[0].starts_with("line 14: the solve CUY UMY -0.1 is ignored"), "{:?}", solve.notes);
 }
 
 #[test]

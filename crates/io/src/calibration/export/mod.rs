@@ -32,7 +32,7 @@ pub type Refusal = String;
 /// Refusal of a camera whose model a format does not have.
 fn no_model(format: &str, model: &Model) -> Refusal {
     match model {
-        Model::Perspective(_) => format!("{format} has no perspective model of as many coefficients"),
+        Model::Perspective(_) => format!("{format} has no perspective model with this number of coefficients"),
         _ => format!("{format} has no model for its projection"),
     }
 }
@@ -41,7 +41,7 @@ fn no_model(format: &str, model: &Model) -> Refusal {
 fn without_skew(format: &str, calibration: &Calibration) -> Result<(), Refusal> {
     match calibration.matrix().skew {
         0.0 => Ok(()),
-        skew => Err(format!("{format} has no place for the skew of {skew} px in its camera matrix")),
+        skew => Err(format!("{format} cannot represent the skew of {skew} px in its camera matrix")),
     }
 }
 

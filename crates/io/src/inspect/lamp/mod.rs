@@ -12,11 +12,11 @@ use crate::{Error, photometry::read_photometry};
 
 pub(super) fn report(file: &Path) -> Result<FileReport, Error> {
     let lamp = read_photometry(file)?;
-    let mut report = FileReport::new(file, format!("measured lamp, {}", lamp.format));
+    let mut report = FileReport::new(file, format!("photometric file, {}", lamp.format));
     texts(&lamp, &mut report);
     report.state("angles", axes(lamp.axes));
     report.state("vertical angles", angles(&lamp.vertical_deg));
-    report.state("horizontal angles", format!("{} (symmetries written out)", angles(&lamp.horizontal_deg)));
+    report.state("horizontal angles", format!("{} (symmetries expanded)", angles(&lamp.horizontal_deg)));
     light(&lamp, &mut report);
     report.state("luminous opening", opening(&lamp));
     report.state("lamps", format!("{}, {} W", lamp.lamps, lamp.watts));
@@ -48,11 +48,11 @@ fn angles(grid: &[f64]) -> String {
 
 fn light(lamp: &PhotometryAsset, report: &mut FileReport) {
     let (peak, h, v) = lamp.peak();
-    report.state("greatest intensity", format!("{peak:.1} cd at H {h}°, V {v}°"));
+    report.state("maximum intensity", format!("{peak:.1} cd at H {h}°, V {v}°"));
     report.state("factor applied", lamp.factor);
     let flux = lamp.flux_lm();
-    report.state("flux of the intensities", format!("{flux:.1} lm"));
-    report.state("flux stated", stated(lamp, flux));
+    report.state("flux from the intensities", format!("{flux:.1} lm"));
+    report.state("stated flux", stated(lamp, flux));
     for (name, [beam, field]) in plot::beam_and_field(lamp) {
         report.state(&format!("beam angle, {name}"), format!("{beam:.1}° at 50 %, field angle {field:.1}° at 10 %"));
     }
@@ -71,11 +71,11 @@ fn stated(lamp: &PhotometryAsset, flux: f64) -> String {
 fn opening(lamp: &PhotometryAsset) -> String {
     let opening = &lamp.opening;
     let shape = match opening.shape {
-        OpeningShape::Point => return "a point".to_owned(),
+        OpeningShape::Point => return "point".to_owned(),
         OpeningShape::Rectangular => "rectangular",
         OpeningShape::Round => "round",
-        OpeningShape::Ball => "a ball",
-        OpeningShape::Lying | OpeningShape::LyingAcross => "a lying cylinder",
+        OpeningShape::Ball => "sphere",
+        OpeningShape::Lying | OpeningShape::LyingAcross => "horizontal cylinder",
     };
     format!("{shape}, {} m long (C0), {} m wide (C90), {} m high", opening.length_m, opening.width_m, opening.height_m)
 }
@@ -83,7 +83,7 @@ fn opening(lamp: &PhotometryAsset) -> String {
 fn tilt(lamp: &PhotometryAsset, report: &mut FileReport) {
     match &lamp.tilt {
         Tilt::None => {}
-        Tilt::Measured(degrees) => report.state("measured at a tilt of", format!("{degrees}°")),
+        Tilt::Measured(degrees) => report.state("tilt during measurement", format!("{degrees}°")),
         Tilt::Table { geometry, factors } => {
             let told: Vec<String> = factors.iter().map(|(degrees, factor)| format!("{degrees}°: {factor}")).collect();
             report.state("tilt", format!("lamp-to-luminaire geometry {geometry}; {}", told.join(", ")));

@@ -77,7 +77,7 @@ pub(super) fn state(lamp: &PhotometryAsset, report: &mut FileReport) {
     }
     let count = POINTS.len();
     let message =
-        format!("{} of {count} points met for right-hand, {} of {count} for left-hand traffic", met[0], met[1]);
+        format!("{} of {count} points pass for right-hand, {} of {count} for left-hand traffic", met[0], met[1]);
     report.state("passing beam, UN R112/R149 class B", message);
 }
 

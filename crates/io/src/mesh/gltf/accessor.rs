@@ -14,14 +14,14 @@ pub(super) fn numbers<const N: usize>(
     what: &str,
 ) -> Result<Vec<[f64; N]>, String> {
     let number = index.value();
-    let message = |problem: &str| format!("its accessor {number} ({what}) {problem}");
-    let accessor = root.accessors.get(number).ok_or_else(|| message("is not there"))?;
+    let message = |problem: &str| format!("accessor {number} ({what}) {problem}");
+    let accessor = root.accessors.get(number).ok_or_else(|| message("does not exist"))?;
     let (Checked::Valid(kind), Checked::Valid(component)) = (&accessor.type_, &accessor.component_type) else {
-        return Err(message("is of no known type"));
+        return Err(message("has an unknown type"));
     };
     let (components, component) = (components(*kind), component.0);
     if components != N {
-        return Err(message(&format!("has {components} numbers an element; expected {N}")));
+        return Err(message(&format!("has {components} numbers per element; expected {N}")));
     }
     let count = usize::try_from(accessor.count.0).map_err(|_| message("is too long"))?;
     let decode = |bytes: &[u8]| -> [f64; N] {
@@ -39,25 +39,25 @@ pub(super) fn numbers<const N: usize>(
             vec![[0.0; N]; count]
         }
         Some(view) => {
-            let view = root.buffer_views.get(view.value()).ok_or_else(|| message("names no view"))?;
-            let bytes = buffers.view(view).map_err(|problem| message(&format!("names {problem}")))?;
+            let view = root.buffer_views.get(view.value()).ok_or_else(|| message("refers to a buffer view that does not exist"))?;
+            let bytes = buffers.view(view).map_err(|problem| message(&format!("refers to {problem}")))?;
             let stride = view.byte_stride.map_or(element, |stride| stride.0);
             let offset = accessor.byte_offset.unwrap_or_default().0;
             elements(bytes, offset, stride, element, count)
-                .ok_or_else(|| message("reaches beyond its view"))?
+                .ok_or_else(|| message("extends beyond its buffer view"))?
                 .map(decode)
                 .collect()
         }
     };
     if let Some(sparse) = &accessor.sparse {
         let Checked::Valid(indices_type) = &sparse.indices.component_type else {
-            return Err(message("is of no known type"));
+            return Err(message("has an unknown type"));
         };
         let many = usize::try_from(sparse.count.0).map_err(|_| message("is too long"))?;
         let part = |view: Index<gltf::json::buffer::View>, offset: u64, size: usize| {
-            let view = root.buffer_views.get(view.value()).ok_or_else(|| message("names no view"))?;
-            let bytes = buffers.view(view).map_err(|problem| message(&format!("names {problem}")))?;
-            elements(bytes, offset, size, size, many).ok_or_else(|| message("reaches beyond its view"))
+            let view = root.buffer_views.get(view.value()).ok_or_else(|| message("refers to a buffer view that does not exist"))?;
+            let bytes = buffers.view(view).map_err(|problem| message(&format!("refers to {problem}")))?;
+            elements(bytes, offset, size, size, many).ok_or_else(|| message("extends beyond its buffer view"))
         };
         let places = part(sparse.indices.buffer_view, sparse.indices.byte_offset.0, indices_type.0.size())?;
         let new = part(sparse.values.buffer_view, sparse.values.byte_offset.0, element)?;
@@ -122,7 +122,7 @@ fn number_of(bytes: &[u8], component: ComponentType, normalised: bool) -> f64 {
 pub(super) fn finite<const N: usize>(values: Vec<[f64; N]>, what: &str) -> Result<Vec<[f64; N]>, String> {
     match values.iter().position(|v| v.iter().any(|c| !c.is_finite())) {
         Some(place) => Err(format!(
-            "its {what} of vertex {place} is {:?}; expected finite numbers: correct the model",
+            "the {what} of vertex {place} is {:?}; expected finite numbers: correct the model",
             values[place]
         )),
         None => Ok(values),

@@ -19,16 +19,16 @@ impl Buffers {
         for (i, buffer) in root.buffers.iter().enumerate() {
             let (bytes, external) = match &buffer.uri {
                 None if i == 0 => {
-                    (blob.take().ok_or("its buffer 0 has no \"uri\" and there is no binary chunk")?, false)
+                    (blob.take().ok_or("buffer 0 has no \"uri\", and the file has no binary chunk")?, false)
                 }
-                None => return Err(format!("its buffer {i} has no \"uri\"").into()),
+                None => return Err(format!("buffer {i} has no \"uri\"").into()),
                 Some(uri) => linked(file, uri, &format!("buffer {i}"), sandbox)?,
             };
             let stated = buffer.byte_length.0;
             if (bytes.len() as u64) < stated {
                 let has = bytes.len();
                 return Err(format!(
-                    "its buffer {i} has {has} bytes, where {stated} are stated: it is truncated; export or copy it again"
+                    "buffer {i} has {has} bytes, but {stated} are stated: it is truncated; export or copy it again"
                 ).into());
             }
             all.push(bytes);
@@ -39,14 +39,14 @@ impl Buffers {
 
     /// The bytes of a view.
     pub(super) fn view(&self, view: &View) -> Result<&[u8], Problem> {
-        let buffer = self.all.get(view.buffer.value()).ok_or("a view of a buffer that is not there")?;
+        let buffer = self.all.get(view.buffer.value()).ok_or("a view of a buffer that does not exist")?;
         let start = view.byte_offset.unwrap_or_default().0;
         let range = start
             .checked_add(view.byte_length.0)
             .and_then(|end| Some(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
         range.and_then(|range| buffer.get(range)).ok_or_else(|| {
             format!(
-                "a view reaches beyond its buffer {} of {} bytes; export it again",
+                "a view that extends beyond its buffer {} of {} bytes; export the file again",
                 view.buffer.value(),
                 buffer.len()
             )
@@ -63,35 +63,35 @@ impl Buffers {
 /// Bytes of a URI, and true if it is a file. A missing file is also searched for by its last name component next to the glTF file.
 pub(super) fn linked(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<(Vec<u8>, bool), Problem> {
     if let Some(bytes) = data_uri(uri) {
-        return bytes.map(|bytes| (bytes, false)).map_err(|told| format!("its {what}: {told}").into());
+        return bytes.map(|bytes| (bytes, false)).map_err(|told| format!("{what}: {told}").into());
     }
     let path = find(file, uri, what, sandbox)?;
     read_bytes(&path, what)
         .map(|bytes| (bytes, true))
-        .map_err(|error| Problem::new(error.code(), format!("its {what}: {error}")))
+        .map_err(|error| Problem::new(error.code(), format!("{what}: {error}")))
 }
 
 fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<PathBuf, Problem> {
     let name = unescaped(uri);
     if name.contains("://") {
         return Err(
-            format!("its {what} is on a network (`{uri}`), where nothing is read; save it beside the file").into()
+            format!("{what} is on a network (`{uri}`), which is not supported; save it next to the file").into()
         );
     }
     let folder = file.parent().unwrap_or(Path::new(""));
     let stated = folder.join(&name);
     let beside = Path::new(&name).file_name().map(|name| folder.join(name));
     for path in [Some(&stated), beside.as_ref()].into_iter().flatten() {
-        sandbox.check(path).map_err(|problem| problem.within(format_args!("its {what} `{uri}`")))?;
+        sandbox.check(path).map_err(|problem| problem.within(format_args!("{what} `{uri}`")))?;
         if path.exists() {
             return Ok(path.clone());
         }
     }
     let stated_path = stated.display();
     let words = match beside.filter(|b| *b != stated) {
-        None => format!("its {what} is not there: no {stated_path}; put it there"),
+        None => format!("{what} does not exist: no {stated_path}; add this file"),
         Some(beside) => {
-            format!("its {what} is not there: neither {stated_path}, nor {}; put it there", beside.display())
+            format!("{what} does not exist: neither {stated_path} nor {}; add one of these files", beside.display())
         }
     };
     Err(Problem::new(ErrorCode::MissingFile, words))
@@ -101,9 +101,9 @@ fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<PathBuf
 fn data_uri(uri: &str) -> Option<Result<Vec<u8>, String>> {
     let (head, body) = uri.strip_prefix("data:")?.split_once(',').unwrap_or(("", ""));
     if head.ends_with(";base64") {
-        return Some(decode(body).ok_or_else(|| "its data URI is no base64".to_owned()));
+        return Some(decode(body).ok_or_else(|| "the data URI is not valid base64".to_owned()));
     }
-    Some(Err("its data URI is not in base64; export it with base64, or as a file".to_owned()))
+    Some(Err("the data URI is not in base64; export it as base64 or as a file".to_owned()))
 }
 
 fn decode(text: &str) -> Option<Vec<u8>> {

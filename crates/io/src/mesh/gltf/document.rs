@@ -38,15 +38,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
     limits::DESCRIPTION.check_size(json.len() as u64).map_err(|problem| problem.within("its JSON"))?;
     check_objects(json)?;
     let mut root: Root =
-        gltf::json::deserialize::from_slice(json).map_err(|cause| format!("no glTF: its JSON: {cause}"))?;
+        gltf::json::deserialize::from_slice(json).map_err(|cause| format!("not a glTF file: invalid JSON: {cause}"))?;
     if root.asset.version.split('.').next() != Some("2") {
-        return Err(format!("glTF of version {}; expected 2.0: export it again", root.asset.version).into());
+        return Err(format!("the glTF version is {}; expected 2.0: export the file again", root.asset.version).into());
     }
     let unknown: Vec<&str> =
         root.extensions_required.iter().map(String::as_str).filter(|e| !KNOWN.contains(e)).collect();
     if !unknown.is_empty() {
         return Err(format!(
-            "it cannot be read without {}, which is not known here; export it without (known: {})",
+            "requires {}, which is not supported; export it without (supported: {})",
             unknown.join(", "),
             KNOWN.join(", ")
         )
@@ -55,14 +55,14 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
     check_positions(&root)?;
     // The crate supports fewer of them.
     root.extensions_required.clear();
-    let document = gltf::Document::from_json(root).map_err(|cause| format!("no valid glTF: {cause}"))?;
+    let document = gltf::Document::from_json(root).map_err(|cause| format!("not a valid glTF file: {cause}"))?;
     Ok((document.into_json(), blob.map(<[u8]>::to_vec)))
 }
 
 /// The JSON as in the file.
 pub(super) fn json_of(bytes: &[u8]) -> Result<serde_json::Value, Problem> {
     let (json, _) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
-    serde_json::from_slice(json).map_err(|cause| format!("no glTF: its JSON: {cause}").into())
+    serde_json::from_slice(json).map_err(|cause| format!("not a glTF file: invalid JSON: {cause}").into())
 }
 
 /// Refuses missing positions: the crate's own check assumes them.
@@ -70,7 +70,7 @@ fn check_positions(root: &Root) -> Result<(), Problem> {
     let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Checked::Valid(Semantic::Positions)));
     match positions.map(|index| index.value()).find(|index| *index >= root.accessors.len()) {
-        Some(index) => Err(format!("its accessor {index} (POSITION) is not there; export it again").into()),
+        Some(index) => Err(format!("accessor {index} (POSITION) does not exist; export the file again").into()),
         None => Ok(()),
     }
 }
@@ -81,7 +81,7 @@ fn check_objects(json: &[u8]) -> Result<(), Problem> {
     let objects = json.iter().filter(|byte| **byte == b'{').count() as u64;
     limits::MESH
         .check_unpacked(objects * OBJECT_BYTES)
-        .map_err(|problem| problem.within(format_args!("its JSON of {objects} objects")))
+        .map_err(|problem| problem.within(format_args!("JSON of {objects} objects")))
 }
 
 /// The chunks of a GLB file.
@@ -90,11 +90,11 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     let truncated = || "the file is truncated; export or copy it again".to_owned();
     let (version, length) = (word(4).ok_or_else(truncated)?, word(8).ok_or_else(truncated)? as usize);
     if version != 2 {
-        return Err(format!("GLB of version {version}; expected 2: export it again").into());
+        return Err(format!("the GLB version is {version}; expected 2: export the file again").into());
     }
     if length > bytes.len() {
         return Err(format!(
-            "the file has {} bytes, where its head says {length}: it is truncated; export or copy it again",
+            "the file has {} bytes, but its header states {length}: it is truncated; export or copy it again",
             bytes.len()
         )
         .into());
@@ -110,7 +110,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
         }
         at += 8 + size.next_multiple_of(4);
     }
-    Ok((json.ok_or("a GLB whose first chunk is no JSON; export it again")?, blob))
+    Ok((json.ok_or("the first chunk of the GLB is not JSON; export the file again")?, blob))
 }
 
 /// KHR_materials_clearcoat.
@@ -200,16 +200,16 @@ pub(super) fn unused(root: &Root) -> Vec<String> {
         primitives().filter(|p| p.attributes.contains_key(&key)).count()
     };
     let counts = [
-        (lights, "lights", "a mesh has none: `etendue import` writes them as the scene's, or give your own"),
-        (root.cameras.len(), "cameras", "a mesh has none: `etendue import` writes them as the job's, or give your own"),
+        (lights, "lights", "not part of a mesh: `etendue import` writes them to the scene, or add your own"),
+        (root.cameras.len(), "cameras", "not part of a mesh: `etendue import` writes them to the job, or add your own"),
         (
             root.animations.len(),
             "animations",
-            "the mesh stands as its nodes do: give its object \"keys\", or a \"frame\" that moves",
+            "not used; the nodes keep their rest transforms: give the object \"keys\", or a \"frame\" that moves",
         ),
-        (root.skins.len(), "skins", "used as they stand at rest"),
+        (root.skins.len(), "skins", "used in their rest pose"),
         (morphed, "primitives with morph targets", "used without them"),
-        (has(Semantic::Colors(0)), "primitives with colours of vertices", "which are not used"),
+        (has(Semantic::Colors(0)), "primitives with vertex colours", "which are not used"),
         (root.scenes.len().saturating_sub(1), "further scenes", "which are not used"),
     ];
     let mut report: Vec<String> = counts

@@ -102,7 +102,7 @@ fn check_size(root: &Root, placed: &[PlacedMesh]) -> Result<(), Problem> {
 impl Parts {
     fn read(root: &Root, buffers: &Buffers, primitive: &Primitive, layout: &UvLayout) -> Result<Self, Problem> {
         let of = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
-        let positions = of(Semantic::Positions).ok_or("it has no positions")?;
+        let positions = of(Semantic::Positions).ok_or("has no positions")?;
         let positions = finite(numbers::<3>(root, buffers, positions, "POSITION")?, "position")?;
         let normals = match of(Semantic::Normals) {
             Some(index) => finite(numbers::<3>(root, buffers, index, "NORMAL")?, "normal")?,
@@ -130,7 +130,7 @@ impl Parts {
             let mut vertex = |corner: u64| -> Result<u32, Problem> {
                 let source = usize::try_from(corner).ok().filter(|i| *i < positions.len());
                 let source = source
-                    .ok_or_else(|| format!("index {corner} is out of range: it has {} vertices", positions.len()))?;
+                    .ok_or_else(|| format!("index {corner} is out of range: the primitive has {} vertices", positions.len()))?;
                 Ok(*places[source].get_or_insert_with(|| {
                     parts.sources.push(source);
                     (parts.sources.len() - 1) as u32 // no more than corners, which are counted
@@ -139,7 +139,7 @@ impl Parts {
             let triangle = [vertex(triangle[0])?, vertex(triangle[1])?, vertex(triangle[2])?];
             parts.triangles.push(triangle);
         }
-        let short = |what: &str| format!("it has fewer {what} than vertices");
+        let short = |what: &str| format!("has fewer {what} than vertices");
         parts.positions = parts.sources.iter().map(|i| positions[*i]).collect();
         if !normals.is_empty() {
             parts.normals = parts
@@ -195,7 +195,7 @@ impl Builder {
             .map(|(to_file, p)| to_file.transform_point3(DVec3::from_array(*p)))
             .collect();
         if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
-            return Err(format!("vertex {vertex} has no finite place; correct the model").into());
+            return Err(format!("the position of vertex {vertex} is not finite; correct the model").into());
         }
         for (vertex, position) in positions.iter().enumerate() {
             check_range(&position.to_array()).map_err(|told| format!("vertex {vertex}: {told}"))?;
@@ -248,19 +248,19 @@ impl Builder {
     fn finish(self) -> Result<MeshAsset, Problem> {
         let Self { mut mesh, positions, lines, bare_vertices, has_uvs, .. } = self;
         if mesh.triangles.is_empty() {
-            return Err("its scene shows no triangles; export the model with its meshes".into());
+            return Err("the scene contains no triangles; export the model with its meshes".into());
         }
         mesh.origin = middle_of_far(|axis| positions.iter().map(move |p| p[axis]));
         let origin = mesh.origin;
         mesh.positions = positions.iter().map(|p| relative(*p, origin)).collect();
         if mesh.uvs.iter().flatten().any(|v| !v.is_finite()) {
-            return Err("a texture coordinate is no finite number; correct the model".into());
+            return Err("a texture coordinate is not finite; correct the model".into());
         }
         if lines > 0 {
             mesh.report.push(format!("{lines} primitives of points or lines are not used"));
         }
         if has_uvs && bare_vertices > 0 {
-            mesh.report.push(format!("{bare_vertices} vertices without texture coordinates stand at u = v = 0"));
+            mesh.report.push(format!("{bare_vertices} vertices without texture coordinates use u = v = 0"));
         }
         Ok(mesh)
     }

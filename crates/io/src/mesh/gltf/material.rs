@@ -44,7 +44,7 @@ impl Materials {
             self.numbers.push(number);
             self.numbers.len() - 1
         });
-        let slot = u16::try_from(slot).map_err(|_| "it has more than 65 536 materials; make it smaller".to_owned())?;
+        let slot = u16::try_from(slot).map_err(|_| "the mesh has more than 65 536 materials; split it".to_owned())?;
         let first = number.and_then(|n| root.materials.get(n)).and_then(|material| uses(material).first().copied());
         Ok((slot, first.map_or(UvLayout::PLAIN, |first| first.layout)))
     }
@@ -178,7 +178,7 @@ impl Reader<'_, '_, '_> {
         let stated = self.material.extensions.as_ref().and_then(|e| e.ior.as_ref()).map(|ior| f64::from(ior.ior.0));
         match stated {
             Some(index) if !(1.0..=4.0).contains(&index) => {
-                self.notes.push(format!("its ior {index} is outside 1 … 4, {USUAL_INDEX} is used"));
+                self.notes.push(format!("the refractive index (ior) {index} is outside 1 … 4; {USUAL_INDEX} is used"));
                 USUAL_INDEX
             }
             stated => stated.unwrap_or(USUAL_INDEX),
@@ -189,7 +189,7 @@ impl Reader<'_, '_, '_> {
         let index = self.index();
         if let Some(sheen) = document::sheen(self.material).filter(|s| s.colour != [0.0; 3]) {
             if sheen.has_picture {
-                self.notes.push("the pictures of its sheen are not used".to_owned());
+                self.notes.push("the sheen textures are not used".to_owned());
             }
             return SlotOver::Sheen {
                 colour: sheen.colour,
@@ -201,12 +201,12 @@ impl Reader<'_, '_, '_> {
         if specular.is_some_and(|s| {
             s.specular_color_factor.0 != [1.0; 3] || s.specular_color_texture.is_some() || s.specular_texture.is_some()
         }) {
-            self.notes.push("the colour and the pictures of its highlights (specular) are not used".to_owned());
+            self.notes.push("the colour and the textures of the specular reflection are not used".to_owned());
         }
         let index = if factor < 1.0 { of_less_reflectance(index, factor) } else { index };
         let coat = document::clearcoat(self.material).filter(|coat| coat.share > 0.0);
         if coat.as_ref().is_some_and(|coat| coat.has_picture) {
-            self.notes.push("the pictures of its clear coat are not used".to_owned());
+            self.notes.push("the clear-coat textures are not used".to_owned());
         }
         match coat {
             Some(coat) => {
@@ -236,9 +236,9 @@ impl Reader<'_, '_, '_> {
             }
         });
         match solid {
-            None => self.notes.push("it is a pane, which does not blur what is behind it".to_owned()),
+            None => self.notes.push("a thin pane: transmitted light is not blurred".to_owned()),
             Some(_) => self.notes.push(
-                "it is a solid of clear substance: its mesh must be closed; its base colour does not tint it"
+                "a solid of clear material: the mesh must be closed; the base colour does not tint it"
                     .to_owned(),
             ),
         }
@@ -250,7 +250,7 @@ impl Reader<'_, '_, '_> {
         let strength = strength.map_or(1.0, |s| f64::from(s.emissive_strength.0));
         let rgb_cd_m2 = self.material.emissive_factor.0.map(|v| f64::from(v).max(0.0) * strength);
         if !rgb_cd_m2.iter().all(|v| v.is_finite() && *v >= 0.0) {
-            return Err("its emission is no finite number of 0 or more; correct the model".into());
+            return Err("the emission is not a finite number of 0 or more; correct the model".into());
         }
         if rgb_cd_m2 == [0.0; 3] {
             return Ok(None);
@@ -289,7 +289,7 @@ impl Reader<'_, '_, '_> {
         let Some(map) = &self.material.normal_texture else { return Ok(None) };
         let strength = f64::from(map.scale);
         if !(0.0..=STRONGEST).contains(&strength) {
-            self.notes.push(format!("its normal map of scale {strength} is not used: expected 0 … {STRONGEST}"));
+            self.notes.push(format!("the normal map is not used: its scale is {strength}; expected 0 … {STRONGEST}"));
             return Ok(None);
         }
         Ok(Some((self.pictures.as_it_is(map.index.value(), false)?, strength)))
@@ -306,15 +306,15 @@ impl Reader<'_, '_, '_> {
             (
                 others > 0,
                 format!(
-                    "{others} of its pictures lie by other coordinates or transforms than its first, which is used for all"
+                    "{others} textures have other coordinates or transforms than the first; those of the first are used for all"
                 ),
             ),
-            (material.occlusion_texture.is_some(), "its occlusion is not used: shadows are traced".to_owned()),
-            (is_unlit, "it is unlit, which no surface is: it reflects its colour without gloss".to_owned()),
-            (is_metal && coated, "the clear coat or sheen over its metal is not used".to_owned()),
+            (material.occlusion_texture.is_some(), "the occlusion texture is not used: occlusion is computed by ray tracing".to_owned()),
+            (is_unlit, "unlit is not physical: the material is rendered as diffuse in its base colour".to_owned()),
+            (is_metal && coated, "the clear coat or sheen over metal is not used".to_owned()),
             (
                 layers.emission.is_some() && !is_unlit,
-                "its emission is in cd/m², as the specification says: 1 is as dark as dusk".to_owned(),
+                "the emission is in cd/m², as in the specification: 1 cd/m² is as dark as dusk".to_owned(),
             ),
         ];
         for name in [

@@ -70,7 +70,7 @@ fn read(file: &Path, bytes: &[u8]) -> Result<GltfMotion, Problem> {
     let above = parents(&root);
     for node in held_by_skins(&root, &above) {
         if std::mem::take(&mut tracks[node]).is_some() {
-            notes.push(format!("the motion of {} is not used: skins stand at rest", called(&root, node)));
+            notes.push(format!("the motion of {} is not used: skins keep their rest pose", called(&root, node)));
         }
     }
     let mut movers: Vec<GltfMover> = Vec::new();
@@ -142,17 +142,17 @@ fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result
     let mut tracks = vec![Tracks::default(); root.nodes.len()];
     let mut keys = 0;
     for (number, animation) in root.animations.iter().enumerate() {
-        let told = |problem: Problem| problem.within(format_args!("its animation {number}"));
+        let told = |problem: Problem| problem.within(format_args!("animation {number}"));
         for channel in &animation.channels {
             let sampler = animation.samplers.get(channel.sampler.value());
-            let sampler = sampler.ok_or_else(|| told("a channel names a sampler that is not there".into()))?;
+            let sampler = sampler.ok_or_else(|| told("a channel refers to a sampler that does not exist".into()))?;
             let node = tracks.get_mut(channel.target.node.value());
-            let node = node.ok_or_else(|| told("a channel names a node that is not there".into()))?;
+            let node = node.ok_or_else(|| told("a channel refers to a node that does not exist".into()))?;
             if !add(root, buffers, channel, sampler, node, &mut keys).map_err(told)? {
                 let what = called(root, channel.target.node.value());
                 let note = match channel.target.path {
                     Checked::Valid(Property::MorphTargetWeights) => format!("morph targets of {what} are not used"),
-                    _ => format!("a further animation of {what} is not used: the first holds"),
+                    _ => format!("a further animation of {what} is not used: only the first is"),
                 };
                 if !notes.contains(&note) {
                     notes.push(note);
@@ -173,7 +173,7 @@ fn add(
     keys: &mut u64,
 ) -> Result<bool, Problem> {
     let Checked::Valid(interpolation) = sampler.interpolation else {
-        return Err("an interpolation that is not known".into());
+        return Err("unknown interpolation".into());
     };
     let is_used = match channel.target.path {
         Checked::Valid(Property::Translation) => node.translation.is_none(),
@@ -234,19 +234,19 @@ fn mover(
             if movers[parent].scale.is_some()
                 || (scales.max_element() - scales.min_element()).abs() > 1e-6 * scales.max_element()
             {
-                return Err("what it stands in changes its size, or is scaled unevenly; it stands still in it".into());
+                return Err("its parent changes size or is scaled non-uniformly; it does not move relative to its parent".into());
             }
             to_file[movers[parent].node].inverse() * above
         }
     };
-    let to_parent = similarity(to_parent).ok_or("nodes above it are mirrored or scaled unevenly")?;
+    let to_parent = similarity(to_parent).ok_or("nodes above it are mirrored or scaled non-uniformly")?;
     let rest = rest(node)?;
     if rest.2.min_element() <= 0.0 {
-        return Err("it is mirrored, or has no size".into());
+        return Err("it is mirrored, or its scale is 0".into());
     }
     let Tracks { translation, rotation, scale } = tracks;
     if scale.as_ref().is_some_and(|track| track.values().any(|v| v.iter().any(|s| *s <= 0.0))) {
-        return Err("its scale passes through zero, or mirrors".into());
+        return Err("its scale becomes 0 or negative".into());
     }
     let name = node.name.clone().unwrap_or_default();
     let to_file = to_file[number];
@@ -266,13 +266,13 @@ fn mover(
 
 fn rest(node: &Node) -> Result<(DVec3, DQuat, DVec3), Problem> {
     if node.matrix.is_some() {
-        return Err("it has a matrix, which animations do not move".into());
+        return Err("it has a matrix, which cannot be animated".into());
     }
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let rotation = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |r| r.0.map(f64::from));
     let rotation = DQuat::from_array(rotation);
     if !rotation.is_finite() || rotation.length_squared() == 0.0 {
-        return Err("its rotation is none".into());
+        return Err("its rotation is not a valid quaternion".into());
     }
     Ok((node.translation.map_or(DVec3::ZERO, wide), rotation.normalize(), node.scale.map_or(DVec3::ONE, wide)))
 }

@@ -39,9 +39,9 @@ pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem>
     let mut shown = Vec::new();
     while let Some(number) = open.pop() {
         let node =
-            root.nodes.get(number).ok_or_else(|| format!("its scene names node {number}, which is not there"))?;
+            root.nodes.get(number).ok_or_else(|| format!("the scene refers to node {number}, which does not exist"))?;
         if std::mem::replace(&mut seen[number], true) {
-            return Err(format!("its scene shows node {number} twice; export it again").into());
+            return Err(format!("the scene contains node {number} twice; export the file again").into());
         }
         open.extend(node.children.iter().flatten().rev().map(|child| child.value()));
         shown.push(number);
@@ -56,10 +56,10 @@ fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
         for child in node.children.iter().flatten() {
             let parent = parents
                 .get_mut(child.value())
-                .ok_or_else(|| format!("its node {number} has a child that is not there"))?;
+                .ok_or_else(|| format!("node {number} has a child that does not exist"))?;
             if let Some(other) = parent.replace(number) {
                 return Err(format!(
-                    "its node {} is a child of both node {other} and node {number}; export it again",
+                    "node {} is a child of both node {other} and node {number}; export the file again",
                     child.value()
                 )
                 .into());
@@ -76,7 +76,7 @@ fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
     }
     // Nodes that no root reaches lie on a cycle, or below one.
     let cyclic =
-        |number: usize| format!("its node {number} is among its own children, or below one that is; export it again");
+        |number: usize| format!("node {number} is its own descendant, or below a node that is; export the file again");
     let all: Result<_, _> =
         to_file.into_iter().enumerate().map(|(number, found)| found.ok_or_else(|| cyclic(number))).collect();
     Ok((roots, all?))
@@ -97,7 +97,7 @@ fn local(number: usize, node: &Node) -> Result<DAffine3, Problem> {
     };
     match local.is_finite() {
         true => Ok(local),
-        false => Err(format!("the place of its node {number} is no finite number; correct the model").into()),
+        false => Err(format!("the transform of node {number} is not finite; correct the model").into()),
     }
 }
 
@@ -118,14 +118,14 @@ pub(super) fn joints(
     skin: usize,
     to_file: &[DAffine3],
 ) -> Result<Vec<DAffine3>, Problem> {
-    let record = root.skins.get(skin).ok_or_else(|| format!("its skin {skin} is not there"))?;
+    let record = root.skins.get(skin).ok_or_else(|| format!("skin {skin} does not exist"))?;
     let bind: Vec<[f64; 16]> = match record.inverse_bind_matrices {
         None => vec![DMat4::IDENTITY.to_cols_array(); record.joints.len()],
         Some(index) => finite(numbers(root, buffers, index, "inverse bind matrices")?, "inverse bind matrix")?,
     };
     if bind.len() < record.joints.len() {
         return Err(format!(
-            "its skin {skin} has {} joints and {} inverse bind matrices",
+            "skin {skin} has {} joints and {} inverse bind matrices",
             record.joints.len(),
             bind.len()
         )
@@ -133,7 +133,7 @@ pub(super) fn joints(
     }
     let joint = |(joint, bind): (&Index<_>, &[f64; 16])| {
         let place =
-            to_file.get(joint.value()).ok_or_else(|| format!("its skin {skin} names a joint that is not there"))?;
+            to_file.get(joint.value()).ok_or_else(|| format!("skin {skin} refers to a joint that does not exist"))?;
         Ok(*place * DAffine3::from_mat4(DMat4::from_cols_array(bind)))
     };
     record.joints.iter().zip(&bind).map(|(index, bind): (&Index<gltf::json::Node>, _)| joint((index, bind))).collect()
@@ -159,16 +159,16 @@ impl Weights {
     /// Transform from the bind pose to the file at a vertex: the weighted mean of the joints' transforms.
     pub(super) fn blend(&self, vertex: usize, joints: &[DAffine3]) -> Result<DAffine3, Problem> {
         let told =
-            |problem: &str| Problem::from(format!("vertex {vertex} of a skinned mesh {problem}; export it again"));
+            |problem: &str| Problem::from(format!("vertex {vertex} of a skinned mesh {problem}; export the file again"));
         let (numbers, weights) =
             self.joints.get(vertex).zip(self.weights.get(vertex)).ok_or_else(|| told("has no joints"))?;
         let sum: f64 = weights.iter().sum();
         if sum.is_nan() || sum <= 0.0 {
-            return Err(told("hangs on no joint"));
+            return Err(told("has no joint with a weight above 0"));
         }
         let mut blend = DAffine3::from_cols(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         for (number, weight) in numbers.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
-            let joint = joints.get(*number as usize).ok_or_else(|| told("names a joint that its skin has not"))?;
+            let joint = joints.get(*number as usize).ok_or_else(|| told("refers to a joint that its skin does not have"))?;
             blend.matrix3 += joint.matrix3 * (weight / sum);
             blend.translation += joint.translation * (weight / sum);
         }

@@ -138,7 +138,7 @@ impl<'a> Pictures<'a> {
     }
 
     fn image_of(&self, texture: usize) -> Result<usize, Problem> {
-        let found = self.root.textures.get(texture).ok_or_else(|| format!("its texture {texture} is not there"))?;
+        let found = self.root.textures.get(texture).ok_or_else(|| format!("texture {texture} does not exist"))?;
         Ok(found.source.value())
     }
 
@@ -151,21 +151,21 @@ impl<'a> Pictures<'a> {
     }
 
     fn read(&mut self, number: usize) -> Result<ImageAsset, Problem> {
-        let image = self.root.images.get(number).ok_or_else(|| format!("its image {number} is not there"))?;
+        let image = self.root.images.get(number).ok_or_else(|| format!("image {number} does not exist"))?;
         let what = format!("image {number}");
         let (bytes, is_file) = match (&image.uri, image.buffer_view) {
             (Some(uri), _) => linked(self.file, uri, &what, self.sandbox)?,
             (None, Some(view)) => {
                 let view =
-                    self.root.buffer_views.get(view.value()).ok_or_else(|| format!("its {what} names no view"))?;
-                (self.buffers.view(view).map_err(|told| format!("its {what} names {told}"))?.to_vec(), false)
+                    self.root.buffer_views.get(view.value()).ok_or_else(|| format!("{what} refers to a buffer view that does not exist"))?;
+                (self.buffers.view(view).map_err(|told| format!("{what} refers to {told}"))?.to_vec(), false)
             }
-            (None, None) => return Err(format!("its {what} has neither \"uri\" nor \"bufferView\"").into()),
+            (None, None) => return Err(format!("{what} has neither \"uri\" nor \"bufferView\"").into()),
         };
         if bytes.is_empty() {
-            return Err(format!("its {what} is empty").into());
+            return Err(format!("{what} is empty").into());
         }
-        let decoded = decode_picture(Path::new(&what), &bytes).map_err(|error| format!("its {error}"))?;
+        let decoded = decode_picture(Path::new(&what), &bytes).map_err(|error| error.to_string())?;
         if is_file {
             self.files.push(bytes);
         }

@@ -126,12 +126,12 @@ fn light_of(
     let lights = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
     let light = lights
         .and_then(|l| l.lights.get(number))
-        .ok_or_else(|| format!("a node has light {number}, which is not there; export it again"))?;
+        .ok_or_else(|| format!("a node refers to light {number}, which does not exist; export the file again"))?;
     let wrong = |problem: Problem| problem.within(format_args!("light {number}"));
     let legal = |v: f64| v.is_finite() && v >= 0.0;
     let (colour, intensity) = (light.color.map(f64::from), f64::from(light.intensity));
     if !legal(intensity) || !colour.iter().all(|v| legal(*v)) {
-        return Err(wrong("its intensity and colour must be finite numbers from 0; correct the model".into()));
+        return Err(wrong("intensity and colour must be finite numbers of 0 or more; correct the model".into()));
     }
     Ok(GltfLight {
         name: light.name.clone().unwrap_or(node_name),
@@ -154,10 +154,10 @@ fn kind_of(light: &Light) -> Result<GltfLightKind, Problem> {
             let most = std::f64::consts::FRAC_PI_2 + 1e-6;
             match inner_rad >= 0.0 && inner_rad < outer_rad && outer_rad <= most {
                 true => Ok(GltfLightKind::Spot { inner_rad, outer_rad }),
-                false => Err(format!("angles of {inner_rad} and {outer_rad}; expected 0 ≤ inner < outer ≤ π/2").into()),
+                false => Err(format!("the cone angles are {inner_rad} and {outer_rad}; expected 0 ≤ inner < outer ≤ π/2").into()),
             }
         }
-        _ => Err("no type that is known; expected directional, point, or spot with its angles".into()),
+        _ => Err("unknown type; expected directional, point, or spot with its angles".into()),
     }
 }
 
@@ -171,16 +171,16 @@ fn camera_of(
     let camera = root
         .cameras
         .get(number)
-        .ok_or_else(|| format!("a node has camera {number}, which is not there; export it again"))?;
+        .ok_or_else(|| format!("a node refers to camera {number}, which does not exist; export the file again"))?;
     let above = |v: f32, what: &str| match v > 0.0 && v.is_finite() {
         true => Ok(f64::from(v)),
-        false => Err(format!("camera {number}: {what} of {v}; expected a number above 0")),
+        false => Err(format!("camera {number}: {what} is {v}; expected a number above 0")),
     };
     let projection = match (&camera.perspective, &camera.orthographic) {
         (Some(p), _) => {
             let yfov_rad = above(p.yfov, "yfov")?;
             if yfov_rad >= 3.0 {
-                return Err(format!("camera {number}: yfov of {yfov_rad} rad; expected less than 3").into());
+                return Err(format!("camera {number}: yfov is {yfov_rad} rad; expected less than 3 rad").into());
             }
             let aspect = p.aspect_ratio.map(|a| above(a, "aspectRatio")).transpose()?;
             GltfProjection::Perspective { yfov_rad, aspect }
@@ -188,7 +188,7 @@ fn camera_of(
         (None, Some(o)) => {
             GltfProjection::Orthographic { half_m: [above(o.xmag.abs(), "xmag")?, above(o.ymag.abs(), "ymag")?] }
         }
-        (None, None) => return Err(format!("camera {number} has no projection; export it again").into()),
+        (None, None) => return Err(format!("camera {number} has no projection; export the file again").into()),
     };
     Ok(GltfCamera { name: camera.name.clone().unwrap_or(node_name), node, to_file, projection })
 }

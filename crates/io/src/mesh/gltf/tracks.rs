@@ -35,10 +35,10 @@ pub(super) fn track<const N: usize>(
 ) -> Result<GltfTrack<N>, Problem> {
     let each = if cubic { 3 } else { 1 };
     if times.is_empty() || values.len() != each * times.len() {
-        return Err(format!("{} values for {} times; export it again", values.len(), times.len()).into());
+        return Err(format!("has {} values for {} times; export the file again", values.len(), times.len()).into());
     }
     if times.windows(2).any(|pair| pair[0] >= pair[1]) {
-        return Err("its times do not rise; export it again".into());
+        return Err("the times do not increase; export the file again".into());
     }
     let keys = match (cubic, steps) {
         (true, _) => GltfKeys::Cubic(values.as_chunks().0.to_vec()),
@@ -58,7 +58,7 @@ pub(super) fn counted(before: u64, times: u64, interpolation: Interpolation) -> 
     match before.saturating_add(times.saturating_mul(each)) {
         keys if keys <= MAX_KEYS => Ok(keys),
         _ => Err(format!(
-            "its tracks and those before it make more than {MAX_KEYS} keys, {GLTF_CUBIC_KEYS} for each of a cubic curve, 2 for each of steps; export fewer"
+            "its tracks and those before it have more than {MAX_KEYS} keys (a cubic key counts as {GLTF_CUBIC_KEYS}, a step key as 2); export fewer"
         ).into()),
     }
 }
@@ -67,7 +67,7 @@ pub(super) fn counted(before: u64, times: u64, interpolation: Interpolation) -> 
 pub(super) fn check_rotation(track: &GltfTrack<4>) -> Result<(), Problem> {
     let length = |q: [f64; 4]| q.iter().map(|v| v * v).sum::<f64>().sqrt();
     match track.values().position(|q| length(q) < GLTF_MIN_TURN) {
-        Some(key) => Err(format!("key {key} of its rotations is a quaternion without length; export it again").into()),
+        Some(key) => Err(format!("key {key} of its rotations is a quaternion of length 0; export the file again").into()),
         None => Ok(()),
     }
 }

@@ -52,7 +52,7 @@ impl Builder {
     }
 
     fn known_vertices(&self) -> Result<&Vertices, Problem> {
-        self.vertices.as_ref().ok_or_else(|| "its faces stand before its vertices; export the mesh again".into())
+        self.vertices.as_ref().ok_or_else(|| "the faces precede the vertices; export the mesh again".into())
     }
 
     fn faces(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), Problem> {
@@ -122,12 +122,12 @@ impl Builder {
     fn finish(self, header: &Header) -> Result<MeshAsset, Problem> {
         let Self { vertices, mut mesh, sources, unused, unused_elements, has_strips, .. } = self;
         if mesh.triangles.is_empty() {
-            return Err("it has no faces (a cloud of points?); export it as a mesh".into());
+            return Err("has no faces (a point cloud?); export it as a mesh".into());
         }
         let has_own = !sources.is_empty();
         if has_own && has_strips {
             return Err(
-                "faces with texture coordinates of their own beside strips, which have none; export it again".into()
+                "has faces with their own texture coordinates together with strips, which have none; export the mesh again".into()
             );
         }
         let vertices = vertices.ok_or("no vertices")?;
@@ -175,7 +175,7 @@ fn mend_normals(mesh: &mut MeshAsset) {
     }
     normals.iter_mut().filter(|n| **n == [0.0; 3]).for_each(|n| *n = [0.0, 0.0, 1.0]); // vertex of no triangle
     if mended > 0 {
-        report.push(format!("{mended} vertices without a usable normal take that of a face"));
+        report.push(format!("{mended} vertices without a usable normal use that of a face"));
     }
 }
 
@@ -183,7 +183,7 @@ fn notes(header: &Header, unused: &[String], elements: &[(String, usize)]) -> Ve
     let mut notes = Vec::new();
     let (colours, others): (Vec<&String>, Vec<&String>) = unused.iter().partition(|name| COLOURS.contains(&&***name));
     if !colours.is_empty() {
-        notes.push("colours of vertices or faces are not used: give the object a material".to_owned());
+        notes.push("vertex and face colours are not used: give the object a material".to_owned());
     }
     if !others.is_empty() {
         let names: Vec<String> = others.iter().map(|name| shortened(name)).collect();
@@ -191,7 +191,7 @@ fn notes(header: &Header, unused: &[String], elements: &[(String, usize)]) -> Ve
     }
     if let Some(picture) = &header.picture {
         notes.push(format!(
-            "its picture `{}` is not used: name it as a texture of the object's material",
+            "the image `{}` is not used: give it as a texture of the object's material",
             shortened(picture)
         ));
     }
@@ -232,7 +232,7 @@ impl Uses {
     fn of(element: &Element) -> Result<Self, Problem> {
         let has = |name: &str| element.properties.iter().any(|p| p.name == name && p.count.is_none());
         if let Some(missing) = ["x", "y", "z"].into_iter().find(|name| !has(name)) {
-            return Err(format!("its element `vertex` has no property `{missing}`; export the mesh again").into());
+            return Err(format!("the element `vertex` has no property `{missing}`; export the mesh again").into());
         }
         let has_normals = ["nx", "ny", "nz"].into_iter().all(has);
         let uv = UV_NAMES.into_iter().find(|pair| pair.iter().all(|name| has(name)));
@@ -254,7 +254,7 @@ impl Vertices {
     pub(super) fn read(element: &Element, input: &mut Input<'_>) -> Result<(Self, Vec<String>), Problem> {
         input.check_rows(element)?;
         if element.count > u32::MAX as usize {
-            return Err(format!("{} vertices, where a mesh has at most {}", element.count, u32::MAX).into());
+            return Err(format!("the mesh has {} vertices; at most {} are supported", element.count, u32::MAX).into());
         }
         let uses = Uses::of(element)?;
         let of = |has: bool| if has { element.count } else { 0 };

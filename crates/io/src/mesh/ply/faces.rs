@@ -51,11 +51,11 @@ pub(super) fn polygons(
                 }
             }
             if face.corners.len() < 3 {
-                return Err(format!("{} corners; expected three or more", face.corners.len()).into());
+                return Err(format!("has {} corners; expected three or more", face.corners.len()).into());
             }
             if !face.uvs.is_empty() && face.uvs.len() != face.corners.len() {
                 let (uvs, corners) = (face.uvs.len(), face.corners.len());
-                return Err(format!("texture coordinates of {uvs} corners, where it has {corners}").into());
+                return Err(format!("has texture coordinates of {uvs} corners; expected {corners}").into());
             }
             take(&face)
         };
@@ -106,8 +106,8 @@ fn check(element: &Element, input: &Input<'_>) -> Result<(), Problem> {
     let lists = element.properties.iter().filter(|p| p.count.is_some() && CORNER_NAMES.contains(&&*p.name)).count();
     match lists {
         1 => Ok(()),
-        0 => Err(format!("its element `{}` has no list `vertex_indices`; export the mesh again", element.name).into()),
-        _ => Err(format!("its element `{}` has two lists of corners; export the mesh again", element.name).into()),
+        0 => Err(format!("the element `{}` has no list `vertex_indices`; export the mesh again", element.name).into()),
+        _ => Err(format!("the element `{}` has two lists of corners; export the mesh again", element.name).into()),
     }
 }
 
@@ -120,7 +120,7 @@ fn read_corners(
     let length = input.list_length(property)?;
     if length > MAX_CORNERS {
         return Err(format!(
-            "{length} corners; at most {MAX_CORNERS} are read: triangulate the mesh where it was modelled"
+            "has {length} corners; at most {MAX_CORNERS} are supported: triangulate the mesh in the modelling program"
         )
         .into());
     }
@@ -146,10 +146,10 @@ fn corner(index: f64, vertices: usize, input: &Input<'_>) -> Result<u32, Problem
 fn read_uvs(property: &Property, input: &mut Input<'_>, uvs: &mut Vec<[f32; 2]>) -> Result<(), Problem> {
     let length = input.list_length(property)?;
     if !length.is_multiple_of(2) {
-        return Err(format!("{length} texture coordinates; expected two a corner").into());
+        return Err(format!("has {length} texture coordinates; expected two per corner").into());
     }
     if length > 2 * MAX_CORNERS {
-        return Err(format!("texture coordinates of more than {MAX_CORNERS} corners").into());
+        return Err(format!("has texture coordinates of more than {MAX_CORNERS} corners").into());
     }
     uvs.reserve(length / 2);
     for _ in 0..length / 2 {

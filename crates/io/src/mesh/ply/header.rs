@@ -106,7 +106,7 @@ impl Header {
                 Some("obj_info") | None => {}
                 Some(other) => {
                     return Err(told(format!(
-                        "`{}` in the head of a PLY file; expected `element`, `property`, `comment` or `end_header`",
+                        "unknown statement `{}` in the PLY header; expected `element`, `property`, `comment` or `end_header`",
                         shortened(other)
                     )));
                 }
@@ -126,9 +126,9 @@ impl Header {
             return Err("expected `element NAME COUNT`".to_owned());
         };
         let count =
-            count.parse().map_err(|_| format!("`{}` elements: expected a whole number from 0", shortened(count)))?;
+            count.parse().map_err(|_| format!("the element count is `{}`; expected a whole number of 0 or more", shortened(count)))?;
         if self.find(name).is_some() {
-            return Err(format!("a second element `{}`; export the mesh again", shortened(name)));
+            return Err(format!("the element `{}` is declared twice; export the mesh again", shortened(name)));
         }
         self.elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
         Ok(())
@@ -137,21 +137,21 @@ impl Header {
     fn property(&mut self, words: Vec<&str>) -> Result<(), String> {
         const TYPES: &str = "char, uchar, short, ushort, int, uint, float, double, or int8 … float64";
         let number =
-            |word: &str| Number::of(word).ok_or_else(|| format!("no type `{}`; expected {TYPES}", shortened(word)));
+            |word: &str| Number::of(word).ok_or_else(|| format!("unknown type `{}`; expected {TYPES}", shortened(word)));
         let property = match words[..] {
             ["list", count, item, name] => {
                 let count = number(count)?;
                 if !count.is_whole() {
-                    return Err("the count of a list is no whole number; expected a type such as uchar".to_owned());
+                    return Err("the count type of a list is not an integer type; expected a type such as uchar".to_owned());
                 }
                 Property { name: name.to_owned(), number: number(item)?, count: Some(count) }
             }
             [item, name] => Property { name: name.to_owned(), number: number(item)?, count: None },
             _ => return Err("expected `property TYPE NAME` or `property list TYPE TYPE NAME`".to_owned()),
         };
-        let element = self.elements.last_mut().ok_or("a property before any element")?;
+        let element = self.elements.last_mut().ok_or("a property precedes the first element")?;
         if element.properties.iter().any(|p| p.name == property.name) {
-            return Err(format!("a second property `{}` of one element", shortened(&property.name)));
+            return Err(format!("the property `{}` is declared twice in one element", shortened(&property.name)));
         }
         element.properties.push(property);
         Ok(())
@@ -184,7 +184,7 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn new(bytes: &'a [u8]) -> Result<Self, Fault> {
-        let no_ply = || (1, "no PLY file: its first line is not `ply`".to_owned());
+        let no_ply = || (1, "not a PLY file: the first line is not `ply`".to_owned());
         let rest = bytes.strip_prefix(b"ply").ok_or_else(no_ply)?;
         let blanks = rest.iter().take_while(|b| matches!(b, b' ' | b'\t')).count();
         let end: &[u8] = match &rest[blanks..] {
@@ -202,12 +202,12 @@ impl<'a> Lines<'a> {
         let length = rest.windows(self.end.len()).position(|w| w == self.end).ok_or_else(|| {
             (
                 self.number,
-                format!("the head has no `end_header` within {} bytes: the file may be truncated", self.bytes.len()),
+                format!("the header has no `end_header` within {} bytes: the file may be truncated", self.bytes.len()),
             )
         })?;
         self.at += length + self.end.len();
         let line = std::str::from_utf8(&rest[..length])
-            .map_err(|_| (self.number, "the head of a PLY file is not text; export the mesh again".to_owned()))?;
+            .map_err(|_| (self.number, "the PLY header is not text; export the mesh again".to_owned()))?;
         Ok((self.number, line))
     }
 
@@ -221,7 +221,7 @@ impl<'a> Lines<'a> {
             _ => Err((
                 number,
                 format!(
-                    "`{}`: expected `format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`",
+                    "found `{}`; expected `format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`",
                     shortened(line)
                 ),
             )),

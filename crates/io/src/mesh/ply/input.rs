@@ -36,7 +36,7 @@ impl<'a> Input<'a> {
         match element.count.checked_mul(row) {
             Some(bytes) if bytes <= rest => Ok(()),
             _ => Err(format!(
-                "the head tells of {} elements `{}`, for which the file is too short: it is truncated, or its head is wrong; export or copy it again",
+                "the header states {} elements `{}`, for which the file is too short: it is truncated, or its header is wrong; export or copy it again",
                 element.count,
                 shortened(&element.name)
             ).into()),
@@ -57,7 +57,7 @@ impl<'a> Input<'a> {
             true => Ok(value),
             false => {
                 let hint = if self.encoding == Encoding::Text { "" } else { self.byte_order_hint() };
-                Err(format!("a number that is not finite (NaN or infinity): mend the mesh where it was modelled{hint}")
+                Err(format!("a number is not finite (NaN or infinity): correct the mesh in the modelling program{hint}")
                     .into())
             }
         }
@@ -73,7 +73,7 @@ impl<'a> Input<'a> {
             return Ok(length as usize);
         }
         Err(format!(
-            "a list `{}` of {length} numbers, for which the file is too short: it is truncated{}",
+            "the list `{}` has {length} numbers, for which the file is too short: it is truncated{}",
             shortened(&property.name),
             self.byte_order_hint()
         )
@@ -107,8 +107,8 @@ impl<'a> Input<'a> {
     pub(super) fn byte_order_hint(&self) -> &'static str {
         match self.encoding {
             Encoding::Text => "; export or copy it again",
-            Encoding::Little => ", or its numbers are big-endian where the head says little-endian; export it again",
-            Encoding::Big => ", or its numbers are little-endian where the head says big-endian; export it again",
+            Encoding::Little => ", or its numbers are big-endian although the header states little-endian; export it again",
+            Encoding::Big => ", or its numbers are little-endian although the header states big-endian; export it again",
         }
     }
 
@@ -122,7 +122,7 @@ impl<'a> Input<'a> {
         match is_end {
             true => Ok(()),
             false => Err(format!(
-                "{} bytes stand after the last element: the head does not tell of all of the file{}",
+                "{} bytes follow the last element: the header does not describe the whole file{}",
                 rest.len(),
                 self.byte_order_hint()
             )
@@ -153,7 +153,7 @@ impl<'a> Input<'a> {
         }
         self.at += start + length;
         std::str::from_utf8(&rest[start..start + length])
-            .map_err(|_| "bytes that are no text, where the head says `format ascii`; export it again".into())
+            .map_err(|_| "the data is not text, although the header states `format ascii`; export it again".into())
     }
 
     /// Number of line ends in `blanks`, the text after a number.
@@ -164,9 +164,9 @@ impl<'a> Input<'a> {
 
     fn word_number(&mut self, number: Number) -> Result<f64, Problem> {
         let word = self.word()?;
-        let value: f64 = word.parse().map_err(|_| format!("`{}` is no number", shortened(word)))?;
+        let value: f64 = word.parse().map_err(|_| format!("`{}` is not a number", shortened(word)))?;
         if number.is_whole() && value.fract() != 0.0 {
-            return Err(format!("`{}` where the head tells of a whole number", shortened(word)).into());
+            return Err(format!("`{}` is not a whole number, which the header states", shortened(word)).into());
         }
         Ok(value)
     }

@@ -22,7 +22,7 @@ pub(super) enum Edition {
 impl Edition {
     pub(super) fn name(self) -> &'static str {
         match self {
-            Self::Of1986 => "edition of 1986 or none stated",
+            Self::Of1986 => "edition of 1986, or none stated",
             Self::Of1991 => "edition of 1991",
             Self::Of1995 => "edition of 1995",
             Self::Of2002 => "edition of 2002",
@@ -95,8 +95,8 @@ impl Identification {
                 file,
                 *line,
                 format!(
-                    "`{text}` names no edition, and the number {further} after the ballast factor is a factor up to 1995 and none from 2002 on; \
-                     write IESNA:LM-63-1995, IESNA:LM-63-2002 or IES:LM-63-2019"
+                    "`{text}` states no edition, and the number {further} after the ballast factor is a factor in editions up to 1995, but not from \
+                     2002 on; write IESNA:LM-63-1995, IESNA:LM-63-2002 or IES:LM-63-2019"
                 ),
             )),
         }
@@ -107,10 +107,10 @@ impl Identification {
         match self {
             Self::None | Self::Standard(_) => None,
             Self::Otherwise { text, line, edition } => Some(format!(
-                "line {line}, `{text}`, is not the identification as the standard has it in the first line; read as the {}",
+                "line {line}, `{text}`, is not the standard's identification in the first line; read as the {}",
                 edition.name()
             )),
-            Self::WithoutYear { text, line } => Some(format!("line {line}, `{text}`, names no edition")),
+            Self::WithoutYear { text, line } => Some(format!("line {line}, `{text}`, states no edition")),
         }
     }
 }

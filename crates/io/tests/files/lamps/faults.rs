@@ -25,36 +25,36 @@ fn faults_of_ies_files_are_told_with_their_lines() {
         (("TILT=NONE", "TILT="), "a.ies:5: nothing follows TILT=; expected NONE, INCLUDE or the name of a file"),
         (
             ("0 45 90\n", "0 45\n"),
-            "a.ies:9: vertical angle 3 of 3 is 0° and follows 45°: sort them by rising angle, each once, or correct their count",
+            "a.ies:9: vertical angle 3 of 3 is 0° and follows 45°: sort the angles in increasing order, each once, or correct their number",
         ),
         (
             ("0 45 90\n", "0 45 60 90\n"),
-            "a.ies:9: horizontal angle 2 of 2 is 0° and follows 90°: sort them by rising angle",
+            "a.ies:9: horizontal angle 2 of 2 is 0° and follows 90°: sort the angles in increasing order",
         ),
         (
             ("0 45 90\n", "0 90 45\n"),
-            "a.ies:8: vertical angle 3 of 3 is 45° and follows 90°: sort them by rising angle",
+            "a.ies:8: vertical angle 3 of 3 is 45° and follows 90°: sort the angles in increasing order",
         ),
         (
             ("0 45 90\n", "0 45 45\n"),
-            "a.ies:8: vertical angle 3 of 3 is 45° and follows 45°: sort them by rising angle",
+            "a.ies:8: vertical angle 3 of 3 is 45° and follows 45°: sort the angles in increasing order",
         ),
-        (("0 45 90\n", "0 45 190\n"), "a.ies:8: found the vertical angle 190°; expected one from 0° to 180°"),
+        (("0 45 90\n", "0 45 190\n"), "a.ies:8: the vertical angle is 190°; expected 0° to 180°"),
         (("0 45 90\n", "0 45 x\n"), "a.ies:8: found \"x\"; expected vertical angle 3 of 3: a number"),
         (
             ("\n0 90\n", "\n0 80\n"),
-            "a.ies:9: horizontal angles from 0° to 80°; expected 0° alone, or from 0° to 90°, 180° or 360°, or from 90° to 270°",
+            "a.ies:9: found horizontal angles from 0° to 80°; expected 0° alone, or from 0° to 90°, 180° or 360°, or from 90° to 270°",
         ),
-        (("5 5 5\n", "5 -5 5\n"), "a.ies:10: found the intensity -5; expected 0 or more"),
+        (("5 5 5\n", "5 -5 5\n"), "a.ies:10: the intensity is -5; expected 0 or more"),
         (("5 5 5\n", "5 NaN 5\n"), "a.ies:10: found \"NaN\"; expected intensity 2 of 6: a number"),
         (("5 5 5\n", "5 1e999 5\n"), "a.ies:10: found \"1e999\"; expected intensity 2 of 6: a number"),
         (
             ("5 5 5\n", "5 5\n"),
-            "a.ies:11: the file ends here; expected intensity 6 of 6: it is truncated or its counts",
+            "a.ies:11: the file ends here; expected intensity 6 of 6: it is truncated, or its numbers",
         ),
         (
             ("5 5 5\n", "5 5 5 5 5\n"),
-            "a.ies:11: found \"5\" and 1 more values behind the last intensity; expected the end",
+            "a.ies:11: found \"5\" and 1 more values after the last intensity; expected the end of the file",
         ),
         (
             ("1 -1 1 3 2 1 2", "1 -1 1 3 2 4 2"),
@@ -63,26 +63,26 @@ fn faults_of_ies_files_are_told_with_their_lines() {
         (("1 -1 1 3 2 1 2", "1 -1 1 3 2 1 3"), "a.ies:6: found 3; expected the unit (1 feet, 2 metres)"),
         (
             ("1 -1 1 3 2 1 2", "1 -2 1 3 2 1 2"),
-            "a.ies:6: found -2 lumens; expected those of a lamp, or -1 for absolute photometry",
+            "a.ies:6: found -2 lumens; expected the lumens per lamp, or -1 for absolute photometry",
         ),
-        (("1 -1 1 3 2 1 2", "0 -1 1 3 2 1 2"), "a.ies:6: found 0; expected the count of lamps: a whole number from 1"),
-        (("1 -1 1 3 2 1 2", "1 -1 0 3 2 1 2"), "a.ies:6: found 0; expected the multiplier of intensities: above 0"),
+        (("1 -1 1 3 2 1 2", "0 -1 1 3 2 1 2"), "a.ies:6: found 0; expected the number of lamps: a whole number from 1"),
+        (("1 -1 1 3 2 1 2", "1 -1 0 3 2 1 2"), "a.ies:6: found 0; expected the multiplier of the intensities: above 0"),
         (
             ("1 -1 1 3 2 1 2", "1 -1 1 3.5 2 1 2"),
-            "a.ies:6: found 3.5; expected the count of vertical angles: a whole number from 2",
+            "a.ies:6: found 3.5; expected the number of vertical angles: a whole number from 2",
         ),
         (
             ("1 -1 1 3 2 1 2", "1 -1 1 4000000000 2 1 2"),
-            "a.ies:6: found 4000000000; expected the count of vertical angles: a whole number from 2 to 36001",
+            "a.ies:6: found 4000000000; expected the number of vertical angles: a whole number from 2 to 36001",
         ),
-        (("5 5 5\n5 5 5", "0 0 0\n0 0 0"), "a.ies: gives no light in any direction"),
+        (("5 5 5\n5 5 5", "0 0 0\n0 0 0"), "a.ies: all intensities are 0"),
         (
             ("TILT=NONE", "TILT=INCLUDE\n4\n1 0 1"),
             "a.ies:6: found 4; expected the lamp-to-luminaire geometry: a whole number from 1 to 3",
         ),
         (
             ("TILT=NONE", "TILT=INCLUDE\n1\n2 90 0 1 1"),
-            "a.ies:7: tilt angle 2 of 2 is 0° and follows 90°: sort them by rising angle",
+            "a.ies:7: tilt angle 2 of 2 is 0° and follows 90°: sort the angles in increasing order",
         ),
     ] {
         let found = told("a.ies", &ies(), change);
@@ -96,16 +96,16 @@ fn a_fan_needs_a_width_and_angles_that_its_axes_have() {
         (("\n-10 10\n", "\n-100 100\n"), None),
         (
             ("\n-10 10\n", "\n-190 10\n"),
-            Some("a.ies:9: found the horizontal angle -190°; expected one from -180° to 180°"),
+            Some("a.ies:9: the horizontal angle is -190°; expected -180° to 180°"),
         ),
-        (("-5 0 5\n", "-95 0 5\n"), Some("a.ies:8: found the vertical angle -95°; expected one from -90° to 90°")),
+        (("-5 0 5\n", "-95 0 5\n"), Some("a.ies:8: the vertical angle is -95°; expected -90° to 90°")),
     ] {
         let found = read_bytes("a.ies", head_lamp().replacen(change.0, change.1, 1).as_bytes());
         assert_eq!(found.err().as_deref().map(|t| t.starts_with(expected.unwrap_or("?"))), expected.map(|_| true));
     }
     let narrow = Ies::of(3, &[0.0], &[-5.0, 5.0], |_, _| 1.0).text();
     let found = read_bytes("a.ies", narrow.as_bytes()).expect_err("no width");
-    assert!(found.starts_with("a.ies:9: one horizontal angle; expected two at least"), "{found}");
+    assert!(found.starts_with("a.ies:9: found one horizontal angle; expected at least two"), "{found}");
 }
 
 #[test]
@@ -133,26 +133,26 @@ fn faults_of_eulumdat_files_are_told_with_their_lines() {
         (
             3,
             "5",
-            "a.ldt:3: found 5; expected the symmetry (0 none, 1 round, 2 about C0, 3 about C90, 4 both): a whole number from 0 to 4",
+            "a.ldt:3: found 5; expected the symmetry (0 none, 1 rotational, 2 about C0, 3 about C90, 4 both): a whole number from 0 to 4",
         ),
-        (4, "", "a.ldt:4: found \"\"; expected the count of C planes: a number"),
-        (6, "1", "a.ldt:6: found 1; expected the count of angles in a plane: a whole number from 2"),
+        (4, "", "a.ldt:4: found \"\"; expected the number of C planes: a number"),
+        (6, "1", "a.ldt:6: found 1; expected the number of angles in a plane: a whole number from 2"),
         (
             6,
             "4",
-            "a.ldt:55: the file ends here; expected intensity 6 of 8: it is truncated or its counts of angles are wrong",
+            "a.ldt:55: the file ends here; expected intensity 6 of 8: it is truncated, or its numbers of angles are wrong",
         ),
         (23, "0", "a.ldt:23: found 0; expected the light output ratio, per cent: above 0"),
-        (24, "-1", "a.ldt:24: found -1; expected the conversion factor of intensities: above 0"),
-        (26, "0", "a.ldt:26: found 0; expected the count of sets of lamps: a whole number from 1"),
-        (27, "0", "a.ldt:27: found 0 lamps; expected their count, negative for absolute photometry"),
+        (24, "-1", "a.ldt:24: found -1; expected the conversion factor of the intensities: above 0"),
+        (26, "0", "a.ldt:26: found 0; expected the number of sets of lamps: a whole number from 1"),
+        (27, "0", "a.ldt:27: found 0 lamps; expected their number, negative for absolute photometry"),
         (29, "", "a.ldt:29: found \"\"; expected the total lumens of the lamps: a number"),
-        (44, "0", "a.ldt:44: C angle 2 of 4 is 0° and follows 0°: sort them by rising angle"),
-        (46, "400", "a.ldt:46: found the C angle 400°; expected one from 0° to 360°"),
-        (44, "80", "a.ldt:46: a lamp of symmetry 4 holds the planes from C0 to C90; expected them among 4 planes"),
-        (48, "0", "a.ldt:48: vertical angle 2 of 3 is 0° and follows 0°: sort them by rising angle"),
-        (50, "-1", "a.ldt:50: found the intensity -1; expected 0 or more"),
-        (50, "1 1", "a.ldt:55: found \"160\" and 0 more values behind the last intensity; expected the end"),
+        (44, "0", "a.ldt:44: C angle 2 of 4 is 0° and follows 0°: sort the angles in increasing order"),
+        (46, "400", "a.ldt:46: the C angle is 400°; expected 0° to 360°"),
+        (44, "80", "a.ldt:46: a light of symmetry 4 contains the planes from C0 to C90; expected them at these positions among 4 planes"),
+        (48, "0", "a.ldt:48: vertical angle 2 of 3 is 0° and follows 0°: sort the angles in increasing order"),
+        (50, "-1", "a.ldt:50: the intensity is -1; expected 0 or more"),
+        (50, "1 1", "a.ldt:55: found \"160\" and 0 more values after the last intensity; expected the end of the file"),
         (55, "", "a.ldt:54: the file ends here; expected intensity 6 of 6: it is truncated"),
     ] {
         let found = with(line, text);
@@ -170,9 +170,9 @@ fn what_is_no_lamp_file_is_refused_by_its_name_or_bytes() {
     assert!(
         read_bytes("a.txt", b"x")
             .expect_err("a name")
-            .contains("expected a measured lamp by the name of .ies (LM-63) or .ldt")
+            .contains("expected a photometric file with the extension .ies (LM-63) or .ldt")
     );
-    assert!(read_bytes("a.ies", b"IESNA\n\0\x01").expect_err("bytes").starts_with("a.ies:2: no text; expected"));
+    assert!(read_bytes("a.ies", b"IESNA\n\0\x01").expect_err("bytes").starts_with("a.ies:2: not text; expected"));
     assert!(read_bytes("a.ies", b"").expect_err("empty").contains("is empty"));
 }
 

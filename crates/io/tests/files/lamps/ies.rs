@@ -106,7 +106,7 @@ fn an_identification_that_is_spelt_otherwise_is_read_and_noted() {
         assert!((found.factor - factor).abs() < 1e-12, "{first}: {}", found.factor);
         assert_eq!(found.format, format!("IES LM-63, edition of {edition}"), "{first}");
         assert!(
-            found.report.iter().any(|note| note.contains("is not the identification as the standard has it")),
+            found.report.iter().any(|note| note.contains("is not the standard's identification")),
             "{:?}",
             found.report
         );
@@ -116,10 +116,10 @@ fn an_identification_that_is_spelt_otherwise_is_read_and_noted() {
         assert!(!found.report.iter().any(|note| note.contains("identification")), "{first}: {:?}", found.report);
     }
     let told = read("IESNA:LM-63").expect_err("no year");
-    assert!(told.contains("lamp.ies:1: `IESNA:LM-63` names no edition, and the number 1.1"), "{told}");
+    assert!(told.contains("lamp.ies:1: `IESNA:LM-63` states no edition, and the number 1.1"), "{told}");
     lamp.ballast = [1.0, 1.0];
     let same = read_bytes("lamp.ies", Ies { first: "IESNA:LM-63", ..lamp }.text().as_bytes()).expect("no difference");
-    assert!(same.report[0].contains("names no edition"), "{:?}", same.report);
+    assert!(same.report[0].contains("states no edition"), "{:?}", same.report);
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn factors_of_tilts_are_kept_and_told() {
     let included = lamp.read();
     assert_eq!(included.tilt, expected);
     assert!(
-        included.report[0].starts_with("lamp.ies: its light changes with the tilt of the lamp (factors 0.9 to 1)"),
+        included.report[0].starts_with("lamp.ies: the tilt factors (0.9 to 1) are not applied"),
         "{:?}",
         included.report
     );
@@ -187,22 +187,21 @@ fn the_flux_is_told_where_it_is_not_what_is_rated() {
     assert_eq!(
         kept,
         [
-            "lamp.ies: its intensities make 1256.6 lm, 0.785 times the 1600.0 lm that are the lumens of its lamps: the luminaire keeps the \
-          rest, or directions are missing; the intensities are used"
+            "lamp.ies: the flux from the intensities is 1256.6 lm, 0.785 times the 1600.0 lm from the lumens of the lamps: the luminaire absorbs the rest, or directions are missing; the intensities are used"
         ]
     );
     assert!(
         of(1000.0).expect("readable").report[0]
-            .contains("no luminaire gives more than its lamps: check lumens and multiplier")
+            .contains("a luminaire cannot emit more than its lamps: check lumens and multiplier")
     );
     let absurd = of(400.0).expect_err("more than three times");
     assert!(
-        absurd.starts_with("lamp.ies: its intensities make 1256.6371 lm, its lumens of the lamps 400.0000 lm"),
+        absurd.starts_with("lamp.ies: the flux from the intensities is 1256.6371 lm, that from the lumens of the lamps 400.0000 lm"),
         "{absurd}"
     );
     assert!(
         absurd.ends_with(
-            "correct the lumens or the multiplier; lumens of -1 say that the luminaire was measured by itself"
+            "correct the lumens or the multiplier; lumens of -1 denote absolute photometry of the luminaire"
         )
     );
     assert!(of(0.0).expect("readable").report[0].contains("cannot be checked"));

@@ -30,11 +30,11 @@ fn a_passing_beam_is_held_against_the_test_points() {
     for kind in [2, 3] {
         let right = report("low.ies", &Ies::of(kind, &h, &v, passing_beam).text());
         let count = fact(&right, "passing beam, UN R112/R149 class B");
-        assert_eq!(count, "9 of 9 points met for right-hand, 6 of 9 for left-hand traffic", "{:#?}", right.facts);
+        assert_eq!(count, "9 of 9 points pass for right-hand, 6 of 9 for left-hand traffic", "{:#?}", right.facts);
         assert!(fact(&right, "passing beam B50L, 3.43° L 0.57° U").ends_with("cd, at most 350 cd: pass"));
         let left = report("low.ies", &Ies::of(kind, &h, &v, |h, v| passing_beam(-h, v)).text());
         let count = fact(&left, "passing beam, UN R112/R149 class B");
-        assert_eq!(count, "6 of 9 points met for right-hand, 9 of 9 for left-hand traffic", "{:#?}", left.facts);
+        assert_eq!(count, "6 of 9 points pass for right-hand, 9 of 9 for left-hand traffic", "{:#?}", left.facts);
         assert!(fact(&left, "passing beam B50L, 3.43° L 0.57° U").ends_with(": FAIL"));
         let preview = right.preview.expect("a picture");
         assert_eq!((preview.width, preview.height), (512, 111), "60° × 13°");
@@ -45,12 +45,12 @@ fn a_passing_beam_is_held_against_the_test_points() {
 fn a_street_light_is_told_with_units() {
     let lamp = Ldt::of(1, &[0.0], &[0.0], &steps(0.0, 90.0, 1.0), |_, v| 318.31 * (1.0 - v / 90.0));
     let told = report("street.ldt", &lamp.text());
-    assert_eq!(told.kind, "measured lamp, EULUMDAT");
-    assert_eq!(fact(&told, "greatest intensity"), "318.3 cd at H 0°, V 0°");
+    assert_eq!(told.kind, "photometric file, EULUMDAT");
+    assert_eq!(fact(&told, "maximum intensity"), "318.3 cd at H 0°, V 0°");
     assert_eq!(fact(&told, "vertical angles"), "91 from 0° to 90°");
     // ∫ (1 − γ/½π) sin γ dγ over ½π is 1 − 2/π: 318.31 × 2π × 0.36338 = 726.8 lm.
-    assert_eq!(fact(&told, "flux of the intensities"), "726.8 lm");
-    assert_eq!(fact(&told, "flux stated"), "1000.0 lm (1000 lm of the lamps × light output ratio 1); ratio 0.7268");
+    assert_eq!(fact(&told, "flux from the intensities"), "726.8 lm");
+    assert_eq!(fact(&told, "stated flux"), "1000.0 lm (1000 lm of the lamps × light output ratio 1); ratio 0.7268");
     assert_eq!(fact(&told, "beam angle, C0–C180"), "90.0° at 50 %, field angle 162.0° at 10 %");
     assert!(told.facts.iter().all(|(name, _)| !name.contains("passing beam")), "no direction ahead");
     assert_eq!(told.notes.len(), 1, "{:?}", told.notes);
@@ -66,7 +66,7 @@ fn tables_are_told_by_their_columns() {
     let kinds = [
         ("wavelength_nm,value\n400,1\n500,1\n", "spectrum, CSV"),
         ("wavelength_nm,n,k\n400,1,2\n500,1,3\n", "complex refractive index, CSV"),
-        ("a,5,30\n0.2,70,30\n", "coefficients of retro-reflection, CSV"),
+        ("a,5,30\n0.2,70,30\n", "coefficients of retroreflection, CSV"),
     ];
     for (text, kind) in kinds {
         assert_eq!(report("t.csv", text).kind, kind);

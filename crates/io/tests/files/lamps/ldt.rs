@@ -51,7 +51,7 @@ fn numbers_are_per_1000_lumens_of_the_lamps_and_converted() {
     assert_eq!(read.report.len(), 2, "{:?}", read.report);
     assert_eq!(read.report[0], "lamp.ldt: 2 sets of lamps are listed; the first is used (4000 lm)");
     assert!(
-        read.report[1].starts_with("lamp.ldt: its intensities make 3769.9 lm, 0.754 times the 5000.0 lm"),
+        read.report[1].starts_with("lamp.ldt: the flux from the intensities is 3769.9 lm, 0.754 times the 5000.0 lm"),
         "{:?}",
         read.report
     );
@@ -77,7 +77,7 @@ fn the_tilt_of_the_measurement_is_told() {
     lamp.factors[2] = 5.0;
     let read = lamp.read();
     assert_eq!(read.tilt, Tilt::Measured(5.0));
-    assert!(read.report[0].starts_with("lamp.ldt: it was measured at a tilt of 5°"), "{:?}", read.report);
+    assert!(read.report[0].starts_with("lamp.ldt: measured at a tilt of 5°"), "{:?}", read.report);
 }
 
 #[test]
