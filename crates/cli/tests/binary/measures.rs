@@ -106,7 +106,7 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     describe(stored.replacen(&format!("{images}image0.png"), &text(&file_of_upper), 1)).refused(&[
         "upper.png",
         "all are multiples of 16",
-        "the descriptor says 12 bits",
+        "exceed the 12 bits of the descriptor",
     ]);
     describe(stored.replace("i ", "j ")).refused(&["line 4", "v, n, b, d or i"]);
     // Frames of one channel without a side-car: the positions of green pixels are unknown and not stated.

@@ -94,11 +94,11 @@ impl Truth {
         if (width, height) == (columns, rows) {
             return Ok(());
         }
-        let turned = if (height, width) == (columns, rows) { " or rotated by 90°" } else { "" };
+        let changed = if (height, width) == (columns, rows) { "cropped, scaled or rotated by 90°" } else { "cropped or scaled" };
         Err(Error::coded(
             ErrorCode::NotComparable,
             format!(
-                "{}: {width} × {height} pixels, but the camera '{}' of {} has {columns} × {rows}; give its full image, not cropped or scaled{turned}",
+                "{}: {width} × {height} pixels, but the camera '{}' of {} has {columns} × {rows}; give its full image, not {changed}",
                 picture.display(),
                 camera.name,
                 self.file.display()
