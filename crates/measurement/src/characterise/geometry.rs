@@ -92,7 +92,7 @@ fn models(tried: &[TriedModel]) -> Table {
     let row = |t: &TriedModel| {
         let verdict = match (t.whole, t.information == least) {
             (false, _) => "folds the image over",
-            (true, true) => "taken",
+            (true, true) => "selected",
             (true, false) => "",
         };
         let name = Cell::Text(t.model.name().to_owned());
