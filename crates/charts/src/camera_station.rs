@@ -60,7 +60,7 @@ impl Exposures {
         }
         let legal = lowest > 0.0 && lowest < highest && highest.is_finite();
         if !legal {
-            let message = format!("expected a share of saturation above 0 and below `highest` {highest}");
+            let message = format!("expected a fraction of saturation above 0 and below `highest` {highest}");
             return Err(ChartError::option("lowest", lowest, message));
         }
         let at = |i: u32| {
@@ -80,7 +80,7 @@ impl Exposures {
     pub fn listed(shares: Vec<f64>) -> Result<Self, ChartError> {
         let legal = !shares.is_empty() && shares.iter().all(|s| s.is_finite() && *s > 0.0);
         let text = shares.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-        let told = || ChartError::option("levels", text, "expected shares of saturation, each above 0");
+        let told = || ChartError::option("levels", text, "expected fractions of saturation, each above 0");
         if legal { Ok(Self { shares }) } else { Err(told()) }
     }
 }

@@ -21,7 +21,7 @@ impl Light {
     /// If the name is not known or the luminance not above 0.
     pub fn named(name: &str, luminance_cd_m2: f64) -> Result<Self, ChartError> {
         let unknown =
-            || ChartError::option("illuminant", name, format!("give one of {}", illuminant::names().join(", ")));
+            || ChartError::option("illuminant", name, format!("expected one of {}", illuminant::names().join(", ")));
         let spectrum = illuminant::named(name).ok_or_else(unknown)?;
         let legal = luminance_cd_m2.is_finite() && luminance_cd_m2 > 0.0;
         let radiance = with_luminance(spectrum, luminance_cd_m2).filter(|_| legal);

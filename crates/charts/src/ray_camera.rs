@@ -125,8 +125,8 @@ impl RayCamera<'_> {
 }
 
 fn sideways() -> ChartError {
-    let told = "this camera does not look ahead in the middle of its picture, so that no flat chart fills its field: take a camera \
-                without a mirror, or turn its lens forward";
+    let told = "the centre of this camera's image does not face forward, so no flat chart fills its field; use a camera without \
+                a mirror, or point its lens forward";
     ChartError::Camera(told.to_owned())
 }
 

@@ -121,7 +121,7 @@ fn table(table: &Table) -> String {
     }
     body += "</tbody>\n</table>\n";
     if let Some(more) = table.rows.len().checked_sub(MAX_ROWS).filter(|more| *more > 0) {
-        let _ = writeln!(body, "<p class=\"quiet\">and {more} rows more, which `json` has</p>");
+        let _ = writeln!(body, "<p class=\"quiet\">and {more} more rows, in the output of `json`</p>");
     }
     body
 }

@@ -194,7 +194,7 @@ impl Report {
     pub fn svg(&self) -> Result<String, Error> {
         if self.plots.is_empty() {
             return Err(
-                Error::argument("plot", "`plot`: this measurement has no curve to draw").with_code(ErrorCode::NoEffect)
+                Error::argument("plot", "`plot`: this measurement has no curve to plot").with_code(ErrorCode::NoEffect)
             );
         }
         Ok(svg(&self.plots))

@@ -85,7 +85,7 @@ impl GridSize {
         let (columns, rows) = (count(given_columns, room_mm.x), count(given_rows, room_mm.y));
         if columns < least || rows < least {
             let message =
-                format!("that leaves {columns} columns and {rows} rows in view, {least} are needed: give less");
+                format!("this leaves {columns} columns and {rows} rows in view, but {least} are needed; give a smaller value");
             return Err(ChartError::option("pitch_mm", format!("{pitch_mm:.3}"), message));
         }
         Ok(Grid { columns: columns as usize, rows: rows as usize, pitch_mm })

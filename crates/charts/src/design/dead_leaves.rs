@@ -48,7 +48,7 @@ impl DeadLeaves {
             return Err(ChartError::option(
                 "largest_ratio",
                 largest,
-                "expected a share of the side, above 0 and at most 0.5",
+                "expected a fraction of the side, above 0 and at most 0.5",
             ));
         }
         if smallest * texels < MIN_RADIUS {

@@ -27,7 +27,7 @@ impl LedFlicker {
         check("frequencies_hz", frequencies_hz, "1 … 32 frequencies above 0 and up to 1000000 Hz", |f| {
             f > 0.0 && f <= 1e6
         })?;
-        check("duty_cycles", duty_cycles, "1 … 32 shares, 0.001 … 0.999", |d| (0.001..=0.999).contains(&d))?;
+        check("duty_cycles", duty_cycles, "1 … 32 fractions, 0.001 … 0.999", |d| (0.001..=0.999).contains(&d))?;
         let (columns, lines) = (frequencies_hz.len(), duty_cycles.len());
         let size = GridSize { columns: Some(columns as u32), rows: Some(lines as u32), pitch_mm: None };
         let grid = size.in_room(seen.inner_mm * ROOM, columns as u32, 1)?;

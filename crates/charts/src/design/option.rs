@@ -14,7 +14,7 @@ pub(super) const BLACK: f64 = 0.03;
 /// A reflectance between 0 and 1.
 pub(super) fn share(option: &'static str, value: f64) -> Result<f64, ChartError> {
     let legal = (0.0..=1.0).contains(&value);
-    legal.then_some(value).ok_or_else(|| ChartError::option(option, value, "expected a share, 0 … 1"))
+    legal.then_some(value).ok_or_else(|| ChartError::option(option, value, "expected a fraction, 0 … 1"))
 }
 
 /// An angle by which edges are rotated, degrees, in radians.

@@ -84,7 +84,7 @@ pub(super) fn job(request: &Request<'_>) -> String {
         Render { samples, integrator: Some(integrator.into()), seed: Some(request.seed.into()), ..Render::default() };
     let job = Table::new().with("scene", "scene.toml").with("cameras", cameras).with("render", render.to_table());
     let name = request.chart.name();
-    let about = format!("The chart \"{name}\": etendue render job.toml -o DIR. truth.json says what is where.");
+    let about = format!("The chart \"{name}\": etendue render job.toml -o DIR. truth.json states the positions and properties of its features.");
     File::new(job).head(about).to_string()
 }
 
@@ -123,5 +123,5 @@ pub(super) fn camera(request: &Request<'_>, station: &CameraStation) -> String {
         }
         camera.put("sensor", sensor);
     }
-    File::new(camera).above("sensor.non_uniformity", "One specimen for all exposures.").to_string()
+    File::new(camera).above("sensor.non_uniformity", "One unit for all exposures.").to_string()
 }

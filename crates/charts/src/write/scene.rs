@@ -28,7 +28,7 @@ pub(super) fn scene(drawing: &Drawing, light: &Light) -> String {
         environment: drawing.lit.then(|| Environment::Uniform(emission(light, 1.0))),
         ..Scene::default()
     };
-    let about = "The same from everywhere: a matt surface of reflectance R has the luminance R times this.";
+    let about = "Equal from all directions: a diffuse surface of reflectance R has R times this luminance.";
     File::new(scene.to_table()).above("environment", about).to_string()
 }
 

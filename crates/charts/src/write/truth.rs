@@ -25,14 +25,14 @@ pub(super) fn truth(request: &Request<'_>) -> String {
         "seed": request.seed,
         "sizes": drawing.facts,
         "conventions": {
-            "sheet_mm": "mm, x right, y down as the camera sees it, origin in the sheet's middle",
+            "sheet_mm": "mm, x right, y down as the camera sees it, origin at the sheet's centre",
             "world_m": "m, x forward, y left, z up",
-            "raster_px": "px, x right, y down, the top-left corner of the picture is (0, 0), pixel centres at +0.5; null: not in the \
-                          picture. By the rays of the ground truth (587.56 nm, through the pupil's centre), of the whole picture: \
-                          dark columns and rows of a raw file, regions and binning are not counted in",
+            "raster_px": "px, x right, y down, the top-left corner of the image is (0, 0), pixel centres at +0.5; null: outside \
+                          the image. From the rays of the ground truth (587.56 nm, through the pupil's centre), for the full \
+                          image: dark columns and rows of a raw file, regions and binning are not included",
             "image_centroids_px": "of discs: the centroid of the disc's image, which is not the image of its centre",
-            "electrons": "mean photo-electrons of a pixel in the middle of the picture, by channel, in the exposure of the camera's own \
-                          file, before every effect of the sensor but its quantum efficiency",
+            "electrons": "mean photoelectrons of a pixel at the image centre, by channel, at the exposure of the camera file, \
+                          before all sensor effects except the quantum efficiency",
         },
         "seen": {
             "distance_m": request.seen.distance_m,
@@ -42,7 +42,7 @@ pub(super) fn truth(request: &Request<'_>) -> String {
             "fills_the_field": request.seen.fills,
         },
         "light": {
-            "kind": if drawing.lit { "even, from everywhere" } else { "the chart's own, in the dark" },
+            "kind": if drawing.lit { "uniform, from all directions" } else { "emitted by the chart, in the dark" },
             "illuminant": request.light.name(),
             "luminance_cd_m2": request.light.luminance_cd_m2(),
             "xyz": request.light.white_xyz(),
@@ -103,8 +103,8 @@ fn ink(ink: &Ink, request: &Request<'_>) -> Value {
     let kind = match &ink.paint {
         Paint::Grey(_) => "flat reflectance",
         Paint::Spectral(_) => "measured reflectance",
-        Paint::Glow(_) => "gives light",
-        Paint::Pulses { .. } => "gives light in pulses, their mean",
+        Paint::Glow(_) => "emits light",
+        Paint::Pulses { .. } => "emits pulses, their mean",
         Paint::Texture { .. } => "texture, its mean",
     };
     let mut facts = json!({

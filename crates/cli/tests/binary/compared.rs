@@ -78,7 +78,7 @@ fn equal_measurements_agree_and_are_drawn() {
     assert!(out.contains("forward_k1") && !out.contains("differs"), "{out}");
     assert!(out.contains(&format!("A − B: {a} − {a}")) && out.contains("(A − B)/|B| %"), "{out}");
     let drawn = std::fs::read_to_string(&plot).expect("a plot");
-    assert!(drawn.contains("relative error of A against B"), "both curves and their relative error");
+    assert!(drawn.contains("relative difference of A from B"), "both curves and their relative error");
 }
 
 /// The forward camera declares k1 = −0.12 in its principal distance: 4.6 mm focused at 10 m, 4.6 · 10/(10 − 0.0046) mm. k1 in half diagonals is
@@ -175,7 +175,7 @@ fn contradictions_are_refused() {
     let other = written(folder.path(), "kind.json", &report("vignetting", ""));
     compare(&a, &other).refused(&["different kinds", "distortion", "vignetting"]);
     let other = written(folder.path(), "unit.json", &report("distortion", "mm"));
-    compare(&a, &other).refused(&["forward_k1", "one unit"]);
+    compare(&a, &other).refused(&["forward_k1", "the same unit"]);
     let model = |model: &str| {
         let report =
             json!({ "measurement": "focal", "settings": { "model": model }, "figures": figures(""), "tables": {} });
@@ -185,7 +185,7 @@ fn contradictions_are_refused() {
     let nothing = json!({ "measurement": "distortion", "figures": {}, "tables": {} });
     compare(&a, &written(folder.path(), "nothing.json", &nothing)).refused(&["no quantity in common"]);
     let camera = text(&root().join("scenes/cameras/automotive.toml"));
-    compare(&camera, &camera).refused(&["two camera files"]);
+    compare(&camera, &camera).refused(&["both sides are camera files"]);
     compare(&a, &written(folder.path(), "other.json", &json!([1]))).refused(&["other.json", "--json"]);
     etendue(["measure", "compare", &a, &a, "--set", "sensor.bits=8"]).refused(&["--set", "neither side"]);
 }

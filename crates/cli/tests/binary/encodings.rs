@@ -130,6 +130,6 @@ fn frames_that_say_they_are_encoded_are_no_raws() {
     let told = ptc(&[]).ok().out;
     assert!(told.contains("encoding: linear (raw numbers are measured as stored)"), "{told}");
     ptc(&["--encoding", "linear"]).ok();
-    ptc(&["--encoding", "srgb"]).refused(&["sRGB numbers (--encoding)", "in proportion to charge", "leave it out"]);
+    ptc(&["--encoding", "srgb"]).refused(&["sRGB numbers (--encoding)", "proportional to charge", "leave it out"]);
     assert!(Path::new(&descriptor).is_file());
 }

@@ -96,9 +96,9 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     let file = folder.path().join("colour.png");
     std::fs::write(&file, encode_display(&colour, &Encoding::Srgb).expect("a picture")).expect("a temporary file");
     let coloured = stored.replacen(&format!("{images}image4.png"), &text(&file), 1);
-    describe(coloured).refused(&["colour.png", "linear raw is needed"]);
+    describe(coloured).refused(&["colour.png", "expected linear raw"]);
     // Readings beyond the stated bits, as of grabbers that store 12 bits in the upper part of 16.
-    describe(stored.replace("n 12 48 40", "n 8 48 40")).refused(&["the descriptor says 8 bits, which end at 255"]);
+    describe(stored.replace("n 12 48 40", "n 8 48 40")).refused(&["exceed the 8 bits of the descriptor, which end at 255"]);
     let upper: Vec<u32> = (0..48 * 40).map(|i| 16 * (2000 + i % 2000)).collect();
     let upper = Plane::<DigitalNumber>::from_samples(48, 40, upper).expect("a rectangle");
     let file_of_upper = folder.path().join("upper.png");
@@ -106,7 +106,7 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     describe(stored.replacen(&format!("{images}image0.png"), &text(&file_of_upper), 1)).refused(&[
         "upper.png",
         "all are multiples of 16",
-        "the descriptor says 12 bits",
+        "exceed the 12 bits of the descriptor",
     ]);
     describe(stored.replace("i ", "j ")).refused(&["line 4", "v, n, b, d or i"]);
     // Frames of one channel without a side-car: the positions of green pixels are unknown and not stated.
@@ -165,7 +165,7 @@ fn clipped_colours_do_not_hide_in_the_luminance() {
 fn a_dark_current_needs_three_temperatures() {
     let descriptor = text(&oracle().join("EMVA1288descriptor.txt"));
     let at = |celsius: u32| format!("{celsius}:{descriptor}");
-    etendue(["measure", "dark-current", &at(20), &at(30), &at(40)]).refused(&["hold one measurement"]);
+    etendue(["measure", "dark-current", &at(20), &at(30), &at(40)]).refused(&["contain the same measurement"]);
     etendue(["measure", "dark-current", &at(20), &at(30)]).refused(&["at least three different temperatures"]);
     etendue(["measure", "dark-current", &at(25), &at(25), &at(25)]).refused(&["three different temperatures, not 1"]);
     let impossible = format!("nan:{descriptor}");

@@ -82,7 +82,7 @@ fn a_view_that_is_numbered_wrongly_is_left_out_and_told() {
     let mut views = lists(folder.path(), false);
     views[2] = list(folder.path(), "skewed.csv", [-0.5, 0.1], false, true);
     let found = json(&calibrate(&views, &[]));
-    assert!(found["notes"].to_string().contains("skewed.csv: left out"), "{}", found["notes"]);
+    assert!(found["notes"].to_string().contains("skewed.csv: omitted"), "{}", found["notes"]);
     assert_eq!(found["tables"]["views"].as_array().expect("views").len(), 4);
     let [value, u] = figure(&found, "fx_px");
     assert!((value - 500.0).abs() < 4.0 * u && u < 2.0, "{value} ± {u}");

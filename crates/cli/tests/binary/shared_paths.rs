@@ -47,7 +47,7 @@ fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
     let picture = picture(folder.path(), 16);
     for verb in ["vignetting", "shading", "noise", "sfr"] {
         let ran = etendue(["measure", verb, &picture]);
-        ran.refused(&["picture.0000.png", "alike in blocks", "path_reuse_px", "render without sharing"]);
+        ran.refused(&["picture.0000.png", "correlated in blocks", "path_reuse_px", "render without sharing"]);
     }
 }
 
@@ -55,7 +55,7 @@ fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
 fn textures_and_photon_transfer_refuse_shared_paths() {
     let folder = tempfile::tempdir().expect("a folder");
     let picture = picture(folder.path(), 16);
-    let told = ["picture.0000.png", "alike in blocks", "path_reuse_px", "render without sharing"];
+    let told = ["picture.0000.png", "correlated in blocks", "path_reuse_px", "render without sharing"];
     let alone = tempfile::tempdir().expect("a folder");
     let independent = self::picture(alone.path(), 1);
     etendue(["measure", "texture", &picture, &independent]).refused(&told);

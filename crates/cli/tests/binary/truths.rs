@@ -113,7 +113,7 @@ fn steps_and_exposures_give_the_line_of_the_sensor() {
     let elsewhere = series.path("copy.png");
     std::fs::copy(series.picture(names[0]), &elsewhere).expect("copied");
     let run = etendue(["measure", "oecf", &text(&elsewhere), "--truth", &series.truth()]);
-    run.refused(&["copy.png", "none of the cameras exposure-01"]);
+    run.refused(&["copy.png", "not one of the cameras exposure-01"]);
 }
 
 #[test]
@@ -194,14 +194,14 @@ fn a_colour_chart_is_seen_in_its_own_light() {
         );
     }
     let green = ["--channel", "G"];
-    shot.measure("colour", &["camera/raw.0000.png"], &green).refused(&["a picture in colour"]);
+    shot.measure("colour", &["camera/raw.0000.png"], &green).refused(&["a colour image"]);
     shot.measure("sfr", &["camera/picture.0000.png"], &[]).refused(&["the chart colorchecker", "slanted-edges"]);
     let small = Shot::of("flat-field", MONO, &["--png", "10"], &["--spp", "4"]);
     let cut = text(&small.path("chart/chart.png"));
     etendue(["measure", "vignetting", &cut, "--truth", &small.truth()]).refused(&[
         "chart.png",
         "160 × 120",
-        "neither cut nor scaled",
+        "not cropped or scaled",
     ]);
     etendue(["measure", "vignetting", &cut, "--truth", &shot.truth()])
         .refused(&["the chart colorchecker", "flat-field, backlit"]);
@@ -291,9 +291,9 @@ fn pictures_that_are_mirrored_turned_or_of_another_chart_are_named_as_such() {
     let flipped = redrawn(&shot, "flipped.png", size, |[_, h], x, y| [x, h - 1 - y]);
     refused("mirrored top to bottom", cdp(&flipped), &["flipped.png: is mirrored top to bottom"]);
     let turned = redrawn(&shot, "turned.png", size, |[w, h], x, y| [w - 1 - x, h - 1 - y]);
-    refused("turned by 180°", cdp(&turned), &["turned.png: is turned by 180°"]);
+    refused("turned by 180°", cdp(&turned), &["turned.png: is rotated by 180°"]);
     let quarter = redrawn(&shot, "quarter.png", [120, 160], |_, x, y| [y, x]);
-    refused("turned by 90°", cdp(&quarter), &["quarter.png: 120 × 160 pixels", "nor turned by 90°"]);
+    refused("turned by 90°", cdp(&quarter), &["quarter.png: 120 × 160 pixels", "or rotated by 90°"]);
     let other = Shot::of("siemens-star", MONO, &[], &["--spp", "16"]);
     let other = redrawn_into(&shot, &other, "other.png", size, |_, x, y| [x, y]);
     refused("another chart, a star", cdp(&other), &["does not show this chart"]);
@@ -311,7 +311,7 @@ fn a_colour_chart_that_is_turned_is_named_as_such() {
     let turned = redrawn(&shot, "turned.png", [160, 120], |[w, h], x, y| [w - 1 - x, h - 1 - y]);
     // For a turned mosaic the tile is also turned.
     let run = ["measure", "colour", &turned, "--cfa", "BGGR", "--truth", &shot.truth()];
-    etendue(run).refused(&["turned.png: is turned by 180°"]);
+    etendue(run).refused(&["turned.png: is rotated by 180°"]);
     let steps = Shot::of("oecf-steps", MONO, &["--steps", "8", "--density", "1.5"], &["--spp", "64"]);
     let mirrored = redrawn(&steps, "mirrored.png", [160, 120], |[w, _], x, y| [w - 1 - x, y]);
     etendue(["measure", "oecf", &mirrored, "--truth", &steps.truth()]).refused(&["mirrored left to right"]);

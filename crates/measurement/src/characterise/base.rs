@@ -41,7 +41,7 @@ pub(super) fn refuse_what_is_measured(file: &Path, base: &Camera, found: &Found)
         .into_iter()
         .map(|(key, _, what)| {
             format!(
-                "{}: {key} would be applied to {what} that was measured, which holds it: take it out of a copy of the base",
+                "{}: {key} would be applied to {what} that was measured, which already includes it; remove the key from a copy of the base",
                 file.display()
             )
         })
@@ -56,7 +56,7 @@ pub(super) fn refuse_what_is_measured(file: &Path, base: &Camera, found: &Found)
 pub(super) fn check(file: &Path, text: &str) -> Result<(), Error> {
     let read = |path: &Path| if path == file { Ok(text.to_owned()) } else { read_text(path) };
     load_camera(file, &read, &Overrides::default()).map(drop).map_err(|faults| {
-        let told = faults.list().iter().map(|fault| format!("what was measured is no camera: {fault}"));
+        let told = faults.list().iter().map(|fault| format!("the measured values do not form a valid camera: {fault}"));
         Error::all_coded(ErrorCode::NotMeasurable, told)
     })
 }

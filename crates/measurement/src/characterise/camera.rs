@@ -20,7 +20,7 @@ const EXPOSURE_S: f64 = 0.01;
 const EFFICIENCY: f64 = 0.5;
 const BITS: u64 = 12;
 const FULL_WELL_E: f64 = 10_000.0;
-const STAND_IN: &str = "a stand-in: not measured";
+const STAND_IN: &str = "a placeholder: not measured";
 const TAKEN: &str = "a setting, not measured";
 
 /// All results.
@@ -71,7 +71,7 @@ pub(super) fn camera_file(
     }
     let name = laboratory.camera.name.as_ref().map_or_else(String::new, |name| format!(": {name}"));
     let head = format!(
-        "Found by etendue characterise from {} pictures{name}. ± is one standard uncertainty.",
+        "Measured by etendue characterise from {} images{name}. ± is one standard uncertainty.",
         laboratory.count()
     );
     let file = File::new(table).head(head);
@@ -162,7 +162,7 @@ impl Draft<'_> {
             };
             let table = Table::new().with("radius_mm", list(&radius_mm)).with("ratio", list(&ratio));
             lens.put("relative_illumination", table);
-            self.beside("lens.relative_illumination.ratio", format!("± {:.1e} in the corner", fall_off.corner_u));
+            self.beside("lens.relative_illumination.ratio", format!("± {:.1e} at the corner", fall_off.corner_u));
         }
         Some(lens)
     }
@@ -267,7 +267,7 @@ impl Draft<'_> {
                     [only] => sensor.put("quantum_efficiency", only),
                     _ => sensor.put("quantum_efficiency", values),
                 }
-                let told = format!("{}; at {wavelength_nm} nm, taken for all wavelengths", each.join(", "));
+                let told = format!("{}; measured at {wavelength_nm} nm, used for all wavelengths", each.join(", "));
                 self.beside("sensor.quantum_efficiency", told);
             }
             None => self.stand_in(sensor, "sensor", "quantum_efficiency", EFFICIENCY),

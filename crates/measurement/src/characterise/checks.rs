@@ -35,7 +35,7 @@ const OF_CAMERA: [(&str, Fact); 6] = [
     ("model", |shot| shot.exif.model.clone()),
     ("serial number", |shot| shot.exif.serial.clone()),
     ("pixel pitch", |shot| shot.side_car.pixel_pitch_um.map(|pitch| format!("{pitch} µm"))),
-    ("bits of the converter", |shot| shot.side_car.bits.map(|bits| bits.to_string())),
+    ("bits of the ADC", |shot| shot.side_car.bits.map(|bits| bits.to_string())),
 ];
 
 /// Properties that raw images share: one gain, and one number format.
@@ -54,7 +54,7 @@ fn mixed(shots: &[Shot]) -> Vec<String> {
     let of = |shots: &[&Shot], facts: &[(&str, Fact)]| -> Vec<String> {
         facts.iter().flat_map(|(name, fact)| differing(shots, name, *fact)).collect()
     };
-    shortened([of(&all, &OF_CAMERA), of(&raw, &OF_RAW)].concat(), "pictures differ from the others")
+    shortened([of(&all, &OF_CAMERA), of(&raw, &OF_RAW)].concat(), "images differ from the others")
 }
 
 /// Images in which a property differs from that of most images.
@@ -69,7 +69,7 @@ fn differing(shots: &[&Shot], name: &str, fact: Fact) -> Vec<String> {
     let others = shots.iter().filter_map(|shot| Some((shot, fact(shot).filter(|said| said != usual)?)));
     let message = |(shot, said): (&&Shot, String)| {
         format!(
-            "{}: not of the same camera and setting as {}: its {name} is {said}, there {usual}; a laboratory folder holds pictures of one camera at one gain",
+            "{}: camera or setting differs from that of {}: its {name} is {said}, not {usual}; a laboratory folder contains images of one camera at one gain",
             shot.name(),
             first.name()
         )
@@ -84,7 +84,7 @@ fn copies(shots: &[Shot]) -> Vec<String> {
         let Some(mark) = shot.mark else { continue };
         match seen.get(&mark) {
             Some(first) => faults.push(format!(
-                "{}: a copy of {}, number by number: noise cannot be measured from copies; give frames taken one after another",
+                "{}: an exact copy of {}: noise cannot be measured from copies; give frames captured one after another",
                 shot.name(),
                 first.name()
             )),
@@ -111,7 +111,8 @@ fn saturated(shots: &[Shot]) -> Vec<String> {
         (full.len() > frames.len() / 2 && left.len() < least).then(|| {
             let worst = full.iter().max_by(|a, b| a.saturated.total_cmp(&b.saturated)).expect("there are some");
             format!(
-                "{}/: {} of {} frames are saturated (of {} {:.1} % of the pixels), and the others have {} exposure time(s), where {least} are needed: expose less",
+                "{}/: {} of {} frames are saturated (in {}: {:.1} % of the pixels), and the others have {} exposure time(s), but \
+                 {least} are needed; reduce the exposure",
                 kind.folder(),
                 full.len(),
                 frames.len(),

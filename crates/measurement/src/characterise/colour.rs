@@ -54,7 +54,7 @@ pub(super) fn measure(
     }
     let Some(white) = white else {
         if seen.is_some() {
-            findings.unknown(WHAT, "there is no picture of an even white in the same light in field/");
+            findings.unknown(WHAT, "field/ contains no image of a uniform white surface in the same light");
         }
         return Ok(None);
     };
@@ -72,7 +72,7 @@ fn processing(seen: &Seen, white: &[Estimate; 3]) -> Result<ColourProcessing, Er
     let (light, daylight) = (chromaticity(seen.white_xyz), chromaticity(D65_WHITE));
     if light.iter().zip(daylight).any(|(a, b)| (a - b).abs() > OTHER_LIGHT) {
         let told =
-            "the ColorChecker is lit by another light than daylight D65, for which its colours in sRGB are stated";
+            "the ColorChecker's light is not daylight D65, for which its sRGB colours are defined";
         return Err(Error::coded(ErrorCode::NotMeasurable, told));
     }
     let found = colour_processing(&seen.patches, white, seen.black, seen.full_scale, seen.shared_px);
@@ -93,12 +93,12 @@ fn selection(laboratory: &Laboratory, shot: &Shot) -> Selection {
 /// Red, green and blue in the centre of the flat field, less the black level.
 fn white(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Shot) -> Result<[Estimate; 3], Error> {
     if !shot.is_raw() {
-        let told = "is a developed picture, whose white balance is its development's: give the raw";
+        let told = "is a developed image, so its white balance is that of the development; give the raw image";
         return Err(Error::coded(ErrorCode::NotMeasurable, format!("{}: {told}", shot.name())));
     }
     let colours = selection(laboratory, shot).colours(&shot.file)?;
     let colours =
-        colours.ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, format!("{}: not in colour", shot.name())))?;
+        colours.ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, format!("{}: not a colour image", shot.name())))?;
     let black = levels(laboratory, electronics, shot).black(&colours[1]);
     let [width, height] = shot.size_px.map(|n| n as f64);
     let [half_width, half_height] = [0.5 * MIDDLE * width, 0.5 * MIDDLE * height];
@@ -121,7 +121,7 @@ fn patches(
     if corners.is_empty() && truth.is_none() {
         return Err(Error::coded(
             ErrorCode::NotStated,
-            "nothing states where the ColorChecker lies: [checker] corners_px of laboratory.toml, or a truth.json beside the picture",
+            "the position of the ColorChecker is not stated; add [checker] corners_px to laboratory.toml, or a truth.json next to the image",
         ));
     }
     let input = PictureInput {

@@ -106,7 +106,7 @@ fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Er
     for shot in shots {
         let exposure_s = shot.exposure_s.ok_or_else(|| {
             Error::coded(ErrorCode::NotStated, format!(
-                "{}: nothing states its exposure time: neither EXIF data, nor a side-car, nor exposures_s in laboratory.toml",
+                "{}: its exposure time is not stated by EXIF data, a side-car or exposures_s in laboratory.toml",
                 shot.name()
             ))
         })?;
@@ -122,7 +122,7 @@ fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Er
         return Err(Error::coded(
             ErrorCode::NotMeasurable,
             format!(
-                "{}: the only frame of {} s in its folder: noise needs two frames or more of an exposure time",
+                "{}: the only frame of {} s in its folder; noise needs two or more frames per exposure time",
                 single.files[0].display(),
                 single.exposure_s
             ),
@@ -189,7 +189,7 @@ fn efficiency(selection: &Selection, flat: &[&Shot], found: &Found) -> Result<Ve
     let all = Selection { channel: None, ..selection.clone() };
     let colours = all.colours(&brightest.file)?;
     let colours = colours.ok_or_else(|| {
-        Error::coded(ErrorCode::NotMeasurable, format!("{}: no red, green and blue", brightest.name()))
+        Error::coded(ErrorCode::NotMeasurable, format!("{}: has no red, green and blue", brightest.name()))
     })?;
     let black = found.figures.dark_level_dn.value;
     let [red, green, blue] = colours.each_ref().map(|c| {
@@ -214,7 +214,8 @@ impl Electronics {
         findings.found(Kind::Dark, "sensor.black_level_dn", "black level", "DN", self.black_level_dn);
         match self.saturated {
             true => findings.found(from, "sensor.full_well_e", "saturation capacity", "e⁻", f.saturation_e),
-            false => findings.unknown("saturation capacity", "the variance does not fall at the brightest level in flat/: saturation lies at or above it; expose longer"),
+            false => findings.unknown("saturation capacity", "the variance does not fall at the brightest level in flat/, so \
+                                                              saturation is at or above it; expose longer"),
         }
         match self.dark_current_e_s {
             Some(current) => findings.found(
@@ -237,7 +238,7 @@ impl Electronics {
             }
             None => findings.unknown(
                 "quantum efficiency",
-                "nothing states how many photons the light in flat/ has: [flat] of laboratory.toml",
+                "the number of photons of the light in flat/ is not stated; add [flat] to laboratory.toml",
             ),
         }
         self.patterns(findings);
@@ -266,7 +267,7 @@ impl Electronics {
             None => findings.unknown("hot pixels", "frames in dark/ have one exposure time only"),
             Some(hot) => match hot.share.zip(hot.mean_e_s) {
                 Some((share, mean)) => {
-                    findings.found(Kind::Dark, "sensor.dark.hot.fraction", "hot pixels, part of all", "", share);
+                    findings.found(Kind::Dark, "sensor.dark.hot.fraction", "hot pixels, fraction", "", share);
                     findings.found(
                         Kind::Dark,
                         "sensor.dark.hot.mean_e_s",
@@ -283,11 +284,11 @@ impl Electronics {
                 Some(share) => findings.found(
                     Kind::Flat,
                     "sensor.non_uniformity.dead_fraction",
-                    "dead pixels, part of all",
+                    "dead pixels, fraction",
                     "",
                     share,
                 ),
-                None => findings.unknown("dead pixels", few(dead, "answer to light by less than half of the mean")),
+                None => findings.unknown("dead pixels", few(dead, "respond to light with less than half of the mean")),
             }
         }
     }
@@ -299,7 +300,7 @@ fn few(outliers: &Outliers, what: &str) -> String {
     let at = if places.is_empty() {
         String::new()
     } else {
-        format!(" (column, row of what is measured: {})", places.join("; "))
+        format!(" (column, row of the measured area: {})", places.join("; "))
     };
-    format!("{count} pixels {what}{at}: fewer than {FEWEST} tell no share")
+    format!("{count} pixels {what}{at}: at least {FEWEST} are needed to determine a fraction")
 }

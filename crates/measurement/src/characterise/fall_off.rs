@@ -7,7 +7,7 @@ use super::{electronics::Electronics, folder::Laboratory, identity::PITCH_UM, sh
 use crate::measure::shading::falloff;
 use crate::measure::{FlatFieldRequest, PictureInput, Selection, SignalLevels, VignettingRequest};
 
-const WHAT: &str = "fall-off of light over the field";
+const WHAT: &str = "relative illumination over the field";
 
 /// Relative illumination as a camera file states it, with the standard uncertainty at the corner.
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ pub(super) fn measure(
     let Some((report, shading, size)) = findings.attempt(WHAT, falloff(&request))? else { return Ok(None) };
     findings.part("Fall-off", Kind::Field, report);
     let corner = shading.corner.scaled(100.0);
-    findings.found(Kind::Field, "lens.relative_illumination.corner_percent", "illumination of the corner", "%", corner);
+    findings.found(Kind::Field, "lens.relative_illumination.corner_percent", "illumination at the corner", "%", corner);
     let pitch_um = laboratory.camera.pixel_pitch_um.unwrap_or(PITCH_UM);
     let [radius_mm, mut ratio] = request.relative_illumination(&shading, size.into(), pitch_um);
     // The centre is 1 by definition.

@@ -36,7 +36,7 @@ impl Laboratory {
         if !root.is_dir() {
             return Err(Error::coded(
                 ErrorCode::MissingFile,
-                format!("{}: there is no such folder of pictures", root.display()),
+                format!("{}: folder not found; expected a folder of images", root.display()),
             ));
         }
         let file = root.join(FILE);
@@ -99,7 +99,7 @@ fn check_stated(root: &Path, file: &Path, stated: &record::Laboratory) -> Result
     let lost = stated.exposures_s.iter().filter(|(folder, _)| !root.join(&folder.value).is_dir());
     let sentence = |folder: &str| {
         format!(
-            "{}: exposures_s: there is no folder {folder} here; name one from the laboratory folder",
+            "{}: exposures_s: folder {folder} not found; give a path relative to the laboratory folder",
             file.display()
         )
     };
@@ -135,7 +135,7 @@ fn files(root: &Path) -> Result<Vec<(Kind, PathBuf)>, Error> {
     if found.is_empty() {
         let names = Kind::ALL.map(|kind| format!("{}/ ({})", kind.folder(), kind.about())).join(", ");
         let message = format!(
-            "{}: no pictures to characterise a camera by; expected folders of these names with pictures in them: {names}",
+            "{}: contains no images to characterise a camera; expected one or more of these folders, with images: {names}",
             root.display()
         );
         return Err(Error::coded(ErrorCode::Empty, message));

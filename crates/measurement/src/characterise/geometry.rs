@@ -41,7 +41,7 @@ pub(super) fn measure(
         ..ChartInput::default()
     };
     if stated.is_none() && chart.truth.truth.is_none() {
-        let why = "nothing states the distance of the chart's points: [chart] pitch_mm of laboratory.toml, or a truth.json beside the pictures";
+        let why = "the distance between the chart's points is not stated; add [chart] pitch_mm to laboratory.toml, or a truth.json next to the images";
         findings.unknown(WHAT, why);
         return Ok(None);
     }
@@ -53,7 +53,7 @@ pub(super) fn measure(
     };
     let made = request.found_by_best_of(&MODELS, request.options(), observer);
     let Some((found, tried)) = findings.attempt(WHAT, made)? else { return Ok(None) };
-    let mut report = Report::new("calibrate", "camera from views of a plane chart, least squares of all points");
+    let mut report = Report::new("calibrate", "camera calibration from views of a plane chart, least squares over all points");
     found.add_to(&mut report, &request);
     report.table(models(&tried));
     findings.part("Projection and distortion", Kind::Chart, report);
@@ -65,7 +65,7 @@ fn tell(found: &Found, laboratory: &Laboratory, findings: &mut Findings) {
     if laboratory.camera.pixel_pitch_um.is_none() {
         findings.unknown(
             "focal length in millimetres",
-            "nothing states the pixels' pitch: pixel_pitch_um of laboratory.toml",
+            "the pixel pitch is not stated; add pixel_pitch_um to laboratory.toml",
         );
     }
     for parameter in &found.camera.parameters {
@@ -91,8 +91,8 @@ fn models(tried: &[TriedModel]) -> Table {
     let least = tried.iter().filter(|t| t.whole).map(|t| t.information).fold(f64::INFINITY, f64::min);
     let row = |t: &TriedModel| {
         let verdict = match (t.whole, t.information == least) {
-            (false, _) => "folds the picture over",
-            (true, true) => "taken",
+            (false, _) => "folds the image over",
+            (true, true) => "selected",
             (true, false) => "",
         };
         let name = Cell::Text(t.model.name().to_owned());
@@ -108,7 +108,7 @@ fn models(tried: &[TriedModel]) -> Table {
         columns: vec![
             ("model", "model"),
             ("rms_px", "rms px"),
-            ("criterion_over_least", "criterion over the least, 10⁻³"),
+            ("criterion_over_least", "criterion above the minimum, 10⁻³"),
             ("verdict", ""),
         ],
         rows: tried.iter().map(row).collect(),

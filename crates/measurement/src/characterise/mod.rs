@@ -83,7 +83,7 @@ pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> R
     } else if found.colour.is_some() {
         f.unknown(
             "white balance and colour matrix of the camera file",
-            "they belong to the spectral responsivities, which light of one wavelength does not tell: lay the file over one that has them (`base`)",
+            "they depend on the spectral responsivities, which light of one wavelength does not determine; extend a camera file that has them (`base`)",
         );
     }
     let lens = [Kind::Field, Kind::Chart, Kind::Edges, Kind::Checker];
@@ -92,7 +92,7 @@ pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> R
         let why: Vec<String> = findings.unknown.iter().map(|u| format!("{}: {}", u.what, u.why)).collect();
         return Err(Error::all_coded(
             ErrorCode::NotMeasurable,
-            [vec![format!("{}: nothing of the camera can be found", request.folder.display())], why].concat(),
+            [vec![format!("{}: no property of the camera can be determined", request.folder.display())], why].concat(),
         ));
     }
     for unknown in &findings.unknown {
@@ -218,6 +218,6 @@ fn named_from(folder: &Path, base: &Path) -> Result<String, Error> {
     };
     let path = relative_path(&whole(folder)?, &whole(base)?);
     path.to_str().map(str::to_owned).ok_or_else(|| {
-        Error::coded(ErrorCode::InvalidArgument, format!("{}: give a path that is text", base.display()))
+        Error::coded(ErrorCode::InvalidArgument, format!("{}: path is not valid text (UTF-8)", base.display()))
     })
 }

@@ -50,9 +50,10 @@ fn expanded(e: Estimate) -> String {
 }
 
 fn parameters(findings: &Findings) -> String {
-    let mut html = "<section id=\"parameters\"><h2>Parameters</h2>\n<p>± is the expanded uncertainty: an interval of about 95 % (k = 2). \
-        What each leaves out is told at its measurement.</p>\n<table><thead><tr><th>quantity</th><th class=\"number\">value ± U</th><th>unit</th>\
-        <th class=\"number\">U, %</th><th>from</th><th>key</th></tr></thead>\n"
+    let mut html = "<section id=\"parameters\"><h2>Parameters</h2>\n<p>± is the expanded uncertainty: an interval of about 95 % \
+                    (k = 2). What each omits is stated at its measurement.</p>\n<table><thead><tr><th>quantity</th><th \
+                    class=\"number\">value ± U</th><th>unit</th><th class=\"number\">U, \
+                    %</th><th>from</th><th>key</th></tr></thead>\n"
         .to_owned();
     for section in ["lens", "effects", "sensor", "isp"] {
         let of = findings.parameters.iter().filter(|p| p.key.split('.').next() == Some(section));
@@ -95,22 +96,22 @@ fn not_known(findings: &Findings, camera: &CameraFile) -> String {
     let mut rows: String = findings.unknown.iter().map(|u| row(&u.what, &u.why)).collect();
     if !camera.stand_ins.is_empty() {
         let why =
-            "keys that a camera file must have and that nothing tells: stand-ins, to be replaced by hand or by a base";
+            "required keys of a camera file that no image determines: placeholders, to be replaced by hand or by a base";
         rows += &row(&camera.stand_ins.join(", "), why);
     }
     if rows.is_empty() {
-        rows = row("–", "every quantity that is looked for was found");
+        rows = row("–", "every quantity was determined");
     }
     format!(
-        "<section id=\"not-known\"><h2>Not known</h2>\n<table><thead><tr><th>what</th><th>why, and what would tell it</th></tr></thead>\
-         <tbody>\n{rows}</tbody></table></section>\n"
+        "<section id=\"not-known\"><h2>Not known</h2>\n<table><thead><tr><th>what</th><th>why, and what would determine \
+         it</th></tr></thead><tbody>\n{rows}</tbody></table></section>\n"
     )
 }
 
 fn measurement(index: usize, part: &Part) -> String {
     let report = &part.report;
     let mut html = format!(
-        "<section id=\"part-{index}\"><h2>{}</h2>\n<p>By the pictures in {}/: {}.</p>\n",
+        "<section id=\"part-{index}\"><h2>{}</h2>\n<p>From the images in {}/: {}.</p>\n",
         escaped(part.title),
         part.from.folder(),
         escaped(report.method())

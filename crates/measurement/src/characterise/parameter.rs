@@ -52,7 +52,7 @@ impl Findings {
         let (key, label) = (key.to_owned(), label.to_owned());
         match value.value.is_finite() && value.standard_uncertainty.is_finite() {
             true => self.parameters.push(Parameter { key, label, unit, value, from }),
-            false => self.unknown(&label, format!("the pictures in {}/ do not determine it", from.folder())),
+            false => self.unknown(&label, format!("the images in {}/ do not determine it", from.folder())),
         }
     }
 
@@ -66,7 +66,7 @@ impl Findings {
 
     /// Records a quantity as unknown because its images are missing.
     pub(super) fn missing(&mut self, what: &str, kind: Kind) {
-        self.unknown(what, format!("there are no pictures in {}/ ({})", kind.folder(), kind.about()));
+        self.unknown(what, format!("no images in {}/ ({})", kind.folder(), kind.about()));
     }
 
     /// Returns the result of a measurement; if it failed, records its quantity as unknown.
@@ -122,8 +122,8 @@ impl Kind {
     pub fn about(self) -> &'static str {
         match self {
             Self::Dark => "frames without light",
-            Self::Flat => "even light on the bare sensor",
-            Self::Field => "an evenly lit surface through the lens",
+            Self::Flat => "uniform illumination of the bare sensor",
+            Self::Field => "a uniformly lit surface through the lens",
             Self::Chart => "views of a chart of points",
             Self::Edges => "slanted edges",
             Self::Checker => "a ColorChecker",

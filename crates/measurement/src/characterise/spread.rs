@@ -86,7 +86,7 @@ impl Spread {
         for (key, along, blur) in self.blurs() {
             let Some(blur) = blur else {
                 let what = format!("point spread {along}");
-                findings.unknown(&what, "fewer than three edges in edges/ lie across it, or they do not determine it");
+                findings.unknown(&what, "fewer than three edges in edges/ cross this direction, or they do not determine it");
                 continue;
             };
             let (variance, exchange) = (format!("effects.psf.variance_{key}_px2"), format!("sensor.crosstalk.{key}"));
@@ -100,7 +100,7 @@ impl Spread {
             findings.found(Kind::Edges, &exchange, &format!("exchange with neighbours {along}"), "", blur.exchange);
             report.fact(
                 &format!("misfit_{key}"),
-                &format!("response less that of spread and exchange {along}, largest"),
+                &format!("largest residual of the response {along}, after spread and exchange"),
                 "",
                 blur.misfit,
             );
@@ -108,7 +108,7 @@ impl Spread {
         findings.part("Response of slanted edges", Kind::Edges, report);
         findings.unknown(
             "point spread apart from exchange between pixels across corners",
-            "edges near rows and columns tell sums over columns and rows of neighbours only",
+            "edges near rows and columns determine only sums over columns and rows of neighbours",
         );
     }
 }

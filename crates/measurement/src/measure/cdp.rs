@@ -19,7 +19,7 @@ use crate::report::{Cell, Report, Table};
 #[derive(Args, Clone, Debug)]
 pub struct CdpRequest {
     /// Image of grey patches
-    #[arg(value_name = "PICTURE")]
+    #[arg(value_name = "IMAGE")]
     pub picture: PathBuf,
     /// Darker patch of a pair: left column, top row, width, height; once per pair
     #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
@@ -37,7 +37,7 @@ pub struct CdpRequest {
     )]
     pub contrast: Vec<f64>,
     /// Maximum relative deviation of a measured contrast from the scene's
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.5, allow_negative_numbers = true)]
     pub tolerance: f64,
     /// Image of uniform illumination by the same camera: readings are divided by it, which removes the lens's fall-off
     #[arg(long, value_name = "FLAT")]
@@ -114,7 +114,7 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
             report.note_cut(&region_label("patch", at), &readings.part_of("darker", at)?, settings.full_scale);
         }
     }
-    refusals.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
+    refusals.into_iter().for_each(|reason| report.note(format!("omitted: patches at {reason}")));
     Ok(report)
 }
 
@@ -177,7 +177,7 @@ fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> 
     if darker.len() != brighter.len() || darker.len() != contrasts.len() {
         return Err(Error::argument(
             "darker",
-            "`darker`, `brighter` and `contrast`: expected each of them once a pair",
+            "`darker`, `brighter` and `contrast`: expected each of them once per pair",
         )
         .with_code(ErrorCode::WrongCount));
     }

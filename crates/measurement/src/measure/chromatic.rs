@@ -48,7 +48,7 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
     if let Some(missing) = ["R", "G", "B"].iter().find(|name| !selection.has(&photograph, name)) {
         return Err(Error::coded(
             ErrorCode::UnknownName,
-            format!("{}: no channel {missing}; expected a picture in colour", file.display()),
+            format!("{}: no channel {missing}; expected a colour image", file.display()),
         ));
     }
     let seen = |name: &str| request.chart.seen_in(file, &photograph, Some(name));
@@ -60,14 +60,14 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
         let file = file.display();
         return Err(Error::coded(
             ErrorCode::NotMeasurable,
-            format!("{file}: the chart's points in {name} belong to none in green: are these colours of one picture?"),
+            format!("{file}: the chart's points in {name} have no counterparts in green; expected the colours of one image"),
         ));
     }
     if found.iter().flat_map(|(_, list)| list).all(|point| point.by == DVec2::ZERO) {
         let file = file.display();
         return Err(Error::coded(
             ErrorCode::NotMeasurable,
-            format!("{file}: red, green and blue are the same: expected a picture in colour"),
+            format!("{file}: red, green and blue are the same: expected a colour image"),
         ));
     }
     let mut report = report(&found);
@@ -79,7 +79,7 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
 fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
     let mut report = Report::new(
         "chromatic",
-        "lateral chromatic displacement against green, about the picture's middle (ISO 19084)",
+        "lateral chromatic displacement relative to green, about the image centre (ISO 19084)",
     );
     let mut rows = Vec::new();
     for (name, list) in found {
@@ -139,7 +139,7 @@ fn every_point(found: &[(&'static str, Vec<Displacement>)]) -> Table {
             ("channel", "channel"),
             ("x_px", "x px"),
             ("y_px", "y px"),
-            ("less_green_x_px", "less green x px"),
+            ("less_green_x_px", "minus green x px"),
             ("less_green_y_px", "y px"),
             ("radial_px", "radial px"),
             ("tangential_px", "tangential px"),
@@ -169,7 +169,7 @@ fn plot(
     Plot {
         title: format!("Lateral colour, {component} (bars: 95 %)"),
         x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
-        y: Axis::linear(&format!("{component} displacement against green, px")).showing(&[0.0]),
+        y: Axis::linear(&format!("{component} displacement relative to green, px")).showing(&[0.0]),
         series: series.collect(),
     }
 }

@@ -20,13 +20,13 @@ use crate::report::{Cell, Report, Table};
 #[derive(Args, Clone, Debug)]
 pub struct ColourRequest {
     /// Colour image of a ColorChecker with 24 patches
-    #[arg(value_name = "PICTURE")]
+    #[arg(value_name = "IMAGE")]
     pub picture: PathBuf,
     /// Centres of the four corner patches, raster coordinates, in the chart's order: dark skin, bluish green, black, white
     #[arg(long, value_name = "X,Y", num_args = 4, value_parser = corner, required_unless_present = "truth", conflicts_with = "truth")]
     pub corners: Vec<DVec2>,
     /// Side of the measured squares, as a fraction of the patch spacing
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, conflicts_with = "truth", allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.5, conflicts_with = "truth", allow_negative_numbers = true)]
     pub patch: f64,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
@@ -68,7 +68,7 @@ pub(crate) struct Seen {
 /// The report, and its inputs.
 pub(crate) fn measured(request: &ColourRequest) -> Result<(Report, Seen), Error> {
     let Some(colours) = request.input.selection.colours(&request.picture)? else {
-        let expected = "expected a picture in colour: channels R, G and B, or a raw mosaic of them";
+        let expected = "expected a colour image: channels R, G and B, or a raw mosaic of them";
         return Err(refused(&request.picture, expected));
     };
     let (patches, white_xyz) = match request.input.truth(&[ColorChecker::NAME], &request.picture, &colours[1])? {
@@ -108,7 +108,7 @@ fn told(truth: &Truth, picture: &Path, colours: &[Readings; 3]) -> Result<Vec<Co
 
 fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
     if !(request.patch > 0.0 && request.patch <= 1.0) {
-        return Err(Error::argument("patch", "`patch`: expected a share above 0 and at most 1")
+        return Err(Error::argument("patch", "`patch`: expected a fraction above 0 and at most 1")
             .with_code(ErrorCode::OutOfRange));
     }
     let [a, b, c, d] = request.corners[..] else {
@@ -124,7 +124,7 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
     let patch = |(i, patch): (usize, &etendue_spectra::reflectance::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
         let beyond = || {
-            Error::argument("corners", "`corners`: a patch lies beyond the picture").with_code(ErrorCode::OutOfRange)
+            Error::argument("corners", "`corners`: a patch is outside the image").with_code(ErrorCode::OutOfRange)
         };
         let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px.0, colours[1].picture_px.1)
             .ok_or_else(beyond)?;

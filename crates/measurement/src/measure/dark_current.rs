@@ -43,7 +43,7 @@ impl DarkCurrentRequest {
 
 fn name(law: Law) -> (&'static str, &'static str) {
     match law {
-        Law::Doubling => ("doubling", "doubles every so many kelvin"),
+        Law::Doubling => ("doubling", "doubling at a fixed temperature interval"),
         Law::Generation => ("generation", "generation in depleted silicon"),
         Law::Diffusion => ("diffusion", "diffusion in silicon"),
     }
@@ -78,7 +78,7 @@ pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Re
         let [a, b] = pair.map(|i| request.series[i].1.display());
         return Err(Error::coded(
             ErrorCode::NotComparable,
-            format!("{a} and {b} hold one measurement: give each temperature its own"),
+            format!("{a} and {b} contain the same measurement; give a separate one for each temperature"),
         ));
     }
     let mut report = report(&currents, &growths, request.reference_c);
@@ -94,7 +94,7 @@ fn copies(currents: &[(f64, Estimate)]) -> Option<[usize; 2]> {
 
 fn report(currents: &[(f64, Estimate)], growths: &[Growth], reference_c: f64) -> Report {
     let method =
-        "dark current over temperature, EMVA 1288 section 7 and the laws of silicon (± one standard uncertainty)";
+        "dark current over temperature, EMVA 1288 section 7 and physical models of silicon (± one standard uncertainty)";
     let mut report = Report::new("dark-current", method);
     for growth in growths {
         let (key, label) = name(growth.law);
@@ -102,7 +102,7 @@ fn report(currents: &[(f64, Estimate)], growths: &[Growth], reference_c: f64) ->
         report.figure(&format!("{key}_reference_e_per_s"), &at, "e⁻/s", growth.reference_e_per_s);
         report.figure(&format!("{key}_doubling_k"), "  doubles within", "K", growth.doubling_k);
         let p = chi_square::p_value(growth.chi_square, growth.degrees_of_freedom as f64);
-        report.fact(&format!("{key}_p_value"), "  probability of a fit no better", "", p);
+        report.fact(&format!("{key}_p_value"), "  p-value of the fit (χ²)", "", p);
     }
     report.table(Table {
         key: "temperatures",

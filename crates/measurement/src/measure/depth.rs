@@ -44,7 +44,7 @@ pub struct DepthRequest {
     #[arg(long, value_name = "M,…", value_delimiter = ',')]
     pub ranges_m: Vec<f64>,
     /// Minimum error of an outlier as a fraction of the depth
-    #[arg(long, value_name = "SHARE", default_value_t = 0.05, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.05, allow_negative_numbers = true)]
     pub outlier_ratio: f64,
     /// … and its minimum error, m
     #[arg(long, value_name = "M", default_value_t = 0.0, allow_negative_numbers = true)]
@@ -56,7 +56,7 @@ pub struct DepthRequest {
     #[arg(long, value_enum, default_value_t = DepthAlignment::None)]
     pub align: DepthAlignment,
     /// Minimum depth jump of the ground truth at an edge, as a fraction of the depth
-    #[arg(long, value_name = "SHARE", default_value_t = 0.1, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.1, allow_negative_numbers = true)]
     pub edge_ratio: f64,
     /// Distance, px, within which pixels near an edge are reported separately
     #[arg(long, value_name = "PX", default_value_t = 2, value_parser = in_range(EDGE_PX))]
@@ -128,7 +128,7 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
     };
     let found = measure_depth(&estimate, &truth, &settings).map_err(message)?;
     let mut report =
-        Report::new("depth", "depth against the truth, pixels at edges apart (± one standard uncertainty)");
+        Report::new("depth", "depth against ground truth, pixels at edges separately (± one standard uncertainty)");
     report.figure("bias_m", "bias", "m", found.all.bias_m);
     report.figure("mean_m", "mean magnitude of the error", "m", found.all.mean_m);
     report.figure("rmse_m", "root mean square error", "m", found.all.rmse_m);
@@ -148,11 +148,11 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
         report.figure("disparity_px", "mean error of disparity, EPE", "px", disparity);
     }
     let seen = (found.all.pixels + found.all.missing) as f64;
-    report.fact("density_percent", "estimated", "% of the pixels with truth", 100.0 * found.all.pixels as f64 / seen);
+    report.fact("density_percent", "estimated", "% of the pixels with ground truth", 100.0 * found.all.pixels as f64 / seen);
     report.fact("scale", "the estimate was multiplied by", "", found.scale);
     let all = ("all".to_owned(), &found.all);
     let limits =
-        |low: f64, high: f64| if high.is_finite() { format!("{low}–{high} m") } else { format!("{low} m on") };
+        |low: f64, high: f64| if high.is_finite() { format!("{low}–{high} m") } else { format!("from {low} m") };
     let ranges = found.ranges.iter().map(|(low, high, errors)| (limits(*low, *high), errors));
     let edges = ("edges".to_owned(), &found.edges);
     let rows = std::iter::once(all).chain(ranges).chain([edges]);
@@ -190,7 +190,7 @@ fn plot(ranges: &[(f64, f64, DepthErrors)]) -> Plot {
     };
     Plot {
         title: "errors by range (bars: 95 %)".to_owned(),
-        x: Axis::linear("depth, m: the middle of a range, or where one without end begins").showing(&[0.0]),
+        x: Axis::linear("depth, m: the middle of a range, or the start of an unbounded one").showing(&[0.0]),
         y: Axis::linear("error, m").showing(&[0.0]),
         series: vec![
             Series::with_errors("bias", Mark::Line, curve(|e| e.bias_m)),
@@ -226,6 +226,6 @@ fn chosen<'a>(file: &Path, photograph: &'a Photograph, channel: Option<&str>) ->
     };
     found.ok_or_else(|| {
         let names = photograph.names().join(", ");
-        Error::coded(ErrorCode::NotStated, format!("{}: name the channel of the depth; it has {names}", file.display()))
+        Error::coded(ErrorCode::NotStated, format!("{}: the depth channel is ambiguous; choose one of {names}", file.display()))
     })
 }

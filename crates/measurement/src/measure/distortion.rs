@@ -50,7 +50,7 @@ pub fn distortion(request: &DistortionRequest) -> Result<Report, Error> {
 
 fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     let method =
-        "distortion without a model: ideal places by a map whose scale and tilt at the centre are none (ISO 17850)";
+        "distortion without a model: ideal positions from a map with unit scale and no tilt at the centre (ISO 17850)";
     let mut report = Report::new("distortion", method);
     seen.stated.iter().for_each(|stated| report.encoding(stated));
     report.setting("centre_px", centre_words(found.centre_px));
@@ -59,10 +59,10 @@ fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     report.fact("rows", "rows", "", seen.grid.size[1] as f64);
     report.fact("step_px", "step of the chart at the centre", "px", found.ideal.step_px());
     report.fact("degree", "degree of the map", "", found.ideal.degree() as f64);
-    report.fact("sigma_px", "standard deviation of points about it", "px", found.ideal.sigma_px());
+    report.fact("sigma_px", "standard deviation of points from the map", "px", found.ideal.sigma_px());
     report.fact(
         "beyond_k1_k2_px",
-        "size of its terms beyond k1 and k2, at the farthest point",
+        "its terms beyond k1 and k2, at the farthest point",
         "px",
         found.ideal.tau_px(),
     );
@@ -74,7 +74,7 @@ fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     local(&mut report, found);
     lines(&mut report, &found.lines);
     if let Some(height) = found.height {
-        report.figure("picture_height_percent", "picture height, sides over middle less 1", "%", percent(height));
+        report.figure("picture_height_percent", "image height, sides over middle minus 1", "%", percent(height));
     }
     radial(&mut report, "forward", &found.forward);
     radial(&mut report, "backward", &found.backward);
@@ -96,8 +96,9 @@ fn disagreement(found: &Distortion) -> Option<String> {
     let (point, by_fit, error) = found.largest_difference().filter(|(_, _, error)| *error > 1.0)?;
     let less_one = |e: Estimate| with_uncertainty(percent(Estimate::new(e.value - 1.0, e.standard_uncertainty)));
     Some(format!(
-        "the curve is not what k1 and k2 say, {error:.1} times their joint uncertainty (95 %) apart at {:.1} % of the field, {} % and {} %: \
-         the chart is tilted, the distortion is centred elsewhere (`centre_px`), or k1 and k2 do not describe it",
+        "the curve differs from k1 and k2 by {error:.1} times their joint uncertainty (95 %) at {:.1} % of the field ({} % and \
+         {} %): the chart is tilted, the distortion is centred elsewhere (`centre_px`), or k1 and k2 do not describe the \
+         distortion",
         100.0 * point.field,
         less_one(point.ratio),
         less_one(by_fit)
@@ -111,11 +112,11 @@ pub(crate) fn centre_words(centre_px: DVec2) -> String {
 
 fn lines(report: &mut Report, lines: &[LineBow]) {
     for (is_row, key, label) in
-        [(true, "row_bow_percent", "bow of rows, largest"), (false, "column_bow_percent", "bow of columns, largest")]
+        [(true, "row_bow_percent", "largest bow of rows"), (false, "column_bow_percent", "largest bow of columns")]
     {
         let all = lines.iter().filter(|l| l.is_row == is_row).map(|l| l.bow);
         if let Some(bow) = all.reduce(|a, b| if b.abs() > a.abs() { b } else { a }) {
-            report.fact(key, label, "% of the picture's height", 100.0 * bow);
+            report.fact(key, label, "% of the image height", 100.0 * bow);
         }
     }
 }
@@ -145,7 +146,7 @@ fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
 /// The largest local geometric distortion (ISO 17850) and its position.
 fn local(report: &mut Report, found: &Distortion) {
     if let Some(largest) = found.largest {
-        report.figure("local_largest_percent", "local geometric distortion, largest", "%", percent(largest.distortion));
+        report.figure("local_largest_percent", "largest local geometric distortion", "%", percent(largest.distortion));
         let field = 100.0 * largest.field;
         report.fact("local_largest_at_percent", "at", "% of the half diagonal", field);
     }

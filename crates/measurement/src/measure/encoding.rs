@@ -76,7 +76,7 @@ impl EncodingChoice {
         let Some(stated) = self.stated()? else { return Ok(photograph) };
         if photograph.raw.is_some() && stated.encoding != Encoding::Linear {
             let (file, reason) = (file.display(), &photograph.stated.reason);
-            let message = format!("{file}: raw numbers in proportion to light ({reason}): leave `encoding` out");
+            let message = format!("{file}: raw numbers are proportional to light ({reason}); leave `encoding` out");
             return Err(Error::coded(ErrorCode::NoEffect, message));
         }
         photograph.stated = stated;
@@ -100,7 +100,7 @@ impl EncodingChoice {
             return Err(Error::coded(
                 ErrorCode::UnsuitableFile,
                 format!(
-                    "{file}: its numbers are companded, and their noise is no longer that of charge: give raws of all bits"
+                    "{file}: its numbers are companded, so their noise is not that of the charge; give raw images of full bit depth"
                 ),
             ));
         }
@@ -110,11 +110,11 @@ impl EncodingChoice {
             let remedy = if self.chosen.is_some() {
                 "leave it out"
             } else {
-                "where they are linear all the same, say `encoding` linear"
+                "if they are linear, set `encoding` to linear"
             };
             return Err(Error::coded(
                 ErrorCode::UnsuitableFile,
-                format!("{what}, where numbers in proportion to charge are needed: {remedy}"),
+                format!("{what}; expected numbers proportional to charge: {remedy}"),
             ));
         }
         if photograph.raw.is_none() && self.chosen.is_none() {

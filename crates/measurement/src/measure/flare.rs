@@ -18,7 +18,7 @@ use crate::report::{Cell, Report, Table};
 #[derive(Args, Clone, Debug)]
 pub struct FlareRequest {
     /// Image of light traps in a white field
-    #[arg(value_name = "PICTURE")]
+    #[arg(value_name = "IMAGE")]
     pub picture: PathBuf,
     /// Part of a light trap: left column, top row, width, height; once per trap
     #[arg(long = "trap", value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
@@ -69,7 +69,7 @@ pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
     if let Some(truth) = request.input.truth.read(&CHARTS)?
         && let Some(own) = truth.light_of_traps()
     {
-        report.fact("traps_own_percent", "of which the traps send themselves, about", "%", 100.0 * own);
+        report.fact("traps_own_percent", "of which emitted by the traps, about", "%", 100.0 * own);
     }
     Ok(report)
 }
@@ -85,7 +85,7 @@ fn traps(request: &FlareRequest, readings: &Readings) -> Result<Vec<TrapPlace>, 
 }
 
 fn report(traps: &[[usize; 4]], found: &[Estimate], width_px: usize, height_px: usize) -> Report {
-    let mut report = Report::new("flare", "flare after ISO 18844: light in traps over the white field's");
+    let mut report = Report::new("flare", "flare after ISO 18844: light in traps relative to the white field");
     let largest = found.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
     let mean = found.iter().map(|f| f.value).sum::<f64>() / found.len() as f64;
     let squares = found.iter().map(|f| f.standard_uncertainty * f.standard_uncertainty).sum::<f64>();

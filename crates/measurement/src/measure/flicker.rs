@@ -89,7 +89,7 @@ fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {
     let Some((first, file)) = frames.first().zip(request.frames.first()) else {
         return Err(Error::coded(
             ErrorCode::NotMeasurable,
-            "flicker is measured from one frame at least: give its file",
+            "no frame is given; flicker needs one or more",
         ));
     };
     for (frame, file) in frames.iter().zip(&request.frames) {
@@ -125,7 +125,7 @@ fn one(
     report: &mut Report,
 ) -> Result<(), Error> {
     let found = sequence.measured(at).map_err(|error| refused(Path::new(&sequence.name), error))?;
-    report.figure("level", "mean reading less black", "", found.level);
+    report.figure("level", "mean reading above black", "", found.level);
     if let Some(rows) = &found.rows {
         match &rows.found {
             Some(bands) => of_bands(bands, sequence.frames[0].period.1 as f64, report),
@@ -133,7 +133,7 @@ fn one(
                 let (low, high) = (rows.lowest_hz, rows.highest_hz);
                 let range = format!("from {low:.1} to {high:.0} Hz");
                 report.note(format!(
-                    "no bands over the rows {range} whose frequency could be told beyond what noise makes"
+                    "no bands over the rows {range} that are distinguishable from noise"
                 ));
             }
         }
@@ -142,10 +142,10 @@ fn one(
     if let Some(frames) = &found.frames {
         report.figure("modulation_frames", "modulation over frames, (max − min)/(max + min)", "", frames.modulation);
         if let Some(beat) = frames.beat_hz {
-            report.figure("beat_frequency_hz", "bands come back to their place", "Hz", beat);
+            report.figure("beat_frequency_hz", "beat frequency of the bands", "Hz", beat);
         }
         if let Some(seen) = &frames.frequency {
-            report.figure("frame_frequency_hz", "frequency seen over frames", "Hz", seen.seen_hz);
+            report.figure("frame_frequency_hz", "apparent frequency over frames", "Hz", seen.seen_hz);
             report.figure("amplitude_frames", "amplitude over mean, over frames", "", seen.amplitude_ratio);
             if found.rows.as_ref().is_none_or(|rows| rows.found.is_none()) {
                 report.note(alike(seen.alike(9), seen.frame_rate_hz));
@@ -159,7 +159,7 @@ fn one(
 fn alike(orders: Vec<(u32, f64)>, rate_hz: f64) -> String {
     let list: Vec<String> = orders.iter().map(|(k, f)| format!("{f:.2} Hz (order {k})")).collect();
     format!(
-        "frames at {rate_hz} Hz undersample: the light's frequency is one of {} …; rows of a rolling shutter tell which (`row_time_us`)",
+        "frames at {rate_hz} Hz undersample: the light's frequency is one of {} …; the rows of a rolling shutter determine which (`row_time_us`)",
         list.join(", ")
     )
 }
@@ -170,11 +170,11 @@ fn of_bands(bands: &RowBands, rows_of_file: f64, report: &mut Report) {
     report.figure("modulation_rows", "modulation over rows, (max − min)/(max + min)", "", bands.modulation);
     report.figure("amplitude_rows", "amplitude over mean, over rows", "", bands.amplitude_ratio);
     if let Some(light) = bands.light_amplitude_ratio {
-        report.figure("amplitude_light", "amplitude over mean, of the light itself", "", light);
+        report.figure("amplitude_light", "amplitude over mean, of the light", "", light);
     }
     if let Some(pulses) = &bands.pulses {
-        report.figure("duty_cycle", "duty of the light's pulses", "", pulses.duty);
-        report.figure("pulsed_fraction", "share of the light that pulses", "", pulses.share);
+        report.figure("duty_cycle", "duty cycle of the light's pulses", "", pulses.duty);
+        report.figure("pulsed_fraction", "pulsed fraction of the light", "", pulses.share);
     }
     report.fact("harmonics", "harmonics fitted", "", bands.harmonics as f64);
     if !bands.shading {
@@ -185,12 +185,12 @@ fn of_bands(bands: &RowBands, rows_of_file: f64, report: &mut Report) {
 fn missing(bands: Option<&RowBands>, request: &FlickerRequest, report: &mut Report) {
     if bands.is_some() && request.exposure_us.is_none() {
         report.note(
-            "without the exposure (`exposure_us`) the light's own modulation and the duty of its pulses are not known",
+            "without the exposure (`exposure_us`) the light's own modulation and the duty cycle of its pulses are not known",
         );
     }
     if request.frames.len() > 1 && request.frame_rate_hz.is_none() {
         report.note(
-            "without the frame rate (`frame_rate_hz`) each frame is measured by itself, and the means of all are told",
+            "without the frame rate (`frame_rate_hz`) each frame is measured separately, and the means over all frames are reported",
         );
     }
 }
@@ -208,7 +208,7 @@ fn plot(sequence: &Sequence, at: Option<[usize; 4]>, report: &mut Report) -> Res
     report.plot(Plot {
         title: "rows of the first frame".to_owned(),
         x: Axis::linear("time since the region's first row, ms"),
-        y: Axis::linear("reading less black"),
+        y: Axis::linear("reading above black"),
         series: vec![Series::new("", Mark::Line, points)],
     });
     Ok(())
@@ -221,10 +221,10 @@ fn lamps(sequence: &Sequence, truth: &Truth, request: &FlickerRequest, report: &
     for patch in &patches {
         match sequence.measured(Some(patch.at)) {
             Ok(found) => rows.push(row(patch, truth, &found)),
-            Err(fault) => report.note(format!("left out: {}: {fault}", patch.name)),
+            Err(fault) => report.note(format!("omitted: {}: {fault}", patch.name)),
         }
     }
-    left_out.iter().for_each(|name| report.note(format!("left out: {name}: not whole in the picture, or too small")));
+    left_out.iter().for_each(|name| report.note(format!("omitted: {name}: not entirely in the image, or too small")));
     if rows.is_empty() {
         return Err(Error::coded(
             ErrorCode::NotMeasurable,
@@ -236,7 +236,7 @@ fn lamps(sequence: &Sequence, truth: &Truth, request: &FlickerRequest, report: &
         columns: vec![
             ("lamp", "lamp"),
             ("stated_frequency_hz", "stated Hz"),
-            ("stated_duty_cycle", "stated duty"),
+            ("stated_duty_cycle", "stated duty cycle"),
             ("frequency_hz", "Hz"),
             ("duty_cycle", "duty"),
             ("modulation_rows", "rows"),

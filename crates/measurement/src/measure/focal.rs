@@ -43,13 +43,12 @@ pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, 
     if request.camera_keys && views.pixel_pitch_um.is_none() {
         return Err(Error::argument(
             "camera_keys",
-            "`camera_keys`: a camera file needs the pixels' size: add `pixel_pitch_um`",
+            "`camera_keys`: a camera file needs the pixel pitch; add `pixel_pitch_um`",
         )
         .with_code(ErrorCode::NotStated));
     }
     if one && options.distance.is_none() {
-        let told = "one picture alone does not tell the focal length from the distance: add `distance_mm`, or more pictures with the \
-                    chart turned";
+        let told = "a single image does not distinguish the focal length from the distance; add `distance_mm`, or more images with the chart turned";
         return Err(Error::coded(ErrorCode::NotStated, told));
     }
     let about_middle = one && options.principal_px.is_none();
@@ -57,7 +56,7 @@ pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, 
         true => views.found_about_middle(Options { square_pixels: true, ..options }, observer)?,
         false => views.found(options, observer)?,
     };
-    let mut report = Report::new("focal", "focal length by views of a plane chart");
+    let mut report = Report::new("focal", "focal length from views of a plane chart");
     found.add_to(&mut report, views);
     field_of_view(&mut report, &found);
     if let Some(pitch_um) = views.pixel_pitch_um.filter(|_| request.camera_keys) {
@@ -112,7 +111,7 @@ impl CalibrationRequest {
 pub fn calibrate(request: &CalibrationRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let found = views.found(views.options(), observer)?;
-    let mut report = Report::new("calibrate", "camera from views of a plane chart, least squares of all points");
+    let mut report = Report::new("calibrate", "camera calibration from views of a plane chart, least squares over all points");
     found.add_to(&mut report, views);
     if let Some(pitch_um) = views.pixel_pitch_um.filter(|_| request.camera_keys) {
         report.camera(found.camera_file("calibrate", pitch_um, request.f_number)?);

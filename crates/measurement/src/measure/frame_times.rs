@@ -52,7 +52,7 @@ impl Told {
         match (given, said) {
             (Some(given), Some(said)) if (given - said).abs() > ALIKE * said.abs() => {
                 let side_car = &self.side_car;
-                self.notes.push(format!("`{field}` {given} is taken; {side_car} says {} {unit}", rounded(said)));
+                self.notes.push(format!("`{field}` {given} is used; {side_car} states {} {unit}", rounded(said)));
             }
             (None, Some(said)) => self.taken.push(format!("{name} {} {unit}", rounded(said))),
             _ => {}
@@ -62,7 +62,7 @@ impl Told {
 
     fn into_notes(mut self) -> Vec<String> {
         if !self.taken.is_empty() {
-            self.notes.push(format!("of {}: {}", self.side_car, self.taken.join(", ")));
+            self.notes.push(format!("from {}: {}", self.side_car, self.taken.join(", ")));
         }
         self.notes
     }
@@ -84,7 +84,7 @@ fn row_time_s(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
         StatedRows::Downwards { row_time_s } => Some(*row_time_s).filter(|s| *s > 0.0),
         StatedRows::Unknown | StatedRows::Together => None,
         StatedRows::Otherwise(why) => {
-            told.notes.push(format!("{}: {why}, which this measurement leaves out: only frames count", told.side_car));
+            told.notes.push(format!("{}: {why}, which this measurement does not support; only frames are measured", told.side_car));
             None
         }
     }
@@ -101,7 +101,7 @@ fn frame_rate_hz(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
     let step = second.checked_sub(first).filter(|step| *step > 0);
     let even = step.filter(|step| numbers.windows(2).all(|pair| pair[1].checked_sub(pair[0]) == Some(*step)));
     if even.is_none() {
-        told.notes.push("the frames do not follow each other by equal times, so that they have no rate".to_owned());
+        told.notes.push("the frames are not equally spaced in time, so they have no frame rate".to_owned());
     }
     even.map(|step| 1.0 / (f64::from(step) * period_s))
 }
@@ -111,7 +111,7 @@ fn exposure_s(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
     let first = stated[0].exposure_s?;
     let same = stated.iter().all(|frame| frame.exposure_s == Some(first));
     if !same {
-        told.notes.push("the exposure changes from frame to frame, and is taken as not known".to_owned());
+        told.notes.push("the exposure changes from frame to frame and is treated as unknown".to_owned());
     }
     same.then_some(first).filter(|s| *s > 0.0)
 }

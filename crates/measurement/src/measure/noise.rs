@@ -119,13 +119,13 @@ fn sought(truth: Option<&Truth>, file: &Path, readings: &Readings) -> Result<Vec
     }
 }
 
-const METHOD: &str = "noise of an even surface after ISO 15739 (± one standard uncertainty)";
+const METHOD: &str = "noise of a uniform surface after ISO 15739 (± one standard uncertainty)";
 
 fn one(stack: &Stack, black: f64) -> Result<Report, Error> {
     let noise =
         measure_noise(stack, black).map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string()))?;
     let mut report = Report::new("noise", METHOD);
-    report.figure("signal", "signal less black", "", noise.signal);
+    report.figure("signal", "signal above black", "", noise.signal);
     report.figure("total_noise", "total noise", "", noise.total);
     report.figure("temporal_noise", "temporal noise", "", noise.temporal);
     report.figure("fixed_pattern_noise", "fixed-pattern noise", "", noise.fixed);
@@ -137,7 +137,7 @@ fn one(stack: &Stack, black: f64) -> Result<Report, Error> {
     report.plot(Plot {
         title: "mean of each frame".to_owned(),
         x: Axis::linear("frame"),
-        y: Axis::linear("signal less black"),
+        y: Axis::linear("signal above black"),
         series: vec![Series::new("", Mark::Points, means)],
     });
     Ok(report)
@@ -150,12 +150,12 @@ fn patches(surfaces: &[Surface], black: f64) -> Result<Report, String> {
     for surface in surfaces {
         let (Some(patch), Some(stack)) = (&surface.patch, &surface.stack) else { continue };
         match &surface.fault {
-            Some(fault) => report.note(format!("left out: {}: {fault}", patch.name)),
+            Some(fault) => report.note(format!("omitted: {}: {fault}", patch.name)),
             None => found.push((patch, measure_noise(stack, black).map_err(|error| error.to_string())?)),
         }
     }
     if found.is_empty() {
-        return Err("every patch is saturated: expose less".to_owned());
+        return Err("every patch is saturated; reduce the exposure".to_owned());
     }
     found.sort_by(|a, b| a.0.luminance_cd_m2.total_cmp(&b.0.luminance_cd_m2));
     let row = |(patch, noise): &(&Patch, Noise)| {

@@ -20,7 +20,7 @@ use crate::report::{Cell, Report, Table};
 #[derive(Args, Clone, Debug)]
 pub struct OecfRequest {
     /// Images of one uniform surface, one per exposure; with --steps, or the --truth of a chart of steps, one image
-    #[arg(value_name = "PICTURE", required = true)]
+    #[arg(value_name = "IMAGE", required = true)]
     pub pictures: Vec<PathBuf>,
     /// Exposure of each image in order, any unit [default: the side-cars' exposure_s]
     #[arg(long, value_name = "H,…", value_delimiter = ',', conflicts_with_all = ["steps", "truth"], allow_negative_numbers = true)]
@@ -81,7 +81,7 @@ pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
             report.note(format!("exposure {exposure} {unit}: {}; its point does not account for it", cut.words()));
         }
     }
-    measured.left_out.iter().for_each(|name| report.note(format!("left out: {name} is not whole in the picture")));
+    measured.left_out.iter().for_each(|name| report.note(format!("omitted: {name} is not entirely in the image")));
     if let Some(channel) = &request.input.selection.channel {
         report.setting("channel", channel.clone());
     }
@@ -130,7 +130,7 @@ fn kind(readings: &Readings) -> &'static str {
 fn series(request: &OecfRequest) -> Result<Vec<(f64, Readings)>, Error> {
     let count = (request.pictures.len(), request.exposures.len());
     if count.1 > 0 && count.0 != count.1 {
-        let message = format!("`exposures`: expected one a picture, {} of them, not {}", count.0, count.1);
+        let message = format!("`exposures`: expected one per image ({}), not {}", count.0, count.1);
         return Err(Error::argument("exposures", message));
     }
     let told = |i: usize, file: &Path| match request.exposures.get(i) {
@@ -145,7 +145,7 @@ fn series(request: &OecfRequest) -> Result<Vec<(f64, Readings)>, Error> {
         let file = request.pictures[other].display();
         return Err(Error::coded(
             ErrorCode::NotComparable,
-            format!("{file}: {} × {} pixels, the first {} × {}", a.0, a.1, b.0, b.1),
+            format!("{file}: {} × {} pixels, but the first image has {} × {}", a.0, a.1, b.0, b.1),
         ));
     }
     copies(request, &series)?;
@@ -160,7 +160,7 @@ fn copies(request: &OecfRequest, series: &[(f64, Readings)]) -> Result<(), Error
             let (a, b) = (request.pictures[j].display(), request.pictures[i].display());
             return Err(Error::coded(
                 ErrorCode::NotComparable,
-                format!("{a} and {b} are copies of one another: give one picture an exposure"),
+                format!("{a} and {b} are copies; give one image per exposure"),
             ));
         }
     }
@@ -170,7 +170,7 @@ fn copies(request: &OecfRequest, series: &[(f64, Readings)]) -> Result<(), Error
 fn exposure_beside(file: &Path) -> Result<f64, Error> {
     let photograph = etendue_io::photograph::read_photograph(file).map_err(Error::input)?;
     let lacks = || {
-        Error::coded(ErrorCode::NotStated, format!("{}: its exposure is not known: give `exposures`", file.display()))
+        Error::coded(ErrorCode::NotStated, format!("{}: its exposure is not known; give `exposures`", file.display()))
     };
     photograph.raw.map(|facts| facts.exposure_s).ok_or_else(lacks)
 }
@@ -187,7 +187,7 @@ fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
     if request.input.truth.camera.is_some() {
         return Err(Error::argument(
             "camera",
-            "`camera`: has no effect on a series: each picture's folder names its camera",
+            "`camera`: has no effect on a series, as each image's folder names its camera; leave it out",
         )
         .with_code(ErrorCode::NoEffect));
     }
@@ -198,7 +198,7 @@ fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
         let known = exposures.iter().find(|(name, _)| *name == folder).map(|(_, exposure)| *exposure);
         let names = || exposures.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
         let lacks =
-            || refused(file, format!("lies in the folder '{folder}', which is none of the cameras {}", names()));
+            || refused(file, format!("is in the folder '{folder}', which is not one of the cameras {}", names()));
         let exposure = known.ok_or_else(lacks)?;
         let readings = request.input.selection.stored(file)?;
         truth.fits(file, &readings)?;
@@ -219,7 +219,7 @@ fn only_picture<'a>(request: &'a OecfRequest, field: &str) -> Result<&'a Path, E
         [picture] => Ok(picture),
         more => Err(Error::argument(
             field,
-            format!("`{field}`: expected one picture that holds all steps, not {}", more.len()),
+            format!("`{field}`: expected one image that contains all steps, not {}", more.len()),
         )),
     }
 }
@@ -360,12 +360,12 @@ fn response(request: &OecfRequest) -> Result<Report, Error> {
 
 fn response_report(found: &Response) -> Report {
     let method =
-        "camera response from exposures known relatively, after Mitsunaga and Nayar (± one standard uncertainty)";
+        "camera response from relatively known exposures, after Mitsunaga and Nayar (± one standard uncertainty)";
     let mut report = Report::new("response", method);
     for (n, c) in found.coefficients.iter().enumerate().skip(1) {
         report.fact(&format!("c{n}"), &format!("coefficient of M^{n}"), "", *c);
     }
-    report.fact("residual_percent", "noise of a reading, of full scale", "%", 100.0 * found.residual);
+    report.fact("residual_percent", "noise of a reading, relative to full scale", "%", 100.0 * found.residual);
     let row = |i: i32| {
         let reading = f64::from(i) / 20.0;
         vec![Cell::Number(100.0 * reading, 0), Cell::Estimate(found.estimate(reading).scaled(100.0))]
@@ -378,13 +378,13 @@ fn response_report(found: &Response) -> Report {
     let ratios = found.ratios.iter().enumerate();
     report.table(Table {
         key: "exposures",
-        columns: vec![("picture", "picture"), ("ratio", "exposure over the first's")],
+        columns: vec![("picture", "image"), ("ratio", "exposure relative to the first")],
         rows: ratios.map(|(i, r)| vec![Cell::Number(i as f64 + 1.0, 0), Cell::Number(*r, 5)]).collect(),
     });
     let curve = (0..=100).map(|i| f64::from(i) / 100.0).map(|m| (found.light(m), m));
     report.plot(Plot {
         title: "camera response".to_owned(),
-        x: Axis::linear("light, of the largest"),
+        x: Axis::linear("light, relative to the largest"),
         y: Axis::linear("reading over full scale"),
         series: vec![Series::new("", Mark::Line, curve)],
     });

@@ -60,7 +60,7 @@ impl PictureInput {
             None => Ok(()),
             Some(_) => Err(Error::argument(
                 "black",
-                "`black`: differences of readings alone count here, so that it changes nothing; leave it out",
+                "`black`: has no effect here, as only differences of readings are used; leave it out",
             )
             .with_code(ErrorCode::NoEffect)),
         }

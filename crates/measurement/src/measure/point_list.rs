@@ -42,7 +42,7 @@ pub(crate) fn read(file: &Path) -> Result<Grid, Error> {
     let lines = text.lines().enumerate().map(|(i, line)| (i, line.trim_start_matches('\u{feff}').trim()));
     let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     let expected =
-        format!("expected a line that names the columns: {} (uncertainty_px may be left out)", COLUMNS.join(","));
+        format!("expected a header line with the columns {} (uncertainty_px is optional)", COLUMNS.join(","));
     let (first, heading) = lines.next().ok_or_else(|| refused(0, expected.clone()))?;
     let places = places(heading).ok_or_else(|| refused(first, format!("{expected}, not '{heading}'")))?;
     let mut nodes: BTreeMap<[usize; 2], (usize, Node)> = BTreeMap::new();
@@ -50,7 +50,7 @@ pub(crate) fn read(file: &Path) -> Result<Grid, Error> {
         let node = node(line, &places.0, places.1).map_err(|what| refused(i, what))?;
         let [column, row] = node.index;
         if let Some((other, _)) = nodes.insert([row, column], (i, node)) {
-            return Err(refused(i, format!("column {column}, row {row} is in line {} already", other + 1)));
+            return Err(refused(i, format!("column {column}, row {row} is already in line {}", other + 1)));
         }
     }
     let size = [0, 1].map(|axis| nodes.values().map(|(_, n)| n.index[axis] + 1).max().unwrap_or(0));
@@ -69,7 +69,7 @@ fn places(heading: &str) -> Option<(Vec<Option<usize>>, usize)> {
 fn node(line: &str, places: &[Option<usize>], count: usize) -> Result<Node, String> {
     let words: Vec<&str> = line.split(',').map(str::trim).collect();
     if words.len() != count {
-        return Err(format!("expected {count} numbers as the first line has names, not '{line}'"));
+        return Err(format!("expected {count} numbers, one per column of the header, not '{line}'"));
     }
     let number = |k: usize| {
         let Some(place) = places[k] else { return Ok(0.0) };
@@ -174,11 +174,11 @@ impl ChartInput {
     fn listed(&self, file: &Path) -> Result<Seen, Error> {
         let told = self.told()?;
         let size_px = self.size_px.ok_or_else(|| {
-            refused(file, "a list of points does not say how large the picture is: add `size_px` WxH")
+            refused(file, "a list of points does not state the image size; add `size_px` WxH")
         })?;
         told.iter().try_for_each(|(truth, _)| truth.fits_size(file, size_px))?;
         if self.encoding.chosen.is_some() {
-            return Err(refused(file, "a list of points has no numbers of light: leave `encoding` out"));
+            return Err(refused(file, "a list of points has no readings; leave `encoding` out"));
         }
         let useless = [
             ("`region`", self.region.is_some()),
@@ -188,7 +188,7 @@ impl ChartInput {
             ("`grid`", self.grid.is_some()),
         ];
         if let Some((name, _)) = useless.iter().find(|(_, given)| *given) {
-            return Err(refused(file, format!("a list of points: {name} has no effect, leave it out")));
+            return Err(refused(file, format!("a list of points: {name} has no effect; leave it out")));
         }
         Ok(Seen { file: file.to_owned(), size_px, grid: read(file)?, stated: None })
     }
@@ -204,7 +204,7 @@ impl ChartInput {
         let told = self.told()?;
         let (width, height) = planes[0].picture_px;
         if self.size_px.is_some_and(|stated| stated != [width, height]) {
-            let told = format!("{width} × {height} pixels, not as `size_px` says: leave that out");
+            let told = format!("{width} × {height} pixels, which differs from `size_px`; leave it out");
             return Err(refused(file, told).into());
         }
         told.iter().try_for_each(|(truth, _)| truth.fits_size(file, [width, height]))?;
@@ -237,8 +237,8 @@ impl ChartInput {
 }
 
 /// Error of an image whose chart's marks have the wrong handedness.
-const MIRRORED: &str = "shows its chart mirrored, as the three dots that are left out of it say: an axis of the picture runs the wrong way; give the picture as the \
-                        camera takes it, or mirror it back";
+const MIRRORED: &str = "shows its chart mirrored, according to its three missing dots: one axis of the image is reversed; give \
+                        the image as captured, or mirror it back";
 
 /// Reason why an image gives no points.
 enum Unseen {
@@ -301,7 +301,7 @@ fn too_few(without: &[WithoutChart], left: usize) -> Vec<String> {
     let told = |(file, error): &WithoutChart| format!("{}: {error}", file.display());
     match without {
         [first, _, ..] if left == 0 => {
-            vec![format!("{}; none of the {} pictures shows the chart", told(first), without.len())]
+            vec![format!("{}; none of the {} images shows the chart", told(first), without.len())]
         }
         some => some.iter().map(told).collect(),
     }
@@ -312,10 +312,10 @@ fn contradiction(a: &Seen, b: &Seen) -> Option<String> {
     if a.size_px != b.size_px {
         let [[w, h], [v, g]] = [a.size_px, b.size_px];
         return Some(format!(
-            "{second}: {v} × {g} pixels, where {first} has {w} × {h}; give pictures of one camera and size"
+            "{second}: {v} × {g} pixels, but {first} has {w} × {h}; give images of one camera and size"
         ));
     }
-    (a.grid == b.grid).then(|| format!("{second}: shows the chart exactly as {first}; give each view once"))
+    (a.grid == b.grid).then(|| format!("{second}: identical view to {first}; give each view once"))
 }
 
 #[cfg(test)]

@@ -80,14 +80,14 @@ impl Readings {
         let [x, y, width, height] = region;
         let (columns, rows) = self.picture_px;
         if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
-            let message = format!("{name}: lies beyond the {columns} × {rows} pixels that are measured");
+            let message = format!("{name}: outside the {columns} × {rows} pixels that are measured");
             return Err(Error::coded(ErrorCode::OutOfRange, message));
         }
         let at = self.of_region(region);
         let none = || {
             Error::coded(
                 ErrorCode::NotMeasurable,
-                format!("{name}: {width} × {height} pixels hold none of this colour"),
+                format!("{name}: {width} × {height} pixels contain none of this colour"),
             )
         };
         at.map(|[x, y, width, height]| self.image.part(x, y, width, height)).ok_or_else(none)
@@ -149,8 +149,8 @@ impl Readings {
         Err(Error::coded(
             ErrorCode::UnsuitableFile,
             format!(
-                "{}: its errors are alike in blocks of up to {1} × {1} readings, as paths were shared (path_reuse_px), and this measurement takes \
-             them as independent: render without sharing",
+                "{}: its errors are correlated in blocks of up to {1} × {1} readings because paths were shared (path_reuse_px), \
+                 but this measurement assumes independent errors; render without sharing",
                 file.display(),
                 self.shared_px
             ),
@@ -172,7 +172,7 @@ impl Selection {
             let file = file.display();
             return Err(Error::coded(
                 ErrorCode::NotStated,
-                format!("{file}: say which of its channels to measure with `channel`: {names}"),
+                format!("{file}: choose the channel to measure with `channel`: {names}"),
             ));
         }
         self.of(file, &photograph)
@@ -243,7 +243,7 @@ impl Selection {
         let [only] = colours[..] else {
             let names = photograph.names().join(", ");
             let error = format!(
-                "{}: a colour picture ({names}) where linear raw is needed: its channels are processed; give raw frames of one channel",
+                "{}: a colour image ({names}), whose channels are processed; expected linear raw frames of one channel",
                 file.display()
             );
             return Err(Error::coded(ErrorCode::UnsuitableFile, error));
@@ -253,7 +253,7 @@ impl Selection {
         self.check_cfa(file, &photograph)?;
         if let (Some(name), None) = (&self.channel, self.mosaic(&photograph)) {
             let error = format!(
-                "{}: `channel` {name}: nothing says which pixels are under which filter: give `cfa`, or leave it out",
+                "{}: `channel` {name}: the colour filters of the pixels are not stated; give `cfa`, or leave `channel` out",
                 file.display()
             );
             return Err(Error::coded(ErrorCode::NotStated, error));
@@ -293,7 +293,7 @@ impl Selection {
             Some(cfa) if photograph.channels.len() != 1 => {
                 let names = photograph.names().join(", ");
                 let error = format!(
-                    "{}: `cfa` {cfa} has no effect on a picture of the channels {names}: it is for raw mosaics; leave it out",
+                    "{}: `cfa` {cfa} has no effect on an image of the channels {names}, only on raw mosaics; leave it out",
                     file.display()
                 );
                 Err(Error::coded(ErrorCode::NoEffect, error))
@@ -329,7 +329,7 @@ impl Selection {
             let names = tile.channels.join(", ");
             return Err(Error::coded(
                 ErrorCode::NotStated,
-                format!("{file}: a raw mosaic of the colours {names}: say which one to measure with `channel`"),
+                format!("{file}: a raw mosaic of the colours {names}; choose the one to measure with `channel`"),
             ));
         };
         let at = (0..tile.channels.len()).filter(|i| is_colour(&tile.channels[*i], name)).nth(nth);
@@ -366,7 +366,7 @@ fn cropped(file: &Path, image: Image, area: Option<[usize; 4]>) -> Result<Image,
         let (file, told) = (file.display(), format!("{x},{y},{width},{height}"));
         return Err(Error::coded(
             ErrorCode::OutOfRange,
-            format!("{file}: the region {told} lies beyond the picture's {columns} × {rows} pixels"),
+            format!("{file}: the region {told} is outside the image's {columns} × {rows} pixels"),
         ));
     }
     Ok(image.part(x, y, width, height))
@@ -384,7 +384,7 @@ fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Ve
         return Err(Error::coded(
             ErrorCode::NotStated,
             format!(
-                "{}: say which of its channels to measure with `channel`: {}",
+                "{}: choose the channel to measure with `channel`: {}",
                 file.display(),
                 photograph.names().join(", ")
             ),

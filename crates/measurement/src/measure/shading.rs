@@ -21,7 +21,7 @@ use crate::report::{Cell, Report, Table};
 #[derive(Args, Clone, Debug)]
 pub struct FlatFieldRequest {
     /// Image of a uniformly lit surface
-    #[arg(value_name = "PICTURE")]
+    #[arg(value_name = "IMAGE")]
     pub picture: PathBuf,
     /// Centre of the fall-off, raster coordinates [default: the image centre]
     #[arg(long, value_name = "X,Y", value_parser = point)]
@@ -130,7 +130,7 @@ impl VignettingRequest {
         let needed = || {
             Error::argument(
                 "camera_keys",
-                "`camera_keys`: expected `pixel_pitch_um` above 0, as a lens states its fall-off over millimetres",
+                "`camera_keys`: expected `pixel_pitch_um` above 0, because a lens states its fall-off in millimetres",
             )
             .with_code(ErrorCode::NotStated)
         };
@@ -178,8 +178,8 @@ pub(crate) fn falloff(request: &VignettingRequest) -> Result<(Report, Shading, (
         "relative illumination of a flat field over the radial field position (± one standard uncertainty)",
     );
     let (shading, size) = request.flat.measured(DEFAULT_BLOCKS, &mut report)?;
-    report.figure("centre", "reading of the centre, less black", "", shading.centre);
-    report.figure("corner_percent", "illumination of the corner", "%", shading.corner.scaled(100.0));
+    report.figure("centre", "reading at the centre, above black", "", shading.centre);
+    report.figure("corner_percent", "illumination at the corner", "%", shading.corner.scaled(100.0));
     let labels = [("a2", "a₂ of 1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸"), ("a4", "a₄"), ("a6", "a₆"), ("a8", "a₈")];
     for ((key, label), value) in labels.into_iter().zip(shading.coefficients) {
         report.figure(key, label, "", value);
@@ -225,7 +225,7 @@ pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
         }
         None => {
             let (found, _) = flat.measured(blocks, &mut report)?;
-            extreme(&mut report, "illumination", "least illumination", &found.map);
+            extreme(&mut report, "illumination", "minimum illumination", &found.map);
             report.table(map("illumination_percent", &found.map));
             report.plot(profile_plot(&[("", &found)]));
         }
@@ -235,9 +235,9 @@ pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
 
 fn in_colour(report: &mut Report, found: &ColourShading) {
     let [red, blue] = found.extremes();
-    report.figure("red_percent", "red over green, farthest from the centre's", "%", red.scaled(100.0));
-    report.figure("blue_percent", "blue over green, farthest from the centre's", "%", blue.scaled(100.0));
-    for (key, label, channel) in [("red", "least red", 0), ("green", "least green", 1), ("blue", "least blue", 2)] {
+    report.figure("red_percent", "red over green, largest deviation from the centre", "%", red.scaled(100.0));
+    report.figure("blue_percent", "blue over green, largest deviation from the centre", "%", blue.scaled(100.0));
+    for (key, label, channel) in [("red", "minimum red", 0), ("green", "minimum green", 1), ("blue", "minimum blue", 2)] {
         extreme(report, key, label, &found.channels[channel].map);
     }
     report.table(map("green_percent", &found.channels[1].map));

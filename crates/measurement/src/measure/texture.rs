@@ -21,7 +21,7 @@ use crate::report::{Cell, Report, Table};
 #[derive(Args, Clone, Debug)]
 pub struct StarRequest {
     /// Image of a Siemens star
-    #[arg(value_name = "PICTURE")]
+    #[arg(value_name = "IMAGE")]
     pub picture: PathBuf,
     /// Centre of the star, raster coordinates, within two pixels
     #[arg(long, value_name = "X,Y", value_parser = point, required_unless_present = "truth", conflicts_with = "truth")]
@@ -58,14 +58,14 @@ impl StarRequest {
 #[derive(Args, Clone, Debug)]
 pub struct TextureRequest {
     /// Image of a texture such as dead leaves
-    #[arg(value_name = "PICTURE")]
+    #[arg(value_name = "IMAGE")]
     pub picture: PathBuf,
     /// The texture itself at the same position, pixel by pixel: a sharp render without noise (radiance.exr of --set
     /// output.radiance=true)
     #[arg(value_name = "REFERENCE")]
     pub reference: PathBuf,
     /// Image of a uniform surface of the same brightness, for the noise
-    #[arg(long, value_name = "PICTURE")]
+    #[arg(long, value_name = "IMAGE")]
     pub even: Option<PathBuf>,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
@@ -110,7 +110,7 @@ fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> 
         return Err(refused(
             &request.picture,
             format!(
-                "the star is too small: its rim has {coarse:.2} cycles a pixel, and {:.2} is the most that its readings tell; take fewer cycles",
+                "the star is too small: its outer circle has {coarse:.2} cycles per pixel, but at most {:.2} can be measured; use a star of fewer cycles",
                 0.5 / step
             ),
         ));
@@ -154,7 +154,7 @@ pub fn star(request: &StarRequest) -> Result<Report, Error> {
 fn response_plot(title: &str, series: Vec<Series>) -> Plot {
     Plot {
         title: title.to_owned(),
-        x: Axis::linear("cycles a pixel").showing(&[0.0]),
+        x: Axis::linear("cycles per pixel").showing(&[0.0]),
         y: Axis::linear("response").showing(&[0.0, 1.0]),
         series,
     }
@@ -196,13 +196,13 @@ pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     let points = measure_texture(&picture.image, &reference.image, even.as_ref().map(|e| &e.image), picture.full_scale);
     let found = points.map_err(|error| refused(&request.picture, error))?;
     let points = found.points;
-    let mut report = Report::new("texture", "response to a texture against its reference (± one standard uncertainty)");
+    let mut report = Report::new("texture", "response to a texture relative to its reference (± one standard uncertainty)");
     [&picture.stated, &reference.stated].into_iter().for_each(|stated| report.encoding(stated));
     report.note_cut(&request.picture.display().to_string(), &picture.image, picture.full_scale);
-    report.fact("shift_x_px", "picture right of the reference, taken off", "px", found.shift_px[0]);
-    report.fact("shift_y_px", "picture below the reference, taken off", "px", found.shift_px[1]);
+    report.fact("shift_x_px", "shift of the image to the right of the reference, removed", "px", found.shift_px[0]);
+    report.fact("shift_y_px", "shift of the image below the reference, removed", "px", found.shift_px[1]);
     if even.is_none() {
-        report.note("without `even` noise counts as structure in 'direct'");
+        report.note("without `even`, noise counts as structure in 'direct'");
     }
     let row = |p: &TexturePoint| {
         vec![

@@ -34,10 +34,10 @@ pub(crate) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<
     let Light { wavelength_nm, illuminant } = light;
     let (wavelength_nm, illuminant) = (*wavelength_nm, illuminant.as_deref());
     if wavelength_nm.is_some() && measured.kind != "ptc" {
-        return Err("`wavelength_nm` belongs to photon transfer (ptc)".to_owned());
+        return Err("`wavelength_nm` applies to photon transfer (ptc) only".to_owned());
     }
     if illuminant.is_some() && !["sfr", "oecf"].contains(&measured.kind.as_str()) {
-        return Err("`illuminant` belongs to the response of edges (sfr) and to tone curves (oecf)".to_owned());
+        return Err("`illuminant` applies to the response of edges (sfr) and to tone curves (oecf) only".to_owned());
     }
     let mut quantities = Quantities::new();
     let mut put = |key: &str, value: f64, unit: &str| {
@@ -70,7 +70,7 @@ pub(crate) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<
         }
         "oecf" => tone::declared(body, measured, illuminant.unwrap_or("D65"))?,
         "sfr" => response::declared(body, measured, illuminant.unwrap_or("D65"))?,
-        kind => return Err(format!("a camera file declares nothing that measure {kind} finds")),
+        kind => return Err(format!("a camera file states no quantity that measure {kind} determines")),
     };
     Ok(Side {
         kind: measured.kind.clone(),
@@ -162,7 +162,7 @@ fn electronics(
     wavelength_nm: Option<f64>,
     put: &mut impl FnMut(&str, f64, &str),
 ) -> Result<(), String> {
-    let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, of which photon transfer tells")?;
+    let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, which photon transfer measures")?;
     let p = sensor.parameters();
     let gain = p.read_out.gain_dn_e * p.read_out.analogue_gain * p.read_out.digital_gain;
     put("gain_dn_per_e", gain, "DN/e⁻");
@@ -188,7 +188,7 @@ fn electronics(
 fn growth(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &str)) -> Result<Vec<Curve>, String> {
     let dark = body.sensor.as_ref().map(|s| s.parameters().charge.dark);
     let (dark, stated) = dark.and_then(|dark| Some((dark, dark.temperature?))).ok_or(
-        "the camera states no temperature of its dark current: give [sensor.dark] temperature_c and reference_c",
+        "the camera states no temperature of its dark current; give [sensor.dark] temperature_c and reference_c",
     )?;
     if let TemperatureLaw::Doubling { step_k } = stated.law {
         put("doubling_doubling_k", step_k, "K");
@@ -201,7 +201,7 @@ fn growth(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &s
 /// Red and blue coincide with green.
 fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Result<(), String> {
     if body.lens.spreads_colours() || body.front.is_some() {
-        let why = "what this lens does to colours has no closed form here: expected one without lateral_colour and [external_optics]";
+        let why = "the lateral colour of this lens has no closed form; expected a lens without lateral_colour and [external_optics]";
         return Err(why.to_owned());
     }
     for channel in ["red", "blue"] {

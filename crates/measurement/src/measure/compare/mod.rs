@@ -72,7 +72,7 @@ pub fn compare(request: &CompareRequest) -> Result<MeasurementComparison, Error>
     let names = [&request.a, &request.b].map(|f| f.display().to_string());
     contradictions(&a, &b).map_err(|words| Error::coded(ErrorCode::NotComparable, words))?;
     let mut report =
-        Report::new("compare", "two measurements side by side, E_n after ISO 13528 (± one standard uncertainty)");
+        Report::new("compare", "comparison of two measurements, E_n after ISO 13528 (± one standard uncertainty)");
     report.setting("a", names[0].clone());
     report.setting("b", names[1].clone());
     report.setting("difference", "a - b".to_owned());
@@ -91,23 +91,23 @@ fn family(kind: &str) -> &str {
 
 fn contradictions(a: &Side, b: &Side) -> Result<(), String> {
     if family(&a.kind) != family(&b.kind) {
-        return Err(format!("measurements of different kinds, {} and {}: expected two of one kind", a.kind, b.kind));
+        return Err(format!("measurements of different kinds, {} and {}; expected two of the same kind", a.kind, b.kind));
     }
     for (key, of_a) in &a.settings {
         if let Some(of_b) = b.settings.get(key).filter(|of_b| *of_b != of_a) {
             return Err(format!(
-                "{key}: {of_a} and {of_b}: what they measured does not mean the same; measure both with one"
+                "{key}: {of_a} and {of_b}: the quantities have different meanings; measure both with the same setting"
             ));
         }
     }
     for (key, of_a) in &a.quantities {
         if let Some(of_b) = b.quantities.get(key).filter(|of_b| of_b.unit != of_a.unit) {
-            return Err(format!("{key}: in '{}' and in '{}': expected one unit", of_a.unit, of_b.unit));
+            return Err(format!("{key}: units '{}' and '{}' differ; expected the same unit", of_a.unit, of_b.unit));
         }
     }
     let common = a.quantities.keys().any(|key| b.quantities.contains_key(key));
     let curves = a.curves.iter().any(|x| b.curves.iter().any(|y| x.name == y.name));
-    if common || curves { Ok(()) } else { Err("the two have no quantity in common: nothing to compare".to_owned()) }
+    if common || curves { Ok(()) } else { Err("the two measurements have no quantity in common".to_owned()) }
 }
 
 fn verdict(differs: Option<bool>) -> Cell {
@@ -251,9 +251,9 @@ fn curve_row(curve: &Curve, gaps: &[Gap], limit: f64) -> (Vec<Cell>, Option<bool
 fn x_axis(curve: &Curve) -> Axis {
     Axis::linear(match curve.abscissa {
         "field_percent" => "radial field position, % of the half diagonal",
-        "cycles_per_px" => "cycles a pixel",
+        "cycles_per_px" => "cycles per pixel",
         "reading_percent" => "reading, %",
-        "celsius" => "temperature of the sensor, °C",
+        "celsius" => "sensor temperature, °C",
         _ => "exposure",
     })
 }
@@ -279,7 +279,7 @@ fn error(a: &Curve, gaps: &[Gap]) -> Plot {
         Some((gap.x, 100.0 * gap.relative()?, 200.0 * u / gap.b.value.abs()))
     });
     Plot {
-        title: format!("{}: relative error of A against B (bars: 95 %)", a.name),
+        title: format!("{}: relative difference of A from B (bars: 95 %)", a.name),
         x: x_axis(a),
         y: Axis::linear("(A − B)/|B|, %").showing(&[0.0]),
         series: vec![Series::with_errors("", Mark::Points, points)],

@@ -48,15 +48,15 @@ pub(crate) fn declared(body: &CameraBody, measured: &Side, light: &str) -> Resul
 fn in_closed_form(body: &CameraBody) -> Result<(), String> {
     let thin = ["thin lens", "pinhole"].contains(&body.lens.kind());
     if !thin || body.effects.glare().is_some() || body.effects.ghosts().is_some() || body.front.is_some() {
-        return Err("the response of this lens has no closed form here: expected a thin lens or pinhole without glare, ghosts and [external_optics]"
+        return Err("the response of this lens has no closed form; expected a thin lens or pinhole without glare, ghosts and [external_optics]"
             .to_owned());
     }
     if body.sensor.as_ref().is_some_and(|s| s.parameters().voltage.capacitance.is_some()) {
-        return Err("the response has no closed form here where pixels have a capacitance between them".to_owned());
+        return Err("the response has no closed form with interpixel capacitance".to_owned());
     }
     match body.effects.psf() {
         Some(PointSpread::Aperture(psf)) if !is_plain(psf.parameters()) => {
-            Err("the response of this pupil has no closed form here: expected a circle without wavefront errors"
+            Err("the response of this pupil has no closed form; expected a circle without wavefront errors"
                 .to_owned())
         }
         _ => Ok(()),
@@ -77,7 +77,7 @@ impl<'a> Response<'a> {
         let mosaic = p.cfa.width() * p.cfa.height() > 1;
         if mosaic && measured.settings.get("readings").is_some_and(|readings| readings != "raw") {
             return Err(
-                "a developed picture of a mosaic has no closed form: measure a colour of the raw one (`channel`)"
+                "the response of a demosaiced image has no closed form; measure one colour of the raw image (`channel`)"
                     .to_owned(),
             );
         }

@@ -37,7 +37,7 @@ pub(crate) struct Side {
 pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<usize, String> {
     let names = || p.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
     let Some(name) = measured else {
-        let several = || format!("the pixels have colours ({}): measure one with `channel`", names());
+        let several = || format!("the pixels have colour filters ({}); choose one with `channel`", names());
         return if p.channels.len() == 1 { Ok(0) } else { Err(several()) };
     };
     let alike = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
@@ -62,7 +62,7 @@ pub(crate) struct Light {
 
 /// The light's spectrum.
 pub(crate) fn spectrum(light: &str) -> Result<&'static Spectrum, String> {
-    let unknown = || format!("`illuminant` {light}: give one of {}", illuminant::names().join(", "));
+    let unknown = || format!("`illuminant` {light}: expected one of {}", illuminant::names().join(", "));
     illuminant::named(light).ok_or_else(unknown)
 }
 

@@ -24,13 +24,13 @@ pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result
     match (is_camera(a), is_camera(b)) {
         (true, true) => Err(Error::coded(
             ErrorCode::NotComparable,
-            "measure compare: two camera files: at least one side must be a measurement (the output of `json`)",
+            "measure compare: both sides are camera files; at least one must be a measurement (the output of `json`)",
         )),
         (true, false) => measurement(b).and_then(|b| Ok([declaration(a, &b)?, b])),
         (false, true) => measurement(a).and_then(|a| Ok([a.clone(), declaration(b, &a)?])),
         (false, false) => {
             if light.wavelength_nm.is_some() || light.illuminant.is_some() || !set.is_empty() {
-                let told = "`wavelength_nm`, `illuminant` and `set` belong to a camera file, and neither side is one";
+                let told = "`wavelength_nm`, `illuminant` and `set` apply to camera files only, and neither side is one";
                 return Err(Error::argument("wavelength_nm", told));
             }
             Ok([measurement(a)?, measurement(b)?])

@@ -99,7 +99,7 @@ fn developed(
         Some("R") => Ok(of([1.0, 0.0, 0.0])),
         Some("G") => Ok(of([0.0, 1.0, 0.0])),
         Some("B") => Ok(of([0.0, 0.0, 1.0])),
-        Some(other) => Err(format!("the picture has no channel '{other}' of which the camera file declares a curve")),
+        Some(other) => Err(format!("the image has no channel '{other}', for which the camera file states a curve")),
         None => Ok(of(BT709)),
     }
 }
@@ -112,27 +112,27 @@ impl<'a> Tone<'a> {
         let even_s = sensor.parameters().even_smear_s(body.raster.height());
         let smear_s = even_s * of_column(sensor, development, measured, light)?;
         if smear_s > 0.0 && measured.settings.get("exposure_unit").is_some_and(|unit| !unit.is_empty()) {
-            return Err("of a camera with smear, whose light counts by time, give exposures in seconds (`exposures`)"
+            return Err("the camera has smear, which depends on time; give the exposures in seconds (`exposures`)"
                 .to_owned());
         }
         match measured.settings.get("readings").map_or("", String::as_str) {
             "raw" if sensor.parameters().read_out.response == Response::Linear => {
                 Ok(Self { black: sensor.black_level_dn(), white: sensor.white_level_dn(), smear_s, development: None })
             }
-            "raw" => Err("the sensor's response is no straight line: of raw readings only that is declared".to_owned()),
+            "raw" => Err("the sensor's response is not linear; for raw readings only a linear response can be compared".to_owned()),
             "picture" => {
                 let development =
-                    body.development.as_ref().ok_or("the camera has no [isp], of which a picture tells")?;
+                    body.development.as_ref().ok_or("the camera has no [isp], to which a developed image would be compared")?;
                 let largest =
-                    measured.quantities.get("full_scale").ok_or("the measurement does not say its full scale")?;
+                    measured.quantities.get("full_scale").ok_or("the measurement does not state its full scale")?;
                 Ok(Self { black: 0.0, white: largest.value, smear_s, development: Some(development) })
             }
             "decoded" => {
-                Err("the measured readings were decoded before (`encoding`): the camera's curve is no longer in them"
+                Err("the measured readings were decoded (`encoding`), which removed the camera's curve"
                     .to_owned())
             }
             _ => {
-                Err("the measurement does not say whether it is of raw readings or of a picture: measure again"
+                Err("the measurement does not state whether its readings are raw or developed; repeat the measurement"
                     .to_owned())
             }
         }
@@ -161,7 +161,7 @@ impl<'a> Tone<'a> {
         let along: f64 = used().map(|(x, y)| (x + self.smear_s) * self.light(y.value)).sum();
         let squares: f64 = used().map(|(x, _)| (x + self.smear_s) * (x + self.smear_s)).sum();
         if squares <= 0.0 {
-            return Err("no exposure reads between 5 % and 95 % of the range: the curve's form is not seen".to_owned());
+            return Err("no exposure reads between 5 % and 95 % of the range, so the shape of the curve is not determined".to_owned());
         }
         let point = |(x, _): &(f64, Estimate)| {
             let noise = measured.noise.iter().find(|(there, _)| there == x).map_or(0.0, |(_, noise)| *noise);

@@ -28,7 +28,7 @@ pub(super) fn body(request: &LensRequest) -> Result<Told, Error> {
             None => compiled(request, given, None),
             Some(_) => Err(Error::argument(
                 "picture_radius_mm",
-                "`picture_radius_mm`: a camera file's sensor says how large the picture is",
+                "`picture_radius_mm`: the sensor of a camera file determines the image size; leave it out",
             )
             .with_code(ErrorCode::NoEffect)),
         };

@@ -43,7 +43,7 @@ pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
         return Err(Error::argument(
             "wavelength_nm",
             format!(
-                "`wavelength_nm`: a lens that is no prescription ({kind}) has first-order figures of one wavelength alone; leave it out"
+                "`wavelength_nm`: a lens without a prescription ({kind}) has first-order figures at one wavelength only; leave it out"
             ),
         ).with_code(ErrorCode::NoEffect));
     }
@@ -246,8 +246,8 @@ fn bundles_text(fields: &[FieldReport]) -> String {
         return rows;
     }
     format!(
-        "\nfurther bundles: light of a field point that passes the lens beside the spot's; it is in the picture, at another place\n\
-         height   light     at        spot rms\nmm       of spot   mm        µm\n{rows}"
+        "\nfurther bundles: light of a field point that takes another path through the lens; it reaches the image at another \
+         position\nheight   light     at        spot rms\nmm       of spot   mm        µm\n{rows}"
     )
 }
 

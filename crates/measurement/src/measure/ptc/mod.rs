@@ -36,7 +36,7 @@ pub fn ptc(request: &PtcRequest, observer: &dyn Observer) -> Result<Report, Erro
 
 /// Encoding of a descriptor's images, from the first of them.
 fn stated(selection: &Selection, descriptor: &EmvaDescriptor) -> Result<Stated, Error> {
-    let first = descriptor.levels.iter().find_map(|level| level.files.first()).expect("a descriptor has pictures");
+    let first = descriptor.levels.iter().find_map(|level| level.files.first()).expect("a descriptor has images");
     let photograph = selection.encoding.photograph(first)?;
     Ok(selection.encoding.raw(first, photograph)?.stated)
 }

@@ -25,8 +25,8 @@ fn transfer_plot(found: &Found) -> Plot {
     let end = data.signal_dn(data.sensitivity_end() - 1);
     Plot {
         title: "photon transfer (bars: 95 %)".to_owned(),
-        x: Axis::linear("mean less dark mean, DN").showing(&[0.0]),
-        y: Axis::linear("temporal variance less that of the dark, DN²").showing(&[0.0]),
+        x: Axis::linear("mean minus dark mean, DN").showing(&[0.0]),
+        y: Axis::linear("temporal variance minus dark variance, DN²").showing(&[0.0]),
         series: vec![
             Series::with_errors("measured", Mark::Points, (0..data.bright().len()).map(excess)),
             Series::new("K, fitted up to 70 % of saturation", Mark::Line, [(0.0, 0.0), (end, gain * end)]),
@@ -53,7 +53,7 @@ fn snr_plot(found: &Found) -> Plot {
         let (dsnu, prnu) = (fixed.patterns.dsnu_e.total.value, fixed.patterns.prnu.total.value);
         series.push(Series::new("with DSNU and PRNU", Mark::Broken, (0..=60).map(light).map(model(dsnu, prnu))));
     }
-    Plot { title: "signal-to-noise ratio".to_owned(), x: Axis::log("photons a pixel"), y: Axis::log("SNR"), series }
+    Plot { title: "signal-to-noise ratio".to_owned(), x: Axis::log("photons per pixel"), y: Axis::log("SNR"), series }
 }
 
 fn linearity_plot(data: &TransferData) -> Plot {
@@ -61,7 +61,7 @@ fn linearity_plot(data: &TransferData) -> Plot {
     let points = data.linearity_range().map(|i| (data.bright()[i].photons, 100.0 * deviations[i]));
     Plot {
         title: "deviation from a straight line, 5 to 95 % of saturation".to_owned(),
-        x: Axis::linear("photons a pixel").showing(&[0.0]),
+        x: Axis::linear("photons per pixel").showing(&[0.0]),
         y: Axis::linear("deviation, %").showing(&[0.0]),
         series: vec![Series::new("", Mark::Points, points)],
     }
@@ -75,7 +75,7 @@ fn spectrogram_plot(title: &str, stack: &Stack) -> Plot {
     };
     Plot {
         title: title.to_owned(),
-        x: Axis::linear("cycles a pixel"),
+        x: Axis::linear("cycles per pixel"),
         y: Axis::log("amplitude, DN"),
         series: vec![
             Series::new("along rows", Mark::Line, line(spatial::horizontal(&average, stack.width()))),

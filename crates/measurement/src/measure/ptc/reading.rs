@@ -101,7 +101,7 @@ impl Reading<'_> {
             waiting = read?;
         }
         add(&mut stack, &waiting)?;
-        Ok(stack.expect("a described level has pictures"))
+        Ok(stack.expect("a described level has images"))
     }
 
     fn images<'f>(&self, files: &'f [PathBuf]) -> Result<Vec<(&'f Path, Image)>, Error> {
@@ -139,7 +139,7 @@ impl Reading<'_> {
         });
         let advice = match shifted {
             Some(shift) => format!(
-                "all are multiples of {}: store the numbers in the lower {bits} bits, or write \"n {} …\" for numbers of {} bits",
+                "all are multiples of {}; store the numbers in the lower {bits} bits, or write \"n {} …\" for numbers of {} bits",
                 1 << shift,
                 bits + shift,
                 bits + shift
@@ -149,7 +149,7 @@ impl Reading<'_> {
         Err(Error::coded(
             ErrorCode::Contradiction,
             format!(
-                "{}: readings up to {greatest}, where the descriptor says {bits} bits, which end at {}; {advice}",
+                "{}: readings up to {greatest} exceed the {bits} bits of the descriptor, which end at {}; {advice}",
                 file.display(),
                 full
             ),
@@ -170,14 +170,14 @@ impl Reading<'_> {
             _ => {
                 return Err(Error::coded(
                     ErrorCode::WrongCount,
-                    "stacks of more than two pictures: expected one with light and one without, of one exposure time",
+                    "stacks of more than two images: expected one with light and one without, of equal exposure time",
                 ));
             }
         };
         if stacks.len() > 2 || dark.exposure_s != bright.exposure_s {
             return Err(Error::coded(
                 ErrorCode::WrongCount,
-                "stacks of more than two pictures: expected two, of one exposure time",
+                "stacks of more than two images: expected two, of equal exposure time",
             ));
         }
         let (dark, bright) = (self.stack(dark)?, self.stack(bright)?);

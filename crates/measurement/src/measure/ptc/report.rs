@@ -17,10 +17,10 @@ pub(crate) fn report(request: &PtcRequest, found: &Found) -> Report {
         nonuniformities(&mut report, &fixed.patterns);
     } else {
         report
-            .note("DSNU and PRNU need stacks of more than two pictures: one without light, one at half of saturation");
+            .note("DSNU and PRNU need stacks of more than two images: one without light and one at half of saturation");
     }
     if !found.data.saturation_reached() {
-        report.note("the variance does not fall at the brightest level: saturation lies at or above it; capacity, SNR and dynamic range are lower bounds");
+        report.note("the variance does not fall at the brightest level, so saturation is at or above it; capacity, SNR and dynamic range are lower bounds");
     }
     if found.data.dark().len() < 3 {
         report.note("the dark current needs dark levels of at least three exposure times");
@@ -59,11 +59,11 @@ fn figures(report: &mut Report, f: &Figures, relative: bool) {
         ("linearity_error_percent", "linearity error LE", f.linearity_error),
         (
             "linearity_error_of_noise_percent",
-            "linearity error of a straight sensor, by noise",
+            "linearity error of a linear sensor due to noise",
             f.linearity_error_of_noise,
         ),
-        ("linearity_error_min_percent", "linearity error, least", f.linearity_error_min),
-        ("linearity_error_max_percent", "linearity error, most", f.linearity_error_max),
+        ("linearity_error_min_percent", "linearity error, minimum", f.linearity_error_min),
+        ("linearity_error_max_percent", "linearity error, maximum", f.linearity_error_max),
     ] {
         report.fact(key, label, "%", 100.0 * value);
     }

@@ -57,11 +57,11 @@ pub(crate) struct Fixed {
 pub(super) fn tell(report: &mut Report, fixed: &Fixed) {
     let dark = Deviations::of_dark(&fixed.dark);
     let response = Deviations::of_response(&fixed.dark, &fixed.bright);
-    report.fact("dsnu_sigma_dn", "deviation of most pixels in the dark", "DN", dark.sigma);
+    report.fact("dsnu_sigma_dn", "deviation of most pixels without light", "DN", dark.sigma);
     report.fact("prnu_sigma_percent", "deviation of most pixels' responses", "%", response.sigma);
     let kinds = [
-        (["dsnu_histogram", "dsnu_accumulated"], "without light", "off the mean, DN", dark),
-        (["prnu_histogram", "prnu_accumulated"], "of the response", "off the mean response, %", response),
+        (["dsnu_histogram", "dsnu_accumulated"], "without light", "deviation from the mean, DN", dark),
+        (["prnu_histogram", "prnu_accumulated"], "of the response", "deviation from the mean response, %", response),
     ];
     for ([histogram, accumulated], title, axis, found) in kinds {
         report.table_if(false, counts(histogram, &found));
@@ -80,7 +80,7 @@ fn counts(key: &'static str, found: &Deviations) -> Table {
 
 fn shares(key: &'static str, found: &Deviations) -> Table {
     let row = |(x, share): &(f64, f64)| vec![Cell::Number(*x, 4), Cell::Number(100.0 * share, 6)];
-    let columns = vec![("deviation", "deviation"), ("farther_percent", "farther %")];
+    let columns = vec![("deviation", "deviation"), ("farther_percent", "larger deviation %")];
     Table { key, columns, rows: found.accumulated.iter().map(row).collect() }
 }
 
@@ -93,7 +93,7 @@ fn logarithmic(title: &str, axis: &str, found: &Deviations) -> Plot {
     Plot {
         title: format!("pixels by deviation {title}"),
         x: Axis::linear(axis).showing(&[0.0]),
-        y: Axis::log("pixels a bin"),
+        y: Axis::log("pixels per bin"),
         series: vec![Series::new("counted", Mark::Points, counted), Series::new("normal", Mark::Broken, normal)],
     }
 }
@@ -101,7 +101,7 @@ fn logarithmic(title: &str, axis: &str, found: &Deviations) -> Plot {
 fn cumulative(title: &str, axis: &str, found: &Deviations) -> Plot {
     let shares = found.accumulated.iter().filter(|(_, share)| *share > 0.0).map(|(x, share)| (*x, 100.0 * share));
     Plot {
-        title: format!("pixels farther off {title}"),
+        title: format!("pixels with larger deviation {title}"),
         x: Axis::linear(axis).showing(&[0.0]),
         y: Axis::log("pixels, %"),
         series: vec![Series::new("", Mark::Line, shares)],

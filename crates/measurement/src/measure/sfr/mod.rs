@@ -40,7 +40,7 @@ pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Erro
     if readings.period.0 != readings.period.1 {
         return Err(refused(
             &request.picture,
-            "its filters repeat at other steps along rows than along columns: measure the developed picture",
+            "its filters repeat at different steps along rows and columns; measure the developed image",
         ));
     }
     let truth = request.input.truth(&CHARTS, &request.picture, &readings)?;

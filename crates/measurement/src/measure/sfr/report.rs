@@ -21,7 +21,7 @@ pub(super) fn report(
         report.setting("channel", channel.clone());
     }
     report.note(format!(
-        "frequencies in cycles a pixel of the picture; acutance seen at {} pixels a degree",
+        "frequencies in cycles per pixel of the image; acutance viewed at {} pixels per degree",
         request.pixels_per_degree
     ));
     shading(&mut report, request, found);
@@ -55,8 +55,8 @@ fn shading(report: &mut Report, request: &SfrRequest, found: &[Found<'_>]) {
         let count = found.iter().filter(|one| one.sfr.shading > UNEVEN).count();
         let next = request.shading_degree + 1;
         report.note(format!(
-            "the sides of {count} of {} edges may slope: `shading_degree` {next} changes the response by up to {most:.3}, and the \
-             uncertainty covers that",
+            "the levels on the sides of {count} of {} edges may not be constant: `shading_degree` {next} changes the response by \
+             up to {most:.3}, which the uncertainty includes",
             found.len()
         ));
     }
@@ -195,7 +195,7 @@ fn points(curve: &[SfrPoint]) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
 fn response_plot(series: Vec<Series>) -> Plot {
     Plot {
         title: "spatial frequency response (bars: 95 %)".to_owned(),
-        x: Axis::linear("cycles a pixel"),
+        x: Axis::linear("cycles per pixel"),
         y: Axis::linear("response").showing(&[0.0, 1.0]),
         series,
     }

@@ -24,7 +24,7 @@ pub(super) const SHADING_DEGREES: RangeInclusive<u8> = 0..=2;
 #[derive(Args, Clone, Debug)]
 pub struct SfrRequest {
     /// Image of one or more slanted edges
-    #[arg(value_name = "PICTURE")]
+    #[arg(value_name = "IMAGE")]
     pub picture: PathBuf,
     /// Part of the image that contains one edge: left column, top row, width, height; once per edge [default: all of it]
     #[arg(long = "edge", value_name = "X,Y,W,H", value_parser = region, conflicts_with = "truth")]
@@ -136,7 +136,7 @@ pub(super) fn failure(request: &SfrRequest, sought: &Sought, error: &SfrError) -
 pub(super) fn shading_hint(request: &SfrRequest, error: &SfrError) -> &'static str {
     match error {
         SfrError::NoEdge(_) if request.shading_degree == 0 => {
-            "; where light falls off along the surfaces, `shading_degree` 1 takes that off"
+            "; if the illumination falls off along the surfaces, `shading_degree` 1 corrects it"
         }
         _ => "",
     }

@@ -61,7 +61,7 @@ impl Truth {
         let refused = |what: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {what}", file.display()));
         if !charts.contains(&said.chart.as_str()) {
             let wanted = charts.join(", ");
-            return Err(refused(format!("the truth of the chart {}; this measurement takes {wanted}", said.chart)));
+            return Err(refused(format!("ground truth of the chart {}; this measurement accepts {wanted}", said.chart)));
         }
         let named = |c: &CameraSaid| camera.is_none_or(|name| c.name == name) && (camera.is_some() || !c.dark);
         let camera = said.cameras.iter().position(named).ok_or_else(|| {
@@ -94,12 +94,11 @@ impl Truth {
         if (width, height) == (columns, rows) {
             return Ok(());
         }
-        let turned = if (height, width) == (columns, rows) { ", nor turned by 90°" } else { "" };
+        let changed = if (height, width) == (columns, rows) { "cropped, scaled or rotated by 90°" } else { "cropped or scaled" };
         Err(Error::coded(
             ErrorCode::NotComparable,
             format!(
-                "{}: {width} × {height} pixels, where the camera '{}' of {} takes {columns} × {rows}: give its whole picture, neither \
-             cut nor scaled{turned}",
+                "{}: {width} × {height} pixels, but the camera '{}' of {} has {columns} × {rows}; give its full image, not {changed}",
                 picture.display(),
                 camera.name,
                 self.file.display()
@@ -118,7 +117,7 @@ impl Truth {
         let [w, h] = self.seen().picture_px.map(|n| n as f64);
         let side = |share: f64| [share * w, share * h];
         pixels(side(0.5 - 0.5 * MIDDLE), side(0.5 + 0.5 * MIDDLE), readings.picture_px.0, readings.picture_px.1)
-            .ok_or_else(|| self.refused("the picture is too small"))
+            .ok_or_else(|| self.refused("the image is too small"))
     }
 
     /// Refuses a sheet that does not fill the camera's view.
@@ -126,7 +125,7 @@ impl Truth {
         match self.said.seen.fills_the_field {
             true => Ok(()),
             false => {
-                Err(self.refused("the camera sees past the sheet's edge: measure a `region` of it, without `truth`"))
+                Err(self.refused("the sheet does not fill the camera's view; measure a `region` of it, without `truth`"))
             }
         }
     }
@@ -156,7 +155,7 @@ impl Truth {
             }
         }
         if found.is_empty() {
-            return Err(self.refused("no patch is whole in the picture and large enough to be measured"));
+            return Err(self.refused("no patch is entirely in the image and large enough to be measured"));
         }
         Ok((found, left_out))
     }
@@ -196,14 +195,14 @@ impl Truth {
         };
         let found: Vec<TrapPlace> = self.seen().patches_px.iter().filter_map(trap).collect();
         if found.is_empty() {
-            return Err(self.refused("no trap is whole in the picture and large enough, with white beside it"));
+            return Err(self.refused("no trap is entirely in the image, large enough and next to white"));
         }
         Ok(found)
     }
 
     /// The Siemens star.
     pub(crate) fn star(&self) -> Result<StarPlace, Error> {
-        let lacks = || self.refused("the star is not wholly in the picture");
+        let lacks = || self.refused("the star is not entirely in the image");
         let feature = |kind: &str| self.seen_features().find(|(f, _)| f.kind == kind).map(|(_, points)| points);
         let (centre, rim) = (feature("centre").ok_or_else(lacks)?[0], feature("rim").ok_or_else(lacks)?);
         let ground = self.seen().patches_px.first().and_then(|places| whole(places)).ok_or_else(lacks)?;
@@ -232,7 +231,7 @@ impl Truth {
         };
         let spokes: Vec<Sought> = seen.iter().filter(|(f, _)| f.kind == "edge").filter_map(spoke).collect();
         if spokes.is_empty() {
-            return Err(self.refused("the camera sees no whole star of this chart"));
+            return Err(self.refused("no star of this chart is entirely in the image"));
         }
         Ok(spokes)
     }
@@ -248,7 +247,7 @@ impl Truth {
         let edges = self.seen_features().filter(|(f, _)| f.kind == "edge");
         let regions: Vec<[usize; 4]> = edges.filter_map(|(_, ends)| region(&ends, readings)).collect();
         if regions.is_empty() {
-            return Err(self.refused("the camera sees no whole edge of this chart"));
+            return Err(self.refused("no edge of this chart is entirely in the image"));
         }
         Ok(regions)
     }

@@ -127,11 +127,11 @@ type Turned = fn([usize; 4], (usize, usize)) -> [usize; 4];
 const UPRIGHT: [(&str, Turned); 3] = [
     ("mirrored left to right", |[x, y, w, h], (width, _)| [width - x - w, y, w, h]),
     ("mirrored top to bottom", |[x, y, w, h], (_, height)| [x, height - y - h, w, h]),
-    ("turned by 180°", |[x, y, w, h], (width, height)| [width - x - w, height - y - h, w, h]),
+    ("rotated by 180°", |[x, y, w, h], (width, height)| [width - x - w, height - y - h, w, h]),
 ];
 const SQUARE: [(&str, Turned); 4] = [
-    ("turned by 90° clockwise", |[x, y, w, h], (width, _)| [width - y - h, x, h, w]),
-    ("turned by 90° anticlockwise", |[x, y, w, h], (_, height)| [y, height - x - w, h, w]),
+    ("rotated by 90° clockwise", |[x, y, w, h], (width, _)| [width - y - h, x, h, w]),
+    ("rotated by 90° anticlockwise", |[x, y, w, h], (_, height)| [y, height - x - w, h, w]),
     ("mirrored about its diagonal", |[x, y, w, h], _| [y, x, h, w]),
     ("mirrored about its other diagonal", |[x, y, w, h], (width, height)| [width - y - h, height - x - w, h, w]),
 ];
@@ -160,11 +160,11 @@ pub(super) fn wrong(patches: &[Patch], readings: &Readings) -> Option<String> {
     let best = others.reduce(|a, b| if b.1 > a.1 { b } else { a });
     match best {
         Some((words, other)) if other >= AGREES => Some(format!(
-            "is {words}: only so do its patches rise with the luminances of the chart's truth; give the picture as the camera takes it"
+            "is {words}: only then do its readings increase with the luminances of the chart's ground truth; give the image as captured"
         )),
         _ if own < UNLIKE => Some(
-            "does not show this chart: its readings at the places of the patches do not rise with the luminances of the chart's truth; give the picture that belongs \
-             to it"
+            "does not show this chart: its readings at the patches do not increase with the luminances of the chart's ground \
+             truth; give the image of this chart"
                 .to_owned(),
         ),
         _ => None,
@@ -226,7 +226,7 @@ mod tests {
         };
         assert_eq!(at("mirrored left to right"), [16, 2, 3, 4]);
         // Clockwise: the top row becomes the last column.
-        assert_eq!(at("turned by 90° clockwise"), [14, 1, 4, 3]);
-        assert_eq!(at("turned by 90° anticlockwise"), [2, 16, 4, 3]);
+        assert_eq!(at("rotated by 90° clockwise"), [14, 1, 4, 3]);
+        assert_eq!(at("rotated by 90° anticlockwise"), [2, 16, 4, 3]);
     }
 }

@@ -86,7 +86,7 @@ pub(crate) fn read(file: &Path) -> Result<Said, Error> {
     let refused = |cause: serde_json::Error| {
         Error::coded(
             ErrorCode::MalformedFile,
-            format!("{}: no truth of a chart ({cause}): draw the chart with this program", file.display()),
+            format!("{}: not the ground truth of a chart ({cause}); expected a truth.json of etendue chart", file.display()),
         )
     };
     let said: Said = serde_json::from_str(&text).map_err(refused)?;

@@ -42,8 +42,8 @@ impl ViewsRequest {
         widen(&mut found, &sightings, self.model.family(), about(size))?;
         let px = MIDDLE * size[0].max(size[1]) as f64;
         found.notes.push(format!(
-            "one picture: the principal point is taken for the picture's middle, ± {px:.1} px in each direction, and the lens for one of this \
-             model or nearly so, which is in the ±; pixels are taken for square, which is in no ±"
+            "single image: the principal point is assumed at the image centre, ± {px:.1} px in each direction, and the lens to \
+             follow this model approximately, both included in the ±; pixels are assumed square, which is not included in the ±"
         ));
         Ok(found)
     }
@@ -92,7 +92,7 @@ impl ViewsRequest {
             (None, Some(error)) => Err(error),
             (None, None) => Err(Error::coded(
                 ErrorCode::NotMeasurable,
-                "every camera model folds the picture over: add views that fill it",
+                "every camera model folds the image over; add views that fill it",
             )),
         }
     }
@@ -109,7 +109,7 @@ impl ViewsRequest {
         let size = views[0].size_px;
         let spared = calibrate_rejecting_outliers(&sightings, size, model.family(), options);
         let spared = spared.map_err(|error| Error::coded(ErrorCode::NotMeasurable, of_files(&error, views)))?;
-        let left_out = |file: &Path, why: &dyn Display| format!("warning: {}: left out: {why}", file.display());
+        let left_out = |file: &Path, why: &dyn Display| format!("warning: {}: omitted: {why}", file.display());
         let mut notes: Vec<String> = without.iter().map(|(file, why)| left_out(file, why)).collect();
         notes.extend(spared.left_out.iter().map(|(v, why)| left_out(&views[*v].file, why)));
         let views: Vec<Seen> = spared.kept.iter().map(|v| views[*v].clone()).collect();
@@ -205,7 +205,7 @@ impl Found {
     /// If the camera folds over inside its image.
     pub(crate) fn camera_file(&self, verb: &str, pixel_pitch_um: f64, f_number: Option<f64>) -> Result<String, Error> {
         let refused =
-            |folds| Error::coded(ErrorCode::UnusableLens, format!("no camera file of this, figures only: {folds}"));
+            |folds| Error::coded(ErrorCode::UnusableLens, format!("no camera file can be written, only figures: {folds}"));
         self.camera.calibration.check().map_err(refused)?;
         let [width, height] = self.camera.calibration.size_px().map(|n| n as u64);
         let view = View::Projection(Box::new(stated_projection(&self.camera.calibration)));
@@ -215,11 +215,11 @@ impl Found {
         let views = if count == 1 { "view" } else { "views" };
         let rms_px = self.camera.rms_px();
         let about =
-            format!("Found by etendue {verb} from {count} {views}; points lie {rms_px:.4} px (rms) from the fit.");
+            format!("Measured by etendue {verb} from {count} {views}; points lie {rms_px:.4} px (rms) from the fit.");
         let file = File::new(camera.to_table()).head(about);
         Ok(match f_number {
             Some(_) => file,
-            None => file.beside("lens.f_number", "a stand-in: not measured"),
+            None => file.beside("lens.f_number", "a placeholder: not measured"),
         }
         .to_string())
     }

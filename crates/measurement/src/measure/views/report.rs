@@ -32,23 +32,24 @@ impl Found {
                 report.figure(&p.name.replace("_px", "_mm"), p.name.trim_end_matches("_px"), "mm", mm);
             }
         }
-        report.fact("rms_px", "distance of points from the fit, rms", "px", self.camera.rms_px());
+        report.fact("rms_px", "rms distance of points from the fit", "px", self.camera.rms_px());
         report.fact("sigma_px", "standard deviation of a coordinate", "px", self.camera.sigma_px);
         let freedom = self.camera.degrees_of_freedom as f64;
         report.fact("degrees_of_freedom", "degrees of freedom", "", freedom);
-        report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are less by 0.5); ± one standard uncertainty");
+        report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are smaller by 0.5); ± one standard uncertainty");
         if let Some(distance) = request.distance().filter(|_| request.distance_uncertainty_mm.is_none()) {
             report.note(format!(
-                "the distance is taken as known to the digits that are stated, {} mm: state `distance_uncertainty_mm`",
+                "the distance is assumed known to its stated digits, {} mm; otherwise state `distance_uncertainty_mm`",
                 with_uncertainty(distance)
             ));
         }
-        report.note("the pitch is taken as exact: its relative error is that of distances");
+        report.note("the pitch is assumed exact; distances have its relative error");
         self.notes.iter().for_each(|note| report.note(note.clone()));
         if let Err(CalibrationError::Fold { radius_px, .. }) = self.camera.calibration.check() {
             report.note(format!(
-                "the fitted model folds the picture over {radius_px:.1} px from the principal point, farther out than the views \
-                 determine it: it is no camera file; add views that fill the picture, or fit a model of fewer coefficients"
+                "the fitted model folds the image over {radius_px:.1} px from the principal point, beyond the region that the \
+                 views determine, so it is not written as a camera file; add views that fill the image, or fit a model of fewer \
+                 coefficients"
             ));
         }
         report.table(self.table());
@@ -118,7 +119,7 @@ impl Found {
                 ("x_px", "x px"),
                 ("y_px", "y px"),
                 ("uncertainty_px", "± px"),
-                ("fitted_less_seen_x_px", "fitted less seen x px"),
+                ("fitted_less_seen_x_px", "fitted minus observed x px"),
                 ("fitted_less_seen_y_px", "y px"),
             ],
             rows: self.views.iter().enumerate().flat_map(of_view).collect(),
@@ -128,7 +129,7 @@ impl Found {
     fn residuals(&self) -> Plot {
         let points = self.camera.residuals_px.iter().flatten().map(|r| (r.x, r.y));
         Plot {
-            title: "Fitted less seen".to_owned(),
+            title: "Fitted minus observed".to_owned(),
             x: Axis::linear("columns, px").showing(&[0.0]),
             y: Axis::linear("rows, px").showing(&[0.0]),
             series: vec![Series::new("points", Mark::Points, points)],
