@@ -101,9 +101,8 @@ fn check_stated(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<(), Error> {
         if let (Some(of_a), Some(of_b)) = (stated(a), stated(b))
             && of_a != of_b
         {
-            let what = format!(
-                "the {fact} is \"{of_b}\", that of the other file \"{of_a}\"; compare files of the same kind"
-            );
+            let what =
+                format!("the {fact} is \"{of_b}\", that of the other file \"{of_a}\"; compare files of the same kind");
             return Err(Error::coded(ErrorCode::NotComparable, path, what));
         }
     }
@@ -122,8 +121,12 @@ fn check_channels(path: &Path, of_a: &[&str], of_b: &[&str]) -> Result<(), Error
         (true, false) if is_variance(&surplus) => {
             "has variances, but the other file has none; render both with output.variance, or both without".to_owned()
         }
-        (false, true) => format!("lacks channels of the other file: {}; compare files of the same kind", a_few(&lacking)),
-        (true, false) => format!("has channels that the other file lacks: {}; compare files of the same kind", a_few(&surplus)),
+        (false, true) => {
+            format!("lacks channels of the other file: {}; compare files of the same kind", a_few(&lacking))
+        }
+        (true, false) => {
+            format!("has channels that the other file lacks: {}; compare files of the same kind", a_few(&surplus))
+        }
         (false, false) => {
             format!(
                 "has the channels {} instead of {}; compare files of the same kind",
@@ -189,7 +192,8 @@ fn check_size(path: &Path, a: [usize; 2], b: [usize; 2]) -> Result<(), Error> {
     if a == b {
         return Ok(());
     }
-    let what = format!("has {} × {} pixels, the other file {} × {}; compare images of the same size", b[0], b[1], a[0], a[1]);
+    let what =
+        format!("has {} × {} pixels, the other file {} × {}; compare images of the same size", b[0], b[1], a[0], a[1]);
     Err(Error::coded(ErrorCode::NotComparable, path, what))
 }
 
@@ -198,7 +202,11 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
     let (width, height) = (x.width as usize, x.height as usize);
     check_size(b, [width, height], [y.width as usize, y.height as usize])?;
     if kind(&x.pixels) != kind(&y.pixels) {
-        let what = format!("contains {}, the other file {}; compare images of the same kind", kind(&y.pixels), kind(&x.pixels));
+        let what = format!(
+            "contains {}, the other file {}; compare images of the same kind",
+            kind(&y.pixels),
+            kind(&x.pixels)
+        );
         return Err(Error::coded(ErrorCode::NotComparable, b, what));
     }
     let (of_a, of_b) = (channels_of(&x.pixels), channels_of(&y.pixels));

@@ -228,7 +228,9 @@ mod tests {
         let many = shown(1234);
         assert_eq!(many.lines().count(), 51);
         assert!(
-            many.ends_with("error[malformed-file]: fault 49\nand 1184 more; 1234 errors in total; nothing was written\n"),
+            many.ends_with(
+                "error[malformed-file]: fault 49\nand 1184 more; 1234 errors in total; nothing was written\n"
+            ),
             "{many}"
         );
     }

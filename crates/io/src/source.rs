@@ -37,11 +37,9 @@ fn explained(file: &Path, what: &str, read: std::io::Result<Vec<u8>>) -> Result<
             Error::missing(file, "this is a folder; give a file in it").with_code(ErrorCode::UnreadableFile)
         }
         ErrorKind::InvalidInput | ErrorKind::FileTooLarge => Error::coded(code_of(&cause), file, cause.to_string()),
-        ErrorKind::PermissionDenied => Error::coded(
-            ErrorCode::UnreadableFile,
-            file,
-            format!("this {what} file cannot be read: permission denied"),
-        ),
+        ErrorKind::PermissionDenied => {
+            Error::coded(ErrorCode::UnreadableFile, file, format!("this {what} file cannot be read: permission denied"))
+        }
         _ => Error::coded(ErrorCode::UnreadableFile, file, format!("this {what} file cannot be read: {cause}")),
     })?;
     if bytes.is_empty() {
@@ -64,8 +62,7 @@ fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), P
     let metadata = std::fs::metadata(file)?;
     let kind = metadata.file_type();
     if !kind.is_file() && !kind.is_dir() {
-        let message =
-            format!("this is {}, not a regular file; save its content as a file and give that", word(kind));
+        let message = format!("this is {}, not a regular file; save its content as a file and give that", word(kind));
         return Err(std::io::Error::new(ErrorKind::InvalidInput, message));
     }
     let too_large = |message: Problem| std::io::Error::new(ErrorKind::FileTooLarge, message.words);
@@ -106,7 +103,8 @@ pub(crate) fn decode_lens_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'
     let wide = |unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
         let text = String::from_utf16(&units);
-        text.map(Cow::Owned).map_err(|_| Error::new(file, "begins as UTF-16 text, but is not valid UTF-16; save the file as UTF-8"))
+        text.map(Cow::Owned)
+            .map_err(|_| Error::new(file, "begins as UTF-16 text, but is not valid UTF-16; save the file as UTF-8"))
     };
     match bytes {
         [0xff, 0xfe, ..] => wide(u16::from_le_bytes),

@@ -141,9 +141,9 @@ fn missing(names: &[&str], wanted: &[&str]) -> String {
 
 fn read_csv(file: &Path, text: &str) -> Result<Read, Error> {
     let mut rows = rows(text);
-    let head = rows
-        .next()
-        .ok_or_else(|| Error::coded(ErrorCode::Empty, file, "contains no row; expected a line of column names first"))?;
+    let head = rows.next().ok_or_else(|| {
+        Error::coded(ErrorCode::Empty, file, "contains no row; expected a line of column names first")
+    })?;
     let columns = Columns::of(&head.cells).map_err(|what| Error::at(file, head.line, what))?;
     let unread = head.cells.iter().filter(|name| !is_known(name)).map(|name| (*name).to_owned()).collect();
     let read_csv = rows.map(|row| {
@@ -283,10 +283,7 @@ mod tests {
         );
         assert!(message("a.csv", "0,1,2,3\n").starts_with("a.csv:1: missing time_s, x_m, y_m, z_m;"));
         assert!(message("a.csv", "time_s,x_m,y_m,z_m,qw,qx\n").starts_with("a.csv:1: missing qy, qz;"));
-        assert!(
-            message("a.csv", "time_s,x_m,y_m,z_m,yaw_deg\n")
-                .starts_with("a.csv:1: missing pitch_deg, roll_deg;")
-        );
+        assert!(message("a.csv", "time_s,x_m,y_m,z_m,yaw_deg\n").starts_with("a.csv:1: missing pitch_deg, roll_deg;"));
         assert_eq!(
             message("a.csv", "time_s,x_m,y_m,z_m,x_m\n0,1,2,3,4\n"),
             "a.csv:1: two columns are named \"x_m\"; remove one"
@@ -318,7 +315,8 @@ mod tests {
             "a.json:2: the time 1 s follows 1 s of line 1: sort the rows by increasing time, each once"
         );
         assert!(
-            message("a.json", "[\n{\"time_s\": 0,,}]").starts_with("a.json:2: not a list of objects with named numbers: ")
+            message("a.json", "[\n{\"time_s\": 0,,}]")
+                .starts_with("a.json:2: not a list of objects with named numbers: ")
         );
         assert_eq!(message("a.json", "[]"), "a.json: contains no position; expected at least one, with a time");
     }

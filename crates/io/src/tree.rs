@@ -190,7 +190,8 @@ impl Node {
     pub(crate) fn count(&self) -> Read<usize> {
         let text = self.text()?;
         let count = text.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
-        count.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a number of pixels of at least 1")))
+        count
+            .ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a number of pixels of at least 1")))
     }
 
     /// Items of a list; `None` for other nodes.

@@ -84,8 +84,9 @@ impl GridSize {
         let count = |given: Option<u32>, room: f64| given.unwrap_or_else(|| fit(room));
         let (columns, rows) = (count(given_columns, room_mm.x), count(given_rows, room_mm.y));
         if columns < least || rows < least {
-            let message =
-                format!("this leaves {columns} columns and {rows} rows in view, but {least} are needed; give a smaller value");
+            let message = format!(
+                "this leaves {columns} columns and {rows} rows in view, but {least} are needed; give a smaller value"
+            );
             return Err(ChartError::option("pitch_mm", format!("{pitch_mm:.3}"), message));
         }
         Ok(Grid { columns: columns as usize, rows: rows as usize, pitch_mm })

@@ -84,7 +84,9 @@ pub(super) fn job(request: &Request<'_>) -> String {
         Render { samples, integrator: Some(integrator.into()), seed: Some(request.seed.into()), ..Render::default() };
     let job = Table::new().with("scene", "scene.toml").with("cameras", cameras).with("render", render.to_table());
     let name = request.chart.name();
-    let about = format!("The chart \"{name}\": etendue render job.toml -o DIR. truth.json states the positions and properties of its features.");
+    let about = format!(
+        "The chart \"{name}\": etendue render job.toml -o DIR. truth.json states the positions and properties of its features."
+    );
     File::new(job).head(about).to_string()
 }
 

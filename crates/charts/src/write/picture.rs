@@ -17,15 +17,21 @@ const MM_PER_INCH: f64 = 25.4;
 /// If the chart is not one flat sheet, or the image size is not reasonable.
 pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError> {
     if !drawing.is_flat() {
-        return Err(ChartError::option("png", dpi, "this chart is three-dimensional and has no print; leave `png` out"));
+        return Err(ChartError::option(
+            "png",
+            dpi,
+            "this chart is three-dimensional and has no print; leave `png` out",
+        ));
     }
     let sheet = &drawing.panels[0].sheet;
     let px_per_mm = dpi / MM_PER_INCH;
     let size = (sheet.size_mm * px_per_mm).round();
     if !(dpi > 0.0 && size.min_element() >= 1.0 && size.element_product() <= MAX_PX) {
         let [w, h] = sheet.size_mm.to_array();
-        let told =
-            format!("at this resolution a sheet of {w:.0} x {h:.0} mm has {:.0} x {:.0} pixels; expected 1 to 2e8", size.x, size.y);
+        let told = format!(
+            "at this resolution a sheet of {w:.0} x {h:.0} mm has {:.0} x {:.0} pixels; expected 1 to 2e8",
+            size.x, size.y
+        );
         return Err(ChartError::option("png", dpi, told));
     }
     let (width, height) = (size.x as usize, size.y as usize);

@@ -253,7 +253,8 @@ fn nonsense_is_refused_and_leaves_nothing() {
         assert!(!place.path("new").exists(), "{options:?} left something");
     }
     etendue(["chart", "dots", "--camera", "webb", "-o", &out]).refused(&["webb", "ccd-mono"]);
-    etendue(["chart", "dots", "--camera", "scenes/cameras/catadioptric.toml", "-o", &out]).refused(&["does not face forward"]);
+    etendue(["chart", "dots", "--camera", "scenes/cameras/catadioptric.toml", "-o", &out])
+        .refused(&["does not face forward"]);
     etendue(["chart", "flat-field", "--exposures", "3", "--camera", "laboratory", "-o", &out])
         .refused(&["no electronics"]);
     let kept = place.chart("flat-field", &[]);

@@ -137,7 +137,8 @@ fn a_pinhole_is_calibrated_from_its_views() {
     // Central differences of a tenth of u: 1e-4 at most.
     assert!((of_angle / want - 1.0).abs() < 1e-4 && want > 0.0, "{of_angle} {want}");
     etendue(["calibrate", &views[0], "--pitch-mm", "30"]).refused(&["do not determine", "fx_px", "fewer coefficients"]);
-    etendue(["calibrate", &views[0], &views[1], &views[0], "--pitch-mm", "30"]).refused(&["identical view to", "view0.png"]);
+    etendue(["calibrate", &views[0], &views[1], &views[0], "--pitch-mm", "30"])
+        .refused(&["identical view to", "view0.png"]);
     etendue(["calibrate", &views[0], &photograph(), "--pitch-mm", "30"]).refused(&["left01.jpg", "640 × 480"]);
     etendue(["measure", "distortion", &views[0], "--grid", "5x4"]).refused(&["9 × 6", "5 × 4"]);
 }

@@ -98,7 +98,8 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     let coloured = stored.replacen(&format!("{images}image4.png"), &text(&file), 1);
     describe(coloured).refused(&["colour.png", "expected linear raw"]);
     // Readings beyond the stated bits, as of grabbers that store 12 bits in the upper part of 16.
-    describe(stored.replace("n 12 48 40", "n 8 48 40")).refused(&["exceed the 8 bits of the descriptor, which end at 255"]);
+    describe(stored.replace("n 12 48 40", "n 8 48 40"))
+        .refused(&["exceed the 8 bits of the descriptor, which end at 255"]);
     let upper: Vec<u32> = (0..48 * 40).map(|i| 16 * (2000 + i % 2000)).collect();
     let upper = Plane::<DigitalNumber>::from_samples(48, 40, upper).expect("a rectangle");
     let file_of_upper = folder.path().join("upper.png");

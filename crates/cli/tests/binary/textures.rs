@@ -198,8 +198,11 @@ fn a_broken_picture_is_refused_as_one_in_memory() {
     let whole = fs::read(place.path("b.png")).expect("a picture");
     fs::write(place.path("b.png"), &whole[..whole.len() / 2]).expect("written");
     let plan = |options: &[&str]| etendue(["plan", &job].iter().chain(options));
-    let words =
-        ["b.png: not a readable image (", "it may be truncated or damaged: create or download it again", "scene.textures"];
+    let words = [
+        "b.png: not a readable image (",
+        "it may be truncated or damaged: create or download it again",
+        "scene.textures",
+    ];
     plan(&[]).refused(&words);
     plan(&["--texture-memory", "1", "--cache", &cache]).refused(&words);
     let output = text(&place.path("out"));

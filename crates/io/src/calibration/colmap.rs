@@ -64,7 +64,9 @@ fn chosen<'a, 'b>(cameras: &'b [Line<'a>], camera: Option<&str>) -> Read<&'b Lin
             Fault::coded(ErrorCode::UnknownName, 0, format!("contains no camera \"{asked}\"; it contains {names}"))
         }),
         ([one], None) => Ok(one),
-        _ => Err(Fault::coded(ErrorCode::UnknownName, 0, format!("contains the cameras {names}; select one by its id"))),
+        _ => {
+            Err(Fault::coded(ErrorCode::UnknownName, 0, format!("contains the cameras {names}; select one by its id")))
+        }
     }
 }
 

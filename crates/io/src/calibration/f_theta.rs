@@ -160,7 +160,9 @@ fn words(node: &Node) -> Read<Vec<f64>> {
     let Ok(text) = node.text() else { return node.numbers() };
     let number = |word: &str| {
         let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
-        number.ok_or_else(|| Fault::at(node.line, format!("found \"{word}\"; expected a coefficient of the polynomial, a number")))
+        number.ok_or_else(|| {
+            Fault::at(node.line, format!("found \"{word}\"; expected a coefficient of the polynomial, a number"))
+        })
     };
     text.split_whitespace().map(number).collect()
 }

@@ -86,7 +86,10 @@ fn size(row: &Row) -> Read<[usize; 2]> {
     let [height, width] = exactly(row)?;
     let pixels = |x: f64| (1.0..=1e6).contains(&x) && x.fract() == 0.0;
     if !(pixels(height) && pixels(width)) {
-        return Err(Fault::at(row.line, format!("found {height} {width}; expected whole numbers of pixels of at least 1")));
+        return Err(Fault::at(
+            row.line,
+            format!("found {height} {width}; expected whole numbers of pixels of at least 1"),
+        ));
     }
     Ok([width as usize, height as usize])
 }

@@ -135,7 +135,8 @@ pub(crate) fn is_flo(bytes: &[u8]) -> bool {
 /// # Errors
 /// If the bytes are no such file, or are truncated.
 pub fn decode_flo(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error> {
-    let wrong = || Error::new(file, "not a .flo file: expected PIEH, width and height above 0, and two floats per pixel");
+    let wrong =
+        || Error::new(file, "not a .flo file: expected PIEH, width and height above 0, and two floats per pixel");
     let (head, body) = bytes.split_at_checked(12).filter(|(head, _)| is_flo(head)).ok_or_else(wrong)?;
     let size = |at: usize| i32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]);
     let side = |at: usize| usize::try_from(size(at)).ok().filter(|n| (1..=1 << 20).contains(n));

@@ -306,8 +306,7 @@ mod tests {
     #[test]
     fn a_small_file_of_many_pixels_is_refused_by_its_header() {
         let message = decode_exr(Path::new("a.exr"), &large()).expect_err("too large").to_string();
-        let expected =
-            "a.exr: decompresses to 1526 MiB; at most 1024 MiB are allowed for a file of its size: make the image smaller";
+        let expected = "a.exr: decompresses to 1526 MiB; at most 1024 MiB are allowed for a file of its size: make the image smaller";
         assert!(message.starts_with(expected), "{message}");
         assert_eq!(stated_samples(&large()), 400_000_000);
     }

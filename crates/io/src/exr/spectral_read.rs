@@ -190,10 +190,7 @@ mod tests {
     #[test]
     fn what_is_no_set_of_bands_is_refused_in_words() {
         let message = bands_of(&[400.0, 410.0, 425.0], None).expect_err("uneven");
-        assert!(
-            message.contains("not evenly spaced by 12.5 nm (found 410 nm instead of 412.5 nm)"),
-            "{message}"
-        );
+        assert!(message.contains("not evenly spaced by 12.5 nm (found 410 nm instead of 412.5 nm)"), "{message}");
         assert!(bands_of(&[550.0], None).is_err());
         assert!(bands_of(&[100.0, 200.0], None).expect_err("range").contains("300 to 1100 nm"));
     }

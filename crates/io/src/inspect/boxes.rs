@@ -25,7 +25,11 @@ pub struct Boxes {
 /// If the file holds no boxes.
 pub fn read_boxes(file: &Path) -> Result<Boxes, Error> {
     serde_json::from_slice(&read_description_bytes(file, "boxes")?).map_err(|cause| {
-        Error::at(file, cause.line(), format!("does not contain boxes of objects in the form of boxes.0000.json: {cause}"))
+        Error::at(
+            file,
+            cause.line(),
+            format!("does not contain boxes of objects in the form of boxes.0000.json: {cause}"),
+        )
     })
 }
 
@@ -45,8 +49,9 @@ pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
     let Preview { width, height, .. } = *preview;
     if (width, height) != (found.width_px, found.height_px) {
         let (w, h) = (found.width_px, found.height_px);
-        let message =
-            format!("the boxes are of an image of {w} x {h} pixels, but the image has {width} x {height}; give the boxes of this image");
+        let message = format!(
+            "the boxes are of an image of {w} x {h} pixels, but the image has {width} x {height}; give the boxes of this image"
+        );
         return Err(Error::new(boxes, message));
     }
     drawing::draw_boxes(preview, &found.objects);

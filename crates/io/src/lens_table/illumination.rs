@@ -11,7 +11,9 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     }
     let [table] = &listing.tables[..] else {
         let second = listing.tables[1].rows[0].line;
-        return Err(listing.fault(second, "contains a second table; export one wavelength and one direction from the axis"));
+        return Err(
+            listing.fault(second, "contains a second table; export one wavelength and one direction from the axis")
+        );
     };
     let numbers = match listing.unit_of(table)? {
         FieldUnit::Degrees => LensNumbers::IlluminationByAngle,
@@ -41,9 +43,10 @@ fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, E
         let ratio = row.numbers[1];
         let wrong = match ratio {
             _ if ratio < 0.0 => Some(format!("the relative illumination is {ratio}; expected 0 or more")),
-            _ if ratio == 0.0 && points.is_empty() => {
-                Some("the relative illumination on the axis is 0; expected more, as the other values are normalised by it".to_owned())
-            }
+            _ if ratio == 0.0 && points.is_empty() => Some(
+                "the relative illumination on the axis is 0; expected more, as the other values are normalised by it"
+                    .to_owned(),
+            ),
             _ => None,
         };
         if let Some(wrong) = wrong {

@@ -69,8 +69,12 @@ impl<'a> Listing<'a> {
         }
         let head = tables.first().map(|table| table.above.clone());
         let head = head.ok_or_else(|| {
-            Error::coded(ErrorCode::Empty, file, "contains no row of numbers (with decimal points, at least two per row); expected a table exported \
-                by Zemax as text")
+            Error::coded(
+                ErrorCode::Empty,
+                file,
+                "contains no row of numbers (with decimal points, at least two per row); expected a table exported \
+                by Zemax as text",
+            )
         })?;
         Ok(Self { file, head, tables })
     }
@@ -131,7 +135,9 @@ impl<'a> Listing<'a> {
                 return Ok(FieldUnit::Degrees);
             }
             if has(&["inch", "centimet", "(cm", "(in)", "in inch", "(m)"]) {
-                return Err(self.fault(number, "the fields are neither in degrees nor in mm; export with lens units of mm"));
+                return Err(
+                    self.fault(number, "the fields are neither in degrees nor in mm; export with lens units of mm")
+                );
             }
             if has(&["millimet", "(mm", "in mm"]) {
                 return Ok(FieldUnit::Millimetres);

@@ -26,7 +26,10 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
         |table: &Table<'_>| table.above.iter().any(|(_, line)| line.to_lowercase().contains("diffraction limit"));
     let tables: Vec<&Table<'_>> = listing.tables.iter().filter(|table| !is_limit(table)).collect();
     let [table, others @ ..] = &tables[..] else {
-        return Err(listing.fault(listing.tables[0].rows[0].line, "contains only the diffraction limit; expected the modulation of a lens"));
+        return Err(listing.fault(
+            listing.tables[0].rows[0].line,
+            "contains only the diffraction limit; expected the modulation of a lens",
+        ));
     };
     let points = points(listing, table)?;
     let mut notes =

@@ -39,7 +39,8 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<PointSpreadAsset, Error> {
         [true, _] => Analysis::Huygens,
         [_, true] => Analysis::Fft,
         _ => {
-            let told = "not a listing of a point-spread function: its header mentions neither \"Huygens PSF\" nor \"FFT PSF\"";
+            let told =
+                "not a listing of a point-spread function: its header mentions neither \"Huygens PSF\" nor \"FFT PSF\"";
             return Err(listing.fault(0, told));
         }
     };
@@ -95,8 +96,10 @@ fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
         length_um(unit).ok_or_else(|| listing.fault(line, "the wavelength is not in a unit of length; expected µm"))?;
     let nm = [light[0], light[light.len() - 1]].map(|value| (value * um * 1e9).round() / 1e6);
     if !nm.iter().all(|nm| (100.0..20_000.0).contains(nm)) || nm[0] > nm[1] {
-        return Err(listing
-            .fault(line, format!("found wavelengths from {} to {} nm; expected 100 … 20 000 nm, increasing", nm[0], nm[1])));
+        return Err(listing.fault(
+            line,
+            format!("found wavelengths from {} to {} nm; expected 100 … 20 000 nm, increasing", nm[0], nm[1]),
+        ));
     }
     // A single number is y.
     let at = if let [y] = field[..] { [0.0, y] } else { [field[0], field[1]] };
@@ -114,8 +117,10 @@ fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
 
 fn spacing_um(listing: &Listing<'_>) -> Result<f64, Error> {
     let Some((line, text)) = said(listing, "data spacing") else {
-        return Err(listing
-            .fault(0, "its header does not state the sample spacing; expected a line such as \"Data spacing is 0.250 µm.\""));
+        return Err(listing.fault(
+            0,
+            "its header does not state the sample spacing; expected a line such as \"Data spacing is 0.250 µm.\"",
+        ));
     };
     let spacing = numbers(text).first().copied().zip(length_um(text)).map(|(number, um)| number * um);
     spacing.filter(|um| um.is_finite() && *um > 0.0).ok_or_else(|| {
@@ -161,8 +166,10 @@ fn point(
         _ => None,
     };
     let told = || {
-        listing
-            .fault(line, format!("the centre is not one of the {width} by {height} samples; expected whole numbers from 1"))
+        listing.fault(
+            line,
+            format!("the centre is not one of the {width} by {height} samples; expected whole numbers from 1"),
+        )
     };
     found.map(|(column, row)| [column - 1, row - 1]).ok_or_else(told)
 }

@@ -159,7 +159,8 @@ fn notes(obj: &Obj) -> Vec<String> {
         .map(|(keyword, (count, line))| format!("`{keyword}` is not used ({count} times, first on line {line})"))
         .collect();
     if let (Some(line), [_, _, 0]) = (obj.smoothing_line, obj.counts) {
-        notes.push(format!("line {line}: smoothing groups are not used: export normals, otherwise the mesh is faceted"));
+        notes
+            .push(format!("line {line}: smoothing groups are not used: export normals, otherwise the mesh is faceted"));
     }
     notes
 }

@@ -24,7 +24,9 @@ impl PolygonFault {
     pub(super) fn of(self, corners: usize) -> String {
         match self {
             Self::CrossesItself => {
-                format!("a polygon of {corners} corners intersects itself; triangulate the mesh in the modelling program")
+                format!(
+                    "a polygon of {corners} corners intersects itself; triangulate the mesh in the modelling program"
+                )
             }
         }
     }

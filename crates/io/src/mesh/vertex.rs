@@ -22,7 +22,8 @@ pub(super) fn check_corners(corners: u64) -> Result<(), Problem> {
         return Ok(());
     }
     let remedy = CORNERS.remedy(corners);
-    let words = format!("the faces have {corners} corners; at most {most} are supported: make the mesh smaller, {remedy}");
+    let words =
+        format!("the faces have {corners} corners; at most {most} are supported: make the mesh smaller, {remedy}");
     Err(Problem::new(ErrorCode::TooLarge, words))
 }
 

@@ -69,9 +69,7 @@ pub(super) fn guess(full_scale: Option<f64>, colour: bool) -> Stated {
     match full_scale {
         None => of_floats(),
         Some(full) if full > 65_535.0 => Stated::guessed(Encoding::Linear, "32-bit integers usually are"),
-        Some(full) if full > 255.0 && !colour => {
-            Stated::guessed(Encoding::Linear, "16-bit grey values usually are")
-        }
+        Some(full) if full > 255.0 && !colour => Stated::guessed(Encoding::Linear, "16-bit grey values usually are"),
         Some(full) if full > 255.0 => Stated::guessed(Encoding::Srgb, "16-bit colours usually are"),
         Some(_) => Stated::guessed(Encoding::Srgb, "8-bit values usually are"),
     }
@@ -159,8 +157,10 @@ pub(super) fn decode_pfm(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     let scale = word().and_then(|w| w.parse::<f64>().ok()).filter(|s| s.is_finite() && *s != 0.0).ok_or_else(wrong)?;
     let expected = width * height * channels * 4;
     if rest.len() != expected {
-        let told =
-            format!("has {} bytes of pixels; expected {expected} for {width} × {height} × {channels} floats", rest.len());
+        let told = format!(
+            "has {} bytes of pixels; expected {expected} for {width} × {height} × {channels} floats",
+            rest.len()
+        );
         return Err(Error::new(file, told));
     }
     let float = |b: &[u8]| {

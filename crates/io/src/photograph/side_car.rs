@@ -56,11 +56,8 @@ impl SideCar {
             return Ok(1);
         }
         let number = stated.as_u64().and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0);
-        let strange = || {
-            format!(
-                "sampling.correlated_block_px is {stated}; expected a whole number above 0: render again"
-            )
-        };
+        let strange =
+            || format!("sampling.correlated_block_px is {stated}; expected a whole number above 0: render again");
         number.ok_or_else(|| Error::new(&self.file, strange()))
     }
 
@@ -122,10 +119,8 @@ pub(super) fn facts(beside: &SideCar) -> Result<Option<RawFacts>, Error> {
         return Ok(None);
     }
     let lacks = || {
-        let problem = format!(
-            "lists {} as raw, but lacks levels, filters or a valid exposure; render again",
-            beside.picture
-        );
+        let problem =
+            format!("lists {} as raw, but lacks levels, filters or a valid exposure; render again", beside.picture);
         Error::new(&beside.file, problem)
     };
     stated(&beside.said, &beside.picture).map(Some).ok_or_else(lacks)

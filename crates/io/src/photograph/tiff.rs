@@ -60,8 +60,9 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         ));
     }
     let (samples, full_scale) = numbers(file, decoder.read_image().map_err(damaged)?)?;
-    let names = channel_names(count)
-        .ok_or_else(|| Error::coded(ErrorCode::UnsupportedFile, file, format!("has {count} channels; expected 1 to 4")))?;
+    let names = channel_names(count).ok_or_else(|| {
+        Error::coded(ErrorCode::UnsupportedFile, file, format!("has {count} channels; expected 1 to 4"))
+    })?;
     Ok(Photograph {
         width: width as usize,
         height: height as usize,

@@ -97,8 +97,7 @@ impl<'a> Fields<'a> {
     /// Reads the next `count` intensities.
     pub(super) fn intensities(&mut self, count: usize) -> Result<Vec<f64>, Error> {
         self.list(count, "intensity", |_, value| {
-            (value < 0.0)
-                .then(|| format!("the intensity is {value}; expected 0 or more"))
+            (value < 0.0).then(|| format!("the intensity is {value}; expected 0 or more"))
         })
     }
 
@@ -184,7 +183,9 @@ pub(super) fn read(
 pub(super) fn dark_beyond(which: &str, grid: &[f64], firsts: &[f64], lasts: &[f64]) -> Option<String> {
     let (first, last) = (*grid.first()?, *grid.last()?);
     let whole = firsts.contains(&first) && lasts.contains(&last);
-    (!whole).then(|| format!("{which} angles from {first}° to {last}° were measured; outside this range the intensity is 0"))
+    (!whole).then(|| {
+        format!("{which} angles from {first}° to {last}° were measured; outside this range the intensity is 0")
+    })
 }
 
 /// The same for vertical angles. Type C may stop at the horizon: many lamps emit to one side only.

@@ -216,7 +216,8 @@ fn grid(
     report: &mut Vec<String>,
 ) -> Result<(Vec<f64>, Vec<symmetry::Plane>), Error> {
     if factor.is_nan() || factor <= 0.0 {
-        return Err(fields.fault(format!("the product of multiplier and ballast factors is {factor}; expected a number above 0")));
+        return Err(fields
+            .fault(format!("the product of multiplier and ballast factors is {factor}; expected a number above 0")));
     }
     let (up, across) = (fields::vertical_range(body.axes), fields::horizontal_range(body.axes));
     let vertical = fields::read(fields, body.verticals, "vertical", &up)?;

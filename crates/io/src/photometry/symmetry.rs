@@ -143,7 +143,9 @@ fn absurd(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
             "times more: correct the lumens or the multiplier; lumens of -1 denote absolute photometry of the luminaire",
         ),
     };
-    format!("the flux from the intensities is {flux:.4} lm, that from the {source} {stated:.4} lm; expected at most {ABSURD_BEYOND} {remedy}")
+    format!(
+        "the flux from the intensities is {flux:.4} lm, that from the {source} {stated:.4} lm; expected at most {ABSURD_BEYOND} {remedy}"
+    )
 }
 
 fn remark(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {

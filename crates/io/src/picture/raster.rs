@@ -157,7 +157,10 @@ pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
         }
         (None, None, None, Some(y)) => (joined(y.iter().map(|y| [*y; 3]), a), None),
         _ => {
-            return Err(Error::new(file, format!("not an image of R, G, B or Y; its channels are {}", names.join(", "))));
+            return Err(Error::new(
+                file,
+                format!("not an image of R, G, B or Y; its channels are {}", names.join(", ")),
+            ));
         }
     };
     Ok((width, height, pixels, to_rec_709))

@@ -121,7 +121,10 @@ impl Primary {
         }
         let found = wavelengths_nm.get(place.wrapping_sub(1)).filter(|_| place as f64 == self.number);
         let nm = *found.ok_or_else(|| {
-            let what = format!("the primary wavelength has number {}; expected 1 to {count}, the file's wavelengths", self.number);
+            let what = format!(
+                "the primary wavelength has number {}; expected 1 to {count}, the file's wavelengths",
+                self.number
+            );
             Error::at(file, self.line, what)
         })?;
         if (SHORTEST_NM..=MAX_NM).contains(&nm) {

@@ -133,9 +133,7 @@ impl Reader {
         if !self.unknown.is_empty() {
             let list: Vec<String> = self.unknown.iter().map(|(name, line)| format!("{name} (line {line})")).collect();
             let list = list.join(", ");
-            self.raw.notes.push(format!(
-                "unknown commands are ignored, as if they did not change the lens: {list}"
-            ));
+            self.raw.notes.push(format!("unknown commands are ignored, as if they did not change the lens: {list}"));
         }
         self.raw.finish(file)
     }
@@ -156,10 +154,7 @@ impl Reader {
                 self.raw.scale(factor);
                 Ok(())
             }
-            _ => {
-                Err(w
-                    .fault("SCA: expected one factor above 0 (SCA 2.0), which scales all lengths before this line"))
-            }
+            _ => Err(w.fault("SCA: expected one factor above 0 (SCA 2.0), which scales all lengths before this line")),
         }
     }
 

@@ -244,7 +244,9 @@ impl Glasses {
         surfaces: &[RawSurface],
     ) -> Result<(GlassAsset, Option<String>), Error> {
         if w.word(1) == "MIRROR" {
-            return Err(w.fault("mirrors are not supported; only refracting lenses are").with_code(ErrorCode::UnsupportedFile));
+            return Err(w
+                .fault("mirrors are not supported; only refracting lenses are")
+                .with_code(ErrorCode::UnsupportedFile));
         }
         match w.word(2) {
             "1" => Ok((GlassAsset::Abbe { index: w.number(4)?, abbe: w.number(5)? }, None)),
@@ -270,7 +272,10 @@ impl Glasses {
             let beside = numbers.map_or_else(String::new, |[index, abbe]| {
                 format!(", not n_d {index} and V_d {abbe} of its line, which are not used for a catalogue glass")
             });
-            return Ok((glass, Some(format!("{name} is in no supported catalogue: its successor {today} is used{beside}"))));
+            return Ok((
+                glass,
+                Some(format!("{name} is in no supported catalogue: its successor {today} is used{beside}")),
+            ));
         }
         let Some(numbers) = numbers else {
             return Err(w.fault(format!(

@@ -38,7 +38,11 @@ pub(super) fn read(node: &Node, output_offset_mm: f64, with_dz: bool) -> Read<(T
             ));
         };
         if found[which].replace(terms(item)?).is_some() {
-            return Err(Fault::coded(ErrorCode::Duplicate, name.line, format!("the output \"{text}\" is defined twice")));
+            return Err(Fault::coded(
+                ErrorCode::Duplicate,
+                name.line,
+                format!("the output \"{text}\" is defined twice"),
+            ));
         }
     }
     let [x, y, z, dx, dy, dz] = found;
@@ -115,7 +119,10 @@ fn ellipses(pass: &Node) -> Read<PassAsset> {
     let [radii_x, radii_y] = [list("radiiX")?, list("radiiY")?];
     let [centres_x, centres_y] = [list("centersX")?, list("centersY")?];
     if [&radii_x, &radii_y, &centres_x, &centres_y].iter().any(|other| other.len() != heights.len()) {
-        return Err(Fault::at(positions.line, "the numbers of positions, radii and centres differ; expected equal numbers"));
+        return Err(Fault::at(
+            positions.line,
+            "the numbers of positions, radii and centres differ; expected equal numbers",
+        ));
     }
     if heights.len() > MAX_REGIONS {
         return Err(Fault::at(

@@ -51,7 +51,9 @@ fn index_of(row: &Row<'_>, before: Option<f64>) -> Result<(f64, f64, f64), Strin
         return Err(format!("found {} columns; expected three: wavelength in nm, n, k", values.len()));
     };
     if let Some(last) = before.filter(|last| nm <= *last) {
-        return Err(format!("wavelength {nm} nm follows {last} nm: sort the table by increasing wavelength, each once"));
+        return Err(format!(
+            "wavelength {nm} nm follows {last} nm: sort the table by increasing wavelength, each once"
+        ));
     }
     let wrong =
         [(nm <= 0.0, "a wavelength in nm above 0", nm), (n <= 0.0, "n above 0", n), (k < 0.0, "k of 0 or more", k)];
@@ -113,7 +115,9 @@ fn angle(cell: &str, which: &str, most: f64, before: Option<&f64>) -> Result<f64
         return Err(format!("the {which} angle is {found}°; expected 0° to {most}°"));
     }
     match before.filter(|last| found <= **last) {
-        Some(last) => Err(format!("{which} angle {found}° follows {last}°: sort the table by increasing angle, each once")),
+        Some(last) => {
+            Err(format!("{which} angle {found}° follows {last}°: sort the table by increasing angle, each once"))
+        }
         None => Ok(found),
     }
 }

@@ -109,8 +109,7 @@ impl Blocks for TileFile {
             return Ok(());
         }
         let is_removed = std::fs::remove_file(&self.path).is_ok() || !self.path.exists();
-        let remedy =
-            if is_removed { "the file was removed: run again to create it again" } else { "remove the file" };
+        let remedy = if is_removed { "the file was removed: run again to create it again" } else { "remove the file" };
         Err(format!("{file}: block {block} is damaged; {remedy}"))
     }
 }

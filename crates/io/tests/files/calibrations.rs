@@ -184,7 +184,8 @@ fn a_camera_of_several_is_chosen_by_its_name() {
     let chain = "contains the cameras cam0, cam1, cam2, cam3, cam4, cam5; select one by its name";
     assert_eq!(fault("camchain.yaml", CalibrationFormat::Kalibr, None), chain);
     assert!(
-        fault("camchain.yaml", CalibrationFormat::Kalibr, Some("cam9")).contains("no camera \"cam9\"; it contains cam0")
+        fault("camchain.yaml", CalibrationFormat::Kalibr, Some("cam9"))
+            .contains("no camera \"cam9\"; it contains cam0")
     );
     assert!(fault("cameras.txt", CalibrationFormat::Colmap, None).contains("select one by its id"));
     assert!(fault("camera_info.yaml", CalibrationFormat::Ros, Some("wide")).contains("narrow_stereo"));
@@ -223,7 +224,12 @@ fn faults_name_the_line_and_what_was_expected() {
         (Kalibr, kalibr.replace("pinhole", "ds"), Some(5), "expected 6: xi, alpha"),
         (Kalibr, kalibr.replace("equi", "none"), Some(4), "expected []"),
         (Kalibr, kalibr.replace("[100, 100]", "[100]"), Some(6), "[width, height]"),
-        (Colmap, "1 SIMPLE_RADIAL 640 480 500 320 240\n".into(), Some(1), "found 3 parameters; the model SIMPLE_RADIAL has 4"),
+        (
+            Colmap,
+            "1 SIMPLE_RADIAL 640 480 500 320 240\n".into(),
+            Some(1),
+            "found 3 parameters; the model SIMPLE_RADIAL has 4",
+        ),
         (Colmap, "# no\n1 FISH 640 480 1\n".into(), Some(2), "none of SIMPLE_PINHOLE, SIMPLE_RADIAL"),
         (Colmap, "1 PINHOLE 640\n".into(), Some(1), "ends before the height"),
         (Colmap, "# none\n".into(), None, "contains no camera"),

@@ -97,7 +97,11 @@ fn an_ncore_camera_projects_by_its_polynomial_up_to_its_angle() {
 fn faults_name_the_line_and_what_was_expected() {
     let cases = [
         (RIG.to_owned(), None, "select one by its name"),
-        (RIG.to_owned(), Some("camera:side"), "contains no f-theta camera \"camera:side\"; it contains camera:front:wide"),
+        (
+            RIG.to_owned(),
+            Some("camera:side"),
+            "contains no f-theta camera \"camera:side\"; it contains camera:front:wide",
+        ),
         (RIG.replace("\"ftheta\"", "\"pinhole\""), None, "2: contains no f-theta camera"),
         (
             RIG.replace("pixeldistance-to-angle", "sideways"),

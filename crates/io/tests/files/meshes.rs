@@ -54,7 +54,8 @@ fn damage_is_named_with_its_line() {
     );
     assert_eq!(
         read("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n", &[]),
-        Err("a.obj:5: a polygon of 4 corners intersects itself; triangulate the mesh in the modelling program".to_owned())
+        Err("a.obj:5: a polygon of 4 corners intersects itself; triangulate the mesh in the modelling program"
+            .to_owned())
     );
 }
 

@@ -146,7 +146,11 @@ fn damaged_heads_are_refused_with_their_line() {
         "binary 1.0",
         "a.ply:2: found `format binary 1.0`; expected `format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`",
     );
-    refused_star("element vertex 5", "element vertex -5", "a.ply:4: the element count is `-5`; expected a whole number of 0 or more");
+    refused_star(
+        "element vertex 5",
+        "element vertex -5",
+        "a.ply:4: the element count is `-5`; expected a whole number of 0 or more",
+    );
     refused_star(
         "property double y",
         "property real y",
@@ -227,7 +231,8 @@ fn the_wrong_order_of_bytes_is_told() {
     let message = read_bytes("a.ply", &bytes).expect_err("the wrong order");
     assert!(
         message.starts_with("a.ply: ")
-            && message.ends_with("or its numbers are little-endian although the header states big-endian; export it again"),
+            && message
+                .ends_with("or its numbers are little-endian although the header states big-endian; export it again"),
         "{message}"
     );
     for end in [little.len() - 1, little.len() / 2, head + 20] {

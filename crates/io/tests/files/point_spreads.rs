@@ -42,7 +42,11 @@ fn heads_of_all_kinds_are_read() {
     // The third row from the last, which is the second.
     assert_eq!((old.point, old.light.len(), old.light[6]), ([2, 1], 16, 0.5));
     assert_eq!(old.notes.len(), 2, "{:?}", old.notes);
-    assert!(old.notes[0].contains("assumed to be in mm") && old.notes[1].contains("border is 20.0 %"), "{:?}", old.notes);
+    assert!(
+        old.notes[0].contains("assumed to be in mm") && old.notes[1].contains("border is 20.0 %"),
+        "{:?}",
+        old.notes
+    );
 
     let new = read(NEW).expect("legal");
     assert_eq!((new.field, new.place_mm), (FieldPoint::Degrees([0.0, 1.225]), Some([0.0, 220.488_001])));
@@ -108,10 +112,7 @@ fn listings_that_cannot_be_used_are_told_with_their_line() {
         (NEW.replace("relative intensity", "log base 10"), &["psf.txt:20", "\"Linear\""]),
         (NEW.replace("5.0E-01", "-5.0E-01"), &["psf.txt:23", "-0.5", "0 or more"]),
         (NEW.replace("5.0E-01", "0.0E-01"), &["psf.txt:23", "0 everywhere"]),
-        (
-            NEW.replacen("5.0E-01\t  0.0E+00\n", "5.0E-01\n", 1),
-            &["psf.txt:24", "found 4 numbers; expected 3"],
-        ),
+        (NEW.replacen("5.0E-01\t  0.0E+00\n", "5.0E-01\n", 1), &["psf.txt:24", "found 4 numbers; expected 3"]),
         (format!("{NEW}\nand\n1 2\n"), &["psf.txt:29", "second table"]),
         ("Listing of Huygens PSF Data\n".to_owned(), &["no row of numbers"]),
     ] {

@@ -71,8 +71,7 @@ fn processing(seen: &Seen, white: &[Estimate; 3]) -> Result<ColourProcessing, Er
     let chromaticity = |[x, y, z]: [f64; 3]| [x / (x + y + z), y / (x + y + z)];
     let (light, daylight) = (chromaticity(seen.white_xyz), chromaticity(D65_WHITE));
     if light.iter().zip(daylight).any(|(a, b)| (a - b).abs() > OTHER_LIGHT) {
-        let told =
-            "the ColorChecker's light is not daylight D65, for which its sRGB colours are defined";
+        let told = "the ColorChecker's light is not daylight D65, for which its sRGB colours are defined";
         return Err(Error::coded(ErrorCode::NotMeasurable, told));
     }
     let found = colour_processing(&seen.patches, white, seen.black, seen.full_scale, seen.shared_px);
@@ -97,8 +96,8 @@ fn white(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Shot
         return Err(Error::coded(ErrorCode::NotMeasurable, format!("{}: {told}", shot.name())));
     }
     let colours = selection(laboratory, shot).colours(&shot.file)?;
-    let colours =
-        colours.ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, format!("{}: not a colour image", shot.name())))?;
+    let colours = colours
+        .ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, format!("{}: not a colour image", shot.name())))?;
     let black = levels(laboratory, electronics, shot).black(&colours[1]);
     let [width, height] = shot.size_px.map(|n| n as f64);
     let [half_width, half_height] = [0.5 * MIDDLE * width, 0.5 * MIDDLE * height];

@@ -105,10 +105,13 @@ fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Er
     let mut levels: Vec<DescribedLevel> = Vec::new();
     for shot in shots {
         let exposure_s = shot.exposure_s.ok_or_else(|| {
-            Error::coded(ErrorCode::NotStated, format!(
-                "{}: its exposure time is not stated by EXIF data, a side-car or exposures_s in laboratory.toml",
-                shot.name()
-            ))
+            Error::coded(
+                ErrorCode::NotStated,
+                format!(
+                    "{}: its exposure time is not stated by EXIF data, a side-car or exposures_s in laboratory.toml",
+                    shot.name()
+                ),
+            )
         })?;
         match levels.iter_mut().find(|level| level.exposure_s == exposure_s) {
             Some(level) => level.files.push(shot.file.clone()),
@@ -214,8 +217,11 @@ impl Electronics {
         findings.found(Kind::Dark, "sensor.black_level_dn", "black level", "DN", self.black_level_dn);
         match self.saturated {
             true => findings.found(from, "sensor.full_well_e", "saturation capacity", "e⁻", f.saturation_e),
-            false => findings.unknown("saturation capacity", "the variance does not fall at the brightest level in flat/, so \
-                                                              saturation is at or above it; expose longer"),
+            false => findings.unknown(
+                "saturation capacity",
+                "the variance does not fall at the brightest level in flat/, so \
+                                                              saturation is at or above it; expose longer",
+            ),
         }
         match self.dark_current_e_s {
             Some(current) => findings.found(

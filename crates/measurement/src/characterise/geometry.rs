@@ -53,7 +53,8 @@ pub(super) fn measure(
     };
     let made = request.found_by_best_of(&MODELS, request.options(), observer);
     let Some((found, tried)) = findings.attempt(WHAT, made)? else { return Ok(None) };
-    let mut report = Report::new("calibrate", "camera calibration from views of a plane chart, least squares over all points");
+    let mut report =
+        Report::new("calibrate", "camera calibration from views of a plane chart, least squares over all points");
     found.add_to(&mut report, &request);
     report.table(models(&tried));
     findings.part("Projection and distortion", Kind::Chart, report);

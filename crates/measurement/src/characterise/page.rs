@@ -50,11 +50,12 @@ fn expanded(e: Estimate) -> String {
 }
 
 fn parameters(findings: &Findings) -> String {
-    let mut html = "<section id=\"parameters\"><h2>Parameters</h2>\n<p>± is the expanded uncertainty: an interval of about 95 % \
+    let mut html =
+        "<section id=\"parameters\"><h2>Parameters</h2>\n<p>± is the expanded uncertainty: an interval of about 95 % \
                     (k = 2). What each omits is stated at its measurement.</p>\n<table><thead><tr><th>quantity</th><th \
                     class=\"number\">value ± U</th><th>unit</th><th class=\"number\">U, \
                     %</th><th>from</th><th>key</th></tr></thead>\n"
-        .to_owned();
+            .to_owned();
     for section in ["lens", "effects", "sensor", "isp"] {
         let of = findings.parameters.iter().filter(|p| p.key.split('.').next() == Some(section));
         let rows: String = of.map(parameter).collect();
@@ -95,8 +96,7 @@ fn not_known(findings: &Findings, camera: &CameraFile) -> String {
     let row = |what: &str, why: &str| format!("<tr><td>{}</td><td>{}</td></tr>\n", escaped(what), escaped(why));
     let mut rows: String = findings.unknown.iter().map(|u| row(&u.what, &u.why)).collect();
     if !camera.stand_ins.is_empty() {
-        let why =
-            "required keys of a camera file that no image determines: placeholders, to be replaced by hand or by a base";
+        let why = "required keys of a camera file that no image determines: placeholders, to be replaced by hand or by a base";
         rows += &row(&camera.stand_ins.join(", "), why);
     }
     if rows.is_empty() {

@@ -86,7 +86,10 @@ impl Spread {
         for (key, along, blur) in self.blurs() {
             let Some(blur) = blur else {
                 let what = format!("point spread {along}");
-                findings.unknown(&what, "fewer than three edges in edges/ cross this direction, or they do not determine it");
+                findings.unknown(
+                    &what,
+                    "fewer than three edges in edges/ cross this direction, or they do not determine it",
+                );
                 continue;
             };
             let (variance, exchange) = (format!("effects.psf.variance_{key}_px2"), format!("sensor.crosstalk.{key}"));

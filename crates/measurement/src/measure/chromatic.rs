@@ -60,7 +60,9 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
         let file = file.display();
         return Err(Error::coded(
             ErrorCode::NotMeasurable,
-            format!("{file}: the chart's points in {name} have no counterparts in green; expected the colours of one image"),
+            format!(
+                "{file}: the chart's points in {name} have no counterparts in green; expected the colours of one image"
+            ),
         ));
     }
     if found.iter().flat_map(|(_, list)| list).all(|point| point.by == DVec2::ZERO) {

@@ -26,7 +26,13 @@ pub struct ColourRequest {
     #[arg(long, value_name = "X,Y", num_args = 4, value_parser = corner, required_unless_present = "truth", conflicts_with = "truth")]
     pub corners: Vec<DVec2>,
     /// Side of the measured squares, as a fraction of the patch spacing
-    #[arg(long, value_name = "FRACTION", default_value_t = 0.5, conflicts_with = "truth", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "FRACTION",
+        default_value_t = 0.5,
+        conflicts_with = "truth",
+        allow_negative_numbers = true
+    )]
     pub patch: f64,
     /// Readings of the image, their meaning, and the chart's ground truth.
     #[command(flatten)]
@@ -123,9 +129,8 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
     let half = 0.5 * request.patch * ((b - a).length() / columns).min((d - a).length() / rows);
     let patch = |(i, patch): (usize, &etendue_spectra::reflectance::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
-        let beyond = || {
-            Error::argument("corners", "`corners`: a patch is outside the image").with_code(ErrorCode::OutOfRange)
-        };
+        let beyond =
+            || Error::argument("corners", "`corners`: a patch is outside the image").with_code(ErrorCode::OutOfRange);
         let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px.0, colours[1].picture_px.1)
             .ok_or_else(beyond)?;
         let one = |c: usize| colours[c].part(at, "`corners`: a patch").map_err(|error| error.with_field("corners"));

@@ -93,8 +93,7 @@ fn copies(currents: &[(f64, Estimate)]) -> Option<[usize; 2]> {
 }
 
 fn report(currents: &[(f64, Estimate)], growths: &[Growth], reference_c: f64) -> Report {
-    let method =
-        "dark current over temperature, EMVA 1288 section 7 and physical models of silicon (± one standard uncertainty)";
+    let method = "dark current over temperature, EMVA 1288 section 7 and physical models of silicon (± one standard uncertainty)";
     let mut report = Report::new("dark-current", method);
     for growth in growths {
         let (key, label) = name(growth.law);

@@ -148,7 +148,12 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
         report.figure("disparity_px", "mean error of disparity, EPE", "px", disparity);
     }
     let seen = (found.all.pixels + found.all.missing) as f64;
-    report.fact("density_percent", "estimated", "% of the pixels with ground truth", 100.0 * found.all.pixels as f64 / seen);
+    report.fact(
+        "density_percent",
+        "estimated",
+        "% of the pixels with ground truth",
+        100.0 * found.all.pixels as f64 / seen,
+    );
     report.fact("scale", "the estimate was multiplied by", "", found.scale);
     let all = ("all".to_owned(), &found.all);
     let limits =
@@ -226,6 +231,9 @@ fn chosen<'a>(file: &Path, photograph: &'a Photograph, channel: Option<&str>) ->
     };
     found.ok_or_else(|| {
         let names = photograph.names().join(", ");
-        Error::coded(ErrorCode::NotStated, format!("{}: the depth channel is ambiguous; choose one of {names}", file.display()))
+        Error::coded(
+            ErrorCode::NotStated,
+            format!("{}: the depth channel is ambiguous; choose one of {names}", file.display()),
+        )
     })
 }

@@ -60,12 +60,7 @@ fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     report.fact("step_px", "step of the chart at the centre", "px", found.ideal.step_px());
     report.fact("degree", "degree of the map", "", found.ideal.degree() as f64);
     report.fact("sigma_px", "standard deviation of points from the map", "px", found.ideal.sigma_px());
-    report.fact(
-        "beyond_k1_k2_px",
-        "its terms beyond k1 and k2, at the farthest point",
-        "px",
-        found.ideal.tau_px(),
-    );
+    report.fact("beyond_k1_k2_px", "its terms beyond k1 and k2, at the farthest point", "px", found.ideal.tau_px());
     if let Some(last) = found.curve.last() {
         let percent = Estimate::new(100.0 * (last.ratio.value - 1.0), 100.0 * last.ratio.standard_uncertainty);
         report.fact("field_reached_percent", "field reached", "% of the half diagonal", 100.0 * last.field);

@@ -107,11 +107,8 @@ impl EncodingChoice {
         let Stated { encoding, reason, guessed } = &photograph.stated;
         if *encoding != Encoding::Linear && !guessed {
             let what = format!("{file}: {} numbers ({reason})", encoding.name());
-            let remedy = if self.chosen.is_some() {
-                "leave it out"
-            } else {
-                "if they are linear, set `encoding` to linear"
-            };
+            let remedy =
+                if self.chosen.is_some() { "leave it out" } else { "if they are linear, set `encoding` to linear" };
             return Err(Error::coded(
                 ErrorCode::UnsuitableFile,
                 format!("{what}; expected numbers proportional to charge: {remedy}"),

@@ -87,10 +87,7 @@ fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {
     let input = &request.input;
     let frames = request.frames.iter().map(|file| input.linear(file)).collect::<Result<Vec<_>, _>>()?;
     let Some((first, file)) = frames.first().zip(request.frames.first()) else {
-        return Err(Error::coded(
-            ErrorCode::NotMeasurable,
-            "no frame is given; flicker needs one or more",
-        ));
+        return Err(Error::coded(ErrorCode::NotMeasurable, "no frame is given; flicker needs one or more"));
     };
     for (frame, file) in frames.iter().zip(&request.frames) {
         frame.independent(file, 1)?;
@@ -132,9 +129,7 @@ fn one(
             None => {
                 let (low, high) = (rows.lowest_hz, rows.highest_hz);
                 let range = format!("from {low:.1} to {high:.0} Hz");
-                report.note(format!(
-                    "no bands over the rows {range} that are distinguishable from noise"
-                ));
+                report.note(format!("no bands over the rows {range} that are distinguishable from noise"));
             }
         }
         missing(rows.found.as_ref(), request, report);

@@ -111,7 +111,8 @@ impl CalibrationRequest {
 pub fn calibrate(request: &CalibrationRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let found = views.found(views.options(), observer)?;
-    let mut report = Report::new("calibrate", "camera calibration from views of a plane chart, least squares over all points");
+    let mut report =
+        Report::new("calibrate", "camera calibration from views of a plane chart, least squares over all points");
     found.add_to(&mut report, views);
     if let Some(pitch_um) = views.pixel_pitch_um.filter(|_| request.camera_keys) {
         report.camera(found.camera_file("calibrate", pitch_um, request.f_number)?);

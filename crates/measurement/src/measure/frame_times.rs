@@ -84,7 +84,10 @@ fn row_time_s(stated: &[StatedTiming], told: &mut Told) -> Option<f64> {
         StatedRows::Downwards { row_time_s } => Some(*row_time_s).filter(|s| *s > 0.0),
         StatedRows::Unknown | StatedRows::Together => None,
         StatedRows::Otherwise(why) => {
-            told.notes.push(format!("{}: {why}, which this measurement does not support; only frames are measured", told.side_car));
+            told.notes.push(format!(
+                "{}: {why}, which this measurement does not support; only frames are measured",
+                told.side_car
+            ));
             None
         }
     }

@@ -173,9 +173,9 @@ impl ChartInput {
     /// Reads the points of a list.
     fn listed(&self, file: &Path) -> Result<Seen, Error> {
         let told = self.told()?;
-        let size_px = self.size_px.ok_or_else(|| {
-            refused(file, "a list of points does not state the image size; add `size_px` WxH")
-        })?;
+        let size_px = self
+            .size_px
+            .ok_or_else(|| refused(file, "a list of points does not state the image size; add `size_px` WxH"))?;
         told.iter().try_for_each(|(truth, _)| truth.fits_size(file, size_px))?;
         if self.encoding.chosen.is_some() {
             return Err(refused(file, "a list of points has no readings; leave `encoding` out"));

@@ -237,7 +237,8 @@ fn in_colour(report: &mut Report, found: &ColourShading) {
     let [red, blue] = found.extremes();
     report.figure("red_percent", "red over green, largest deviation from the centre", "%", red.scaled(100.0));
     report.figure("blue_percent", "blue over green, largest deviation from the centre", "%", blue.scaled(100.0));
-    for (key, label, channel) in [("red", "minimum red", 0), ("green", "minimum green", 1), ("blue", "minimum blue", 2)] {
+    for (key, label, channel) in [("red", "minimum red", 0), ("green", "minimum green", 1), ("blue", "minimum blue", 2)]
+    {
         extreme(report, key, label, &found.channels[channel].map);
     }
     report.table(map("green_percent", &found.channels[1].map));

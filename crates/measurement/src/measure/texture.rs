@@ -196,7 +196,8 @@ pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     let points = measure_texture(&picture.image, &reference.image, even.as_ref().map(|e| &e.image), picture.full_scale);
     let found = points.map_err(|error| refused(&request.picture, error))?;
     let points = found.points;
-    let mut report = Report::new("texture", "response to a texture relative to its reference (± one standard uncertainty)");
+    let mut report =
+        Report::new("texture", "response to a texture relative to its reference (± one standard uncertainty)");
     [&picture.stated, &reference.stated].into_iter().for_each(|stated| report.encoding(stated));
     report.note_cut(&request.picture.display().to_string(), &picture.image, picture.full_scale);
     report.fact("shift_x_px", "shift of the image to the right of the reference, removed", "px", found.shift_px[0]);

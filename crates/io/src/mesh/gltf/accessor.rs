@@ -39,7 +39,10 @@ pub(super) fn numbers<const N: usize>(
             vec![[0.0; N]; count]
         }
         Some(view) => {
-            let view = root.buffer_views.get(view.value()).ok_or_else(|| message("refers to a buffer view that does not exist"))?;
+            let view = root
+                .buffer_views
+                .get(view.value())
+                .ok_or_else(|| message("refers to a buffer view that does not exist"))?;
             let bytes = buffers.view(view).map_err(|problem| message(&format!("refers to {problem}")))?;
             let stride = view.byte_stride.map_or(element, |stride| stride.0);
             let offset = accessor.byte_offset.unwrap_or_default().0;
@@ -55,7 +58,10 @@ pub(super) fn numbers<const N: usize>(
         };
         let many = usize::try_from(sparse.count.0).map_err(|_| message("is too long"))?;
         let part = |view: Index<gltf::json::buffer::View>, offset: u64, size: usize| {
-            let view = root.buffer_views.get(view.value()).ok_or_else(|| message("refers to a buffer view that does not exist"))?;
+            let view = root
+                .buffer_views
+                .get(view.value())
+                .ok_or_else(|| message("refers to a buffer view that does not exist"))?;
             let bytes = buffers.view(view).map_err(|problem| message(&format!("refers to {problem}")))?;
             elements(bytes, offset, size, size, many).ok_or_else(|| message("extends beyond its buffer view"))
         };

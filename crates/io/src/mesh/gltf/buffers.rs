@@ -29,7 +29,8 @@ impl Buffers {
                 let has = bytes.len();
                 return Err(format!(
                     "buffer {i} has {has} bytes, but {stated} are stated: it is truncated; export or copy it again"
-                ).into());
+                )
+                .into());
             }
             all.push(bytes);
             is_external.push(external);

@@ -129,8 +129,9 @@ impl Parts {
         for triangle in triangles(primitive, &corners) {
             let mut vertex = |corner: u64| -> Result<u32, Problem> {
                 let source = usize::try_from(corner).ok().filter(|i| *i < positions.len());
-                let source = source
-                    .ok_or_else(|| format!("index {corner} is out of range: the primitive has {} vertices", positions.len()))?;
+                let source = source.ok_or_else(|| {
+                    format!("index {corner} is out of range: the primitive has {} vertices", positions.len())
+                })?;
                 Ok(*places[source].get_or_insert_with(|| {
                     parts.sources.push(source);
                     (parts.sources.len() - 1) as u32 // no more than corners, which are counted

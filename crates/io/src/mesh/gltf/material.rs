@@ -238,8 +238,7 @@ impl Reader<'_, '_, '_> {
         match solid {
             None => self.notes.push("a thin pane: transmitted light is not blurred".to_owned()),
             Some(_) => self.notes.push(
-                "a solid of clear material: the mesh must be closed; the base colour does not tint it"
-                    .to_owned(),
+                "a solid of clear material: the mesh must be closed; the base colour does not tint it".to_owned(),
             ),
         }
         Ok(Some(SlotTransmission { share, index: self.index(), solid }))
@@ -309,7 +308,10 @@ impl Reader<'_, '_, '_> {
                     "{others} textures have other coordinates or transforms than the first; those of the first are used for all"
                 ),
             ),
-            (material.occlusion_texture.is_some(), "the occlusion texture is not used: occlusion is computed by ray tracing".to_owned()),
+            (
+                material.occlusion_texture.is_some(),
+                "the occlusion texture is not used: occlusion is computed by ray tracing".to_owned(),
+            ),
             (is_unlit, "unlit is not physical: the material is rendered as diffuse in its base colour".to_owned()),
             (is_metal && coated, "the clear coat or sheen over metal is not used".to_owned()),
             (

@@ -234,7 +234,10 @@ fn mover(
             if movers[parent].scale.is_some()
                 || (scales.max_element() - scales.min_element()).abs() > 1e-6 * scales.max_element()
             {
-                return Err("its parent changes size or is scaled non-uniformly; it does not move relative to its parent".into());
+                return Err(
+                    "its parent changes size or is scaled non-uniformly; it does not move relative to its parent"
+                        .into(),
+                );
             }
             to_file[movers[parent].node].inverse() * above
         }

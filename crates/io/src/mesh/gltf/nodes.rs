@@ -124,12 +124,9 @@ pub(super) fn joints(
         Some(index) => finite(numbers(root, buffers, index, "inverse bind matrices")?, "inverse bind matrix")?,
     };
     if bind.len() < record.joints.len() {
-        return Err(format!(
-            "skin {skin} has {} joints and {} inverse bind matrices",
-            record.joints.len(),
-            bind.len()
-        )
-        .into());
+        return Err(
+            format!("skin {skin} has {} joints and {} inverse bind matrices", record.joints.len(), bind.len()).into()
+        );
     }
     let joint = |(joint, bind): (&Index<_>, &[f64; 16])| {
         let place =
@@ -158,8 +155,9 @@ impl Weights {
 
     /// Transform from the bind pose to the file at a vertex: the weighted mean of the joints' transforms.
     pub(super) fn blend(&self, vertex: usize, joints: &[DAffine3]) -> Result<DAffine3, Problem> {
-        let told =
-            |problem: &str| Problem::from(format!("vertex {vertex} of a skinned mesh {problem}; export the file again"));
+        let told = |problem: &str| {
+            Problem::from(format!("vertex {vertex} of a skinned mesh {problem}; export the file again"))
+        };
         let (numbers, weights) =
             self.joints.get(vertex).zip(self.weights.get(vertex)).ok_or_else(|| told("has no joints"))?;
         let sum: f64 = weights.iter().sum();
@@ -168,7 +166,8 @@ impl Weights {
         }
         let mut blend = DAffine3::from_cols(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         for (number, weight) in numbers.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
-            let joint = joints.get(*number as usize).ok_or_else(|| told("refers to a joint that its skin does not have"))?;
+            let joint =
+                joints.get(*number as usize).ok_or_else(|| told("refers to a joint that its skin does not have"))?;
             blend.matrix3 += joint.matrix3 * (weight / sum);
             blend.translation += joint.translation * (weight / sum);
         }

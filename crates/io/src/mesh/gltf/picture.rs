@@ -156,8 +156,11 @@ impl<'a> Pictures<'a> {
         let (bytes, is_file) = match (&image.uri, image.buffer_view) {
             (Some(uri), _) => linked(self.file, uri, &what, self.sandbox)?,
             (None, Some(view)) => {
-                let view =
-                    self.root.buffer_views.get(view.value()).ok_or_else(|| format!("{what} refers to a buffer view that does not exist"))?;
+                let view = self
+                    .root
+                    .buffer_views
+                    .get(view.value())
+                    .ok_or_else(|| format!("{what} refers to a buffer view that does not exist"))?;
                 (self.buffers.view(view).map_err(|told| format!("{what} refers to {told}"))?.to_vec(), false)
             }
             (None, None) => return Err(format!("{what} has neither \"uri\" nor \"bufferView\"").into()),

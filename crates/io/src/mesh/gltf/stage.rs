@@ -154,7 +154,10 @@ fn kind_of(light: &Light) -> Result<GltfLightKind, Problem> {
             let most = std::f64::consts::FRAC_PI_2 + 1e-6;
             match inner_rad >= 0.0 && inner_rad < outer_rad && outer_rad <= most {
                 true => Ok(GltfLightKind::Spot { inner_rad, outer_rad }),
-                false => Err(format!("the cone angles are {inner_rad} and {outer_rad}; expected 0 ≤ inner < outer ≤ π/2").into()),
+                false => {
+                    Err(format!("the cone angles are {inner_rad} and {outer_rad}; expected 0 ≤ inner < outer ≤ π/2")
+                        .into())
+                }
             }
         }
         _ => Err("unknown type; expected directional, point, or spot with its angles".into()),

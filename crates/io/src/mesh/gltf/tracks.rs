@@ -67,7 +67,9 @@ pub(super) fn counted(before: u64, times: u64, interpolation: Interpolation) -> 
 pub(super) fn check_rotation(track: &GltfTrack<4>) -> Result<(), Problem> {
     let length = |q: [f64; 4]| q.iter().map(|v| v * v).sum::<f64>().sqrt();
     match track.values().position(|q| length(q) < GLTF_MIN_TURN) {
-        Some(key) => Err(format!("key {key} of its rotations is a quaternion of length 0; export the file again").into()),
+        Some(key) => {
+            Err(format!("key {key} of its rotations is a quaternion of length 0; export the file again").into())
+        }
         None => Ok(()),
     }
 }

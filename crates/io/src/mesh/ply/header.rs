@@ -125,8 +125,9 @@ impl Header {
         let [name, count] = words[..] else {
             return Err("expected `element NAME COUNT`".to_owned());
         };
-        let count =
-            count.parse().map_err(|_| format!("the element count is `{}`; expected a whole number of 0 or more", shortened(count)))?;
+        let count = count.parse().map_err(|_| {
+            format!("the element count is `{}`; expected a whole number of 0 or more", shortened(count))
+        })?;
         if self.find(name).is_some() {
             return Err(format!("the element `{}` is declared twice; export the mesh again", shortened(name)));
         }
@@ -136,13 +137,16 @@ impl Header {
 
     fn property(&mut self, words: Vec<&str>) -> Result<(), String> {
         const TYPES: &str = "char, uchar, short, ushort, int, uint, float, double, or int8 … float64";
-        let number =
-            |word: &str| Number::of(word).ok_or_else(|| format!("unknown type `{}`; expected {TYPES}", shortened(word)));
+        let number = |word: &str| {
+            Number::of(word).ok_or_else(|| format!("unknown type `{}`; expected {TYPES}", shortened(word)))
+        };
         let property = match words[..] {
             ["list", count, item, name] => {
                 let count = number(count)?;
                 if !count.is_whole() {
-                    return Err("the count type of a list is not an integer type; expected a type such as uchar".to_owned());
+                    return Err(
+                        "the count type of a list is not an integer type; expected a type such as uchar".to_owned()
+                    );
                 }
                 Property { name: name.to_owned(), number: number(item)?, count: Some(count) }
             }

@@ -57,8 +57,10 @@ impl<'a> Input<'a> {
             true => Ok(value),
             false => {
                 let hint = if self.encoding == Encoding::Text { "" } else { self.byte_order_hint() };
-                Err(format!("a number is not finite (NaN or infinity): correct the mesh in the modelling program{hint}")
-                    .into())
+                Err(format!(
+                    "a number is not finite (NaN or infinity): correct the mesh in the modelling program{hint}"
+                )
+                .into())
             }
         }
     }
@@ -107,8 +109,12 @@ impl<'a> Input<'a> {
     pub(super) fn byte_order_hint(&self) -> &'static str {
         match self.encoding {
             Encoding::Text => "; export or copy it again",
-            Encoding::Little => ", or its numbers are big-endian although the header states little-endian; export it again",
-            Encoding::Big => ", or its numbers are little-endian although the header states big-endian; export it again",
+            Encoding::Little => {
+                ", or its numbers are big-endian although the header states little-endian; export it again"
+            }
+            Encoding::Big => {
+                ", or its numbers are little-endian although the header states big-endian; export it again"
+            }
         }
     }
 

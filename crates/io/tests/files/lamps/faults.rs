@@ -94,10 +94,7 @@ fn faults_of_ies_files_are_told_with_their_lines() {
 fn a_fan_needs_a_width_and_angles_that_its_axes_have() {
     for (change, expected) in [
         (("\n-10 10\n", "\n-100 100\n"), None),
-        (
-            ("\n-10 10\n", "\n-190 10\n"),
-            Some("a.ies:9: the horizontal angle is -190°; expected -180° to 180°"),
-        ),
+        (("\n-10 10\n", "\n-190 10\n"), Some("a.ies:9: the horizontal angle is -190°; expected -180° to 180°")),
         (("-5 0 5\n", "-95 0 5\n"), Some("a.ies:8: the vertical angle is -95°; expected -90° to 90°")),
     ] {
         let found = read_bytes("a.ies", head_lamp().replacen(change.0, change.1, 1).as_bytes());
@@ -149,7 +146,11 @@ fn faults_of_eulumdat_files_are_told_with_their_lines() {
         (29, "", "a.ldt:29: found \"\"; expected the total lumens of the lamps: a number"),
         (44, "0", "a.ldt:44: C angle 2 of 4 is 0° and follows 0°: sort the angles in increasing order"),
         (46, "400", "a.ldt:46: the C angle is 400°; expected 0° to 360°"),
-        (44, "80", "a.ldt:46: a light of symmetry 4 contains the planes from C0 to C90; expected them at these positions among 4 planes"),
+        (
+            44,
+            "80",
+            "a.ldt:46: a light of symmetry 4 contains the planes from C0 to C90; expected them at these positions among 4 planes",
+        ),
         (48, "0", "a.ldt:48: vertical angle 2 of 3 is 0° and follows 0°: sort the angles in increasing order"),
         (50, "-1", "a.ldt:50: the intensity is -1; expected 0 or more"),
         (50, "1 1", "a.ldt:55: found \"160\" and 0 more values after the last intensity; expected the end of the file"),

@@ -196,7 +196,9 @@ fn the_flux_is_told_where_it_is_not_what_is_rated() {
     );
     let absurd = of(400.0).expect_err("more than three times");
     assert!(
-        absurd.starts_with("lamp.ies: the flux from the intensities is 1256.6371 lm, that from the lumens of the lamps 400.0000 lm"),
+        absurd.starts_with(
+            "lamp.ies: the flux from the intensities is 1256.6371 lm, that from the lumens of the lamps 400.0000 lm"
+        ),
         "{absurd}"
     );
     assert!(

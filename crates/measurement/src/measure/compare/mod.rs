@@ -91,7 +91,10 @@ fn family(kind: &str) -> &str {
 
 fn contradictions(a: &Side, b: &Side) -> Result<(), String> {
     if family(&a.kind) != family(&b.kind) {
-        return Err(format!("measurements of different kinds, {} and {}; expected two of the same kind", a.kind, b.kind));
+        return Err(format!(
+            "measurements of different kinds, {} and {}; expected two of the same kind",
+            a.kind, b.kind
+        ));
     }
     for (key, of_a) in &a.settings {
         if let Some(of_b) = b.settings.get(key).filter(|of_b| *of_b != of_a) {

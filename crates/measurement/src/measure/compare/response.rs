@@ -56,8 +56,7 @@ fn in_closed_form(body: &CameraBody) -> Result<(), String> {
     }
     match body.effects.psf() {
         Some(PointSpread::Aperture(psf)) if !is_plain(psf.parameters()) => {
-            Err("the response of this pupil has no closed form; expected a circle without wavefront errors"
-                .to_owned())
+            Err("the response of this pupil has no closed form; expected a circle without wavefront errors".to_owned())
         }
         _ => Ok(()),
     }

@@ -30,7 +30,8 @@ pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result
         (false, true) => measurement(a).and_then(|a| Ok([a.clone(), declaration(b, &a)?])),
         (false, false) => {
             if light.wavelength_nm.is_some() || light.illuminant.is_some() || !set.is_empty() {
-                let told = "`wavelength_nm`, `illuminant` and `set` apply to camera files only, and neither side is one";
+                let told =
+                    "`wavelength_nm`, `illuminant` and `set` apply to camera files only, and neither side is one";
                 return Err(Error::argument("wavelength_nm", told));
             }
             Ok([measurement(a)?, measurement(b)?])

@@ -112,24 +112,29 @@ impl<'a> Tone<'a> {
         let even_s = sensor.parameters().even_smear_s(body.raster.height());
         let smear_s = even_s * of_column(sensor, development, measured, light)?;
         if smear_s > 0.0 && measured.settings.get("exposure_unit").is_some_and(|unit| !unit.is_empty()) {
-            return Err("the camera has smear, which depends on time; give the exposures in seconds (`exposures`)"
-                .to_owned());
+            return Err(
+                "the camera has smear, which depends on time; give the exposures in seconds (`exposures`)".to_owned()
+            );
         }
         match measured.settings.get("readings").map_or("", String::as_str) {
             "raw" if sensor.parameters().read_out.response == Response::Linear => {
                 Ok(Self { black: sensor.black_level_dn(), white: sensor.white_level_dn(), smear_s, development: None })
             }
-            "raw" => Err("the sensor's response is not linear; for raw readings only a linear response can be compared".to_owned()),
+            "raw" => {
+                Err("the sensor's response is not linear; for raw readings only a linear response can be compared"
+                    .to_owned())
+            }
             "picture" => {
-                let development =
-                    body.development.as_ref().ok_or("the camera has no [isp], to which a developed image would be compared")?;
+                let development = body
+                    .development
+                    .as_ref()
+                    .ok_or("the camera has no [isp], to which a developed image would be compared")?;
                 let largest =
                     measured.quantities.get("full_scale").ok_or("the measurement does not state its full scale")?;
                 Ok(Self { black: 0.0, white: largest.value, smear_s, development: Some(development) })
             }
             "decoded" => {
-                Err("the measured readings were decoded (`encoding`), which removed the camera's curve"
-                    .to_owned())
+                Err("the measured readings were decoded (`encoding`), which removed the camera's curve".to_owned())
             }
             _ => {
                 Err("the measurement does not state whether its readings are raw or developed; repeat the measurement"
@@ -161,7 +166,10 @@ impl<'a> Tone<'a> {
         let along: f64 = used().map(|(x, y)| (x + self.smear_s) * self.light(y.value)).sum();
         let squares: f64 = used().map(|(x, _)| (x + self.smear_s) * (x + self.smear_s)).sum();
         if squares <= 0.0 {
-            return Err("no exposure reads between 5 % and 95 % of the range, so the shape of the curve is not determined".to_owned());
+            return Err(
+                "no exposure reads between 5 % and 95 % of the range, so the shape of the curve is not determined"
+                    .to_owned(),
+            );
         }
         let point = |(x, _): &(f64, Estimate)| {
             let noise = measured.noise.iter().find(|(there, _)| there == x).map_or(0.0, |(_, noise)| *noise);

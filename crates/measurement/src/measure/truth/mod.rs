@@ -61,7 +61,10 @@ impl Truth {
         let refused = |what: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {what}", file.display()));
         if !charts.contains(&said.chart.as_str()) {
             let wanted = charts.join(", ");
-            return Err(refused(format!("ground truth of the chart {}; this measurement accepts {wanted}", said.chart)));
+            return Err(refused(format!(
+                "ground truth of the chart {}; this measurement accepts {wanted}",
+                said.chart
+            )));
         }
         let named = |c: &CameraSaid| camera.is_none_or(|name| c.name == name) && (camera.is_some() || !c.dark);
         let camera = said.cameras.iter().position(named).ok_or_else(|| {
@@ -94,7 +97,8 @@ impl Truth {
         if (width, height) == (columns, rows) {
             return Ok(());
         }
-        let changed = if (height, width) == (columns, rows) { "cropped, scaled or rotated by 90°" } else { "cropped or scaled" };
+        let changed =
+            if (height, width) == (columns, rows) { "cropped, scaled or rotated by 90°" } else { "cropped or scaled" };
         Err(Error::coded(
             ErrorCode::NotComparable,
             format!(
@@ -125,7 +129,8 @@ impl Truth {
         match self.said.seen.fills_the_field {
             true => Ok(()),
             false => {
-                Err(self.refused("the sheet does not fill the camera's view; measure a `region` of it, without `truth`"))
+                Err(self
+                    .refused("the sheet does not fill the camera's view; measure a `region` of it, without `truth`"))
             }
         }
     }

@@ -86,7 +86,10 @@ pub(crate) fn read(file: &Path) -> Result<Said, Error> {
     let refused = |cause: serde_json::Error| {
         Error::coded(
             ErrorCode::MalformedFile,
-            format!("{}: not the ground truth of a chart ({cause}); expected a truth.json of etendue chart", file.display()),
+            format!(
+                "{}: not the ground truth of a chart ({cause}); expected a truth.json of etendue chart",
+                file.display()
+            ),
         )
     };
     let said: Said = serde_json::from_str(&text).map_err(refused)?;

@@ -204,8 +204,9 @@ impl Found {
     /// # Errors
     /// If the camera folds over inside its image.
     pub(crate) fn camera_file(&self, verb: &str, pixel_pitch_um: f64, f_number: Option<f64>) -> Result<String, Error> {
-        let refused =
-            |folds| Error::coded(ErrorCode::UnusableLens, format!("no camera file can be written, only figures: {folds}"));
+        let refused = |folds| {
+            Error::coded(ErrorCode::UnusableLens, format!("no camera file can be written, only figures: {folds}"))
+        };
         self.camera.calibration.check().map_err(refused)?;
         let [width, height] = self.camera.calibration.size_px().map(|n| n as u64);
         let view = View::Projection(Box::new(stated_projection(&self.camera.calibration)));

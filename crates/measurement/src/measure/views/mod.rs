@@ -85,8 +85,11 @@ impl ViewsRequest {
     /// As stated, or from the ground truth.
     fn pitch_mm(&self) -> Result<f64, Error> {
         let told = || {
-            Error::argument("pitch_mm", "`pitch_mm`: not given; state the distance between neighbouring points, or give `truth`")
-                .with_code(ErrorCode::NotStated)
+            Error::argument(
+                "pitch_mm",
+                "`pitch_mm`: not given; state the distance between neighbouring points, or give `truth`",
+            )
+            .with_code(ErrorCode::NotStated)
         };
         Ok(match self.pitch_mm {
             Some(pitch) => pitch,
