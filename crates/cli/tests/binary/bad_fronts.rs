@@ -44,13 +44,13 @@ fn glass_that_the_camera_cannot_look_through() {
     plan(&format!("{GLASS}reference_thickness_mm = 4"), "").refused(&["camera.toml:12", "no effect"]);
     plan(&format!("{GLASS}double_image = false\ndouble_image_sample_fraction = 0.5"), "").refused(&["no effect"]);
     plan(&format!("{GLASS}internal_transmittance = 0"), "").refused(&["camera.toml:10", "internal_transmittance"]);
-    plan("[external_optics]", "").refused(&["camera.toml:10", "nothing stands in front"]);
+    plan("[external_optics]", "").refused(&["camera.toml:10", "there is nothing in front"]);
     let both = format!("{GLASS}{SPHERE}distance_mm = 50");
     let dirt = "[external_optics.dirt]\nmask = \"m.png\"\nsize_mm = [90, 90]\ndistance_mm = 101\n";
     plan(&format!("{GLASS}{dirt}"), "").refused(&[
         "camera.toml:15",
         "external_optics.dirt.distance_mm",
-        "beyond the wind-screen",
+        "beyond the windscreen;",
     ]);
     plan(dirt, "").refused(&["camera.toml:11", "m.png"]);
     plan(&both, "").refused(&["camera.toml:12", "not modelled", "keep one"]);
@@ -76,7 +76,7 @@ fn drops_that_cannot_lie_on_the_glass() {
     assert!(fine.contains("water drops on the windscreen") && fine.contains("40 of 0.5 to 2 mm radius"), "{fine}");
     plan(&format!("{DROPS}count_per_dm2 = 100"), "").ok();
     refused("", &["camera.toml:12", "external_optics.windscreen.drops", "count"]);
-    refused("count = 0", &["camera.toml:16", "drops.count", "none arrive"]);
+    refused("count = 0", &["camera.toml:16", "drops.count", "none are added"]);
     refused("count = 4\ncount_per_dm2 = 4", &["camera.toml:1", "count_per_dm2"]);
     refused("count_per_dm2 = 0.1", &["camera.toml:16", "count_per_dm2", "0.054 drops"]);
     refused("count = 4\ncontact_angle_deg = 4", &["camera.toml:17", "contact_angle_deg"]);

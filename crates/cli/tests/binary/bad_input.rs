@@ -88,7 +88,7 @@ fn a_job_that_is_not_there() {
 
 #[test]
 fn text_that_is_not_toml() {
-    job_refused("spp = 8", "spp = = 8", &["not TOML"]);
+    job_refused("spp = 8", "spp = = 8", &["invalid TOML"]);
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn a_spectrum_that_is_no_table() {
     let place = spoilt.spoil("small.toml", "[0.05, 0.2, 0.6]", "{ spectrum = \"paint.csv\" }");
     spoilt.render(&[]).refused(&["paint.csv", "paint.csv:3", "lots", &place]);
     spoilt.write("paint.csv", "wavelength_nm,value\n400,0.1\n500,1.5\n");
-    spoilt.render(&[]).refused(&["small.toml:", "scene.materials.paint", "1.5", "between 0 and 1"]);
+    spoilt.render(&[]).refused(&["small.toml:", "scene.materials.paint", "1.5", "from 0 to 1"]);
 }
 
 #[test]

@@ -128,5 +128,5 @@ fn light_that_turns_out_not_to_be_finite_is_not_delivered() {
     spoilt.write("small.toml", NEAR);
     let ran = spoilt.render(&[]);
     assert_eq!(ran.status, 1, "{ran:?}");
-    ran.says(&["camera eye", "not finite numbers", "nothing is delivered"]);
+    ran.says(&["camera eye", "not finite", "no results are written"]);
 }

@@ -141,8 +141,8 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     let merge = |folders: &[&str]| etendue(["merge", "-o", &text(&output)].iter().chain(folders));
     merge(&[&a]).refused(&["1 of 2 shards"]);
     merge(&[&b]).refused(&["shard 0 of 2 is missing"]);
-    merge(&[&a, &a]).refused(&["given twice"]);
-    merge(&[&a, &b, &b]).refused(&["given twice"]);
+    merge(&[&a, &a]).refused(&["twice"]);
+    merge(&[&a, &b, &b]).refused(&["twice"]);
     merge(&[&a, &other]).refused(&["other", "another run"]);
     merge(&[&a, &tiles]).refused(&["tiles", "another run"]);
     merge(&[&a, &narrowed]).refused(&["narrowed", "another run"]);
@@ -150,7 +150,7 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     fs::write(place.path().join("b/front.film.exr"), b"no film").expect("written");
     merge(&[&a, &b]).refused(&["front.film.exr"]);
     fs::write(place.path().join("b/shard.json"), b"{}").expect("written");
-    merge(&[&a, &b]).refused(&["shard.json", "no shard manifest"]);
+    merge(&[&a, &b]).refused(&["shard.json", "not a shard manifest"]);
     assert!(!output.exists());
 }
 
@@ -231,8 +231,8 @@ fn films_that_are_not_complete_or_not_finite_are_not_merged() {
     refused(&float("weight", f32::NAN), "not finite");
     refused(&float("band.0000.mean", f32::INFINITY), "not finite");
     refused(&float("band.0000.variance", -1.0), "variances below 0");
-    refused(&count("samples", |_| 0), "it is not complete");
-    refused(&count("samples", |_| 4), "it is of another shard");
+    refused(&count("samples", |_| 0), "it is incomplete");
+    refused(&count("samples", |_| 4), "it belongs to another shard");
     refused(&count("not_finite", |_| 1), "not finite");
     with_changed_numbers(&film, |_, _| {});
     assert!(!output.exists());

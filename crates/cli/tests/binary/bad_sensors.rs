@@ -38,7 +38,7 @@ fn a_table_of_efficiencies_above_all() {
         let spoilt = Spoilt::new();
         spoilt.write("efficiency.csv", table);
         let place = spoilt.spoil("small.toml", EFFICIENCY, "quantum_efficiency = { spectrum = \"efficiency.csv\" }");
-        refused(&spoilt, &place, 0, &["cameras.front.sensor.quantum_efficiency", phrase, "550 nm", "between 0 and 1"]);
+        refused(&spoilt, &place, 0, &["cameras.front.sensor.quantum_efficiency", phrase, "550 nm", "from 0 to 1"]);
     }
 }
 

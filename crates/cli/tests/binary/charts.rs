@@ -325,5 +325,5 @@ fn a_wrong_key_of_a_chart_gives_the_error_of_its_job() {
     // The chart sets the exposures of a series.
     let series = ["chart", "flat-field", "--exposures", "3", "--camera", "ccd-mono", "-o", &out];
     etendue(series.iter().chain(&["--set", "cameras.exposure-01.sensor.exposure_s=0.005"]))
-        .refused(&["cameras.exposure-01.sensor.exposure_s=0.005", "the exposures of a series are set by the chart"]);
+        .refused(&["cameras.exposure-01.sensor.exposure_s=0.005", "the chart sets the exposures of a series"]);
 }

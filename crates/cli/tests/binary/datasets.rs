@@ -219,7 +219,7 @@ fn bad_variations_are_refused_where_they_stand() {
     let uniform = "type = \"uniform\"\nmin = 1\nmax = 2";
     let exposure = "cameras.front.sensor.exposure_s";
     for (file, phrases) in [
-        ("format = 1\nseed = 3\n".to_owned(), &["variations.toml:1:1", "names no key that varies", "[[vary]]"][..]),
+        ("format = 1\nseed = 3\n".to_owned(), &["variations.toml:1:1", "file varies no key", "[[vary]]"][..]),
         ("format = 1\nvary = []\n".to_owned(), &["variations.toml:2:8: vary", "a list of 1 or more"]),
         (format!("format = 1\n[[vary]]\n{uniform}\n"), &["variations.toml:2:1", "the key \"key\" is missing"]),
         (

@@ -215,8 +215,8 @@ fn raws_that_contradict_their_camera_are_refused() {
     let shots = Shots::taken();
     let (bayer, hdr) = ("out/bayer/raw.0000.dng", "out/hdr/raw.0000.png");
     let sidecar = shots.path("out/bayer/camera.json");
-    shots.refused(&[bayer], "mono.toml", &[], &[bayer, "red green green blue", "mono", "the camera that took it"]);
-    shots.refused(&[hdr], "bayer.toml", &[], &[hdr, "companding", "the camera that took it"]);
+    shots.refused(&[bayer], "mono.toml", &[], &[bayer, "red green green blue", "mono", "the camera that captured it"]);
+    shots.refused(&[hdr], "bayer.toml", &[], &[hdr, "companding", "the camera that captured it"]);
     shots.refused(&[bayer], "bayer.toml", &["--set", "sensor.width_px=40"], &[bayer, "32 × 24", "40 × 24"]);
     shots.refused(&[bayer, bayer], "bayer.toml", &[], &[bayer, "another raw is frame 0"]);
     shots.refused(&["out/bayer/camera.json"], "bayer.toml", &[], &["camera.json", "not a picture"]);
@@ -234,8 +234,8 @@ fn raws_that_contradict_their_camera_are_refused() {
         fs::write(&sidecar, text).expect("written");
         shots.refused(&[raw], "bayer.toml", &[], &[&[raw], phrases].concat());
     };
-    spoilt("\"raw\": \"raw.0001.dng\"", "\"raw\": null", &["former version", "render again"]);
-    spoilt("\"bits\": 12", "\"bits\": 8", &["bits", "the camera that took it"]);
+    spoilt("\"raw\": \"raw.0001.dng\"", "\"raw\": null", &["earlier version", "render again"]);
+    spoilt("\"bits\": 12", "\"bits\": 8", &["bits", "the camera that captured it"]);
     spoilt("\"white_level_dn\": 4024.0", "\"white_level_dn\": 64.0", &["white must be above black"]);
     spoilt("        32,\n        24\n", "        32,\n        25\n", &["32 × 25 pixels at column 0", "32 × 24"]);
 }

@@ -125,7 +125,7 @@ fn an_import_says_what_became_of_what() {
     file["scenes"] = json!([{ "nodes": [0] }]);
     fs::remove_dir_all(place.path().join("made")).expect("removed");
     let told = imported(place.path(), &file).ok();
-    assert!(told.err.contains("it has no light") && told.err.contains("\"view\" is ours"), "{}", told.err);
+    assert!(told.err.contains("it has no light") && told.err.contains("\"view\" is added"), "{}", told.err);
     etendue(["plan", &text(&place.path().join("made/job.toml"))]).ok();
 }
 

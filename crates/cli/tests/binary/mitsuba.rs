@@ -213,7 +213,7 @@ fn what_is_not_understood_is_said_and_the_rest_is_a_scene() {
         "shape \"sphere\": \"wobble\" is not used (a.xml:3)",
         "the emitter \"sunsky\" is not supported and left out (a.xml:4)",
         "facets of a \"roughplastic\" after Beckmann are GGX's of the same α",
-        "it has no camera that is read",
+        "it has no supported camera",
     ] {
         assert!(told.contains(phrase), "{phrase}: {told}");
     }
@@ -229,11 +229,11 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
         ("<shape type=\"sphere\"><float name=\"radius\" value=\"wide\"/></shape>", "expected a number, found \"wide\""),
         (
             "<bsdf type=\"mask\" id=\"m\"><ref id=\"m\"/></bsdf><shape type=\"disk\"><ref id=\"m\"/></shape>",
-            "or in a circle",
+            "or form a cycle",
         ),
         (
             "<shape type=\"shapegroup\" id=\"g\"><shape type=\"instance\"><ref id=\"g\"/></shape></shape><shape type=\"instance\"><ref id=\"g\"/></shape>",
-            "within an instance, which Mitsuba does not allow",
+            "is in an instance, which Mitsuba does not allow",
         ),
         ("<shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/></shape>", "none.obj"),
         ("<bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"a\"/>", "a second element is called \"a\""),
@@ -254,7 +254,7 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
         (
             "<spectrum type=\"srgb\" id=\"s\"><ref name=\"color\" id=\"s\"/></spectrum>\
              <emitter type=\"constant\"><ref name=\"radiance\" id=\"s\"/></emitter>",
-            "with another such",
+            "cannot have another wrapper",
         ),
     ] {
         let (place, ran) = imported(body);
@@ -274,7 +274,7 @@ fn lights_without_a_surface_are_black_and_blends_of_blends_are_quick() {
     };
     let blends: String = (0..40).map(blend).collect();
     let deep = format!("<bsdf type=\"diffuse\" id=\"w\"/>{blends}<shape type=\"disk\"><ref id=\"b39\"/></shape>");
-    imported(&deep).1.refused(&["surfaces stand more than"]);
+    imported(&deep).1.refused(&["surfaces are nested more than"]);
     let (place, ran) = imported(
         "<shape type=\"sphere\"><emitter type=\"area\"/></shape>\n<shape type=\"disk\"><emitter type=\"area\"/></shape>\n\
          <shape type=\"sphere\"><bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"BK7\"/></bsdf></shape>\
@@ -320,5 +320,5 @@ fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
     refused(&file, &["-Dr=1", "-Dr=2"], &["a.xml: ", "two values"]);
     refused(&file, &["-Dr=wide"], &["a.xml:2: ", "expected a number, found \"wide\""]);
     refused(&file, &["-Dr"], &["NAME=VALUE"]);
-    refused(&root().join("scenes/import/box.pbrt"), &["-Dr=1"], &["box.pbrt: ", "only scenes of Mitsuba"]);
+    refused(&root().join("scenes/import/box.pbrt"), &["-Dr=1"], &["box.pbrt: ", "only Mitsuba scenes"]);
 }

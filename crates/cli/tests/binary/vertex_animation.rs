@@ -104,7 +104,7 @@ fn animations_that_are_none() {
     let refused = |animation: &str, phrases: &[&str]| Bending::new(animation).refused(phrases);
     refused("files = \"sheet-%d.obj\", count = 1, rate_hz = 12", &["count", "found 1", "2"]);
     refused("files = \"sheet-%d.obj\", count = 3, rate_hz = 0", &["rate_hz", "found 0", "above 0"]);
-    refused("files = \"sheet-0.obj\", count = 3, rate_hz = 5", &["files", "where the number of a file stands", "%03d"]);
+    refused("files = \"sheet-0.obj\", count = 3, rate_hz = 5", &["files", "placeholder for the file number", "%03d"]);
     refused("files = \"sheet-%d.obj\", count = 3", &["a key is missing", "\"rate_hz\", \"times_s\""]);
     refused(
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.3, 0.2]",

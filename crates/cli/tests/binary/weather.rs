@@ -37,7 +37,7 @@ fn a_place_of_what_is_everywhere() {
     refused(
         "shape = { type = \"layer\", top_m = 60 }",
         "position_m = [0, 0, 1]",
-        &["position_m", "the medium is everywhere", "give a \"shape\" with bounds"],
+        &["position_m", "the medium is unbounded", "give a \"shape\" with bounds"],
     );
 }
 

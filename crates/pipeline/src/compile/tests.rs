@@ -236,7 +236,7 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     assert!(said.contains("effects.margin") && said.contains("no effect"), "{said}");
     let said = fault("glare = { scatter = 0.7, core_um = 10, exponent = 3 }", "");
     assert!(said.contains("scatter") && said.contains("at most 0.5"), "{said}");
-    assert!(fault("", "").contains("describes no effect"));
+    assert!(fault("", "").contains("contains no effect"));
     // The distortion folds outside the image, within a margin of its own width.
     let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
     assert!(plan.remarks.iter().any(|r| r.text.contains("which the effects use, is missing")), "{:?}", plan.remarks);

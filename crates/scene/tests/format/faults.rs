@@ -409,7 +409,7 @@ fn light_that_says_too_little_or_too_much() {
         faults_of("type = \"diffuse\"\nreflectance = 0.18", &format!("type = \"emitter\"\n{emission}"))
     };
     assert!(emitter("").contains("scene.materials.grey: an \"emitter\" without \"emission\" is black"));
-    assert!(emitter("emission = { luminance_cd_m2 = 1 }").contains("does not say the colour of the light"));
+    assert!(emitter("emission = { luminance_cd_m2 = 1 }").contains("does not state the colour of the light"));
     assert!(emitter("emission = { radiance_w_m2_sr_nm = 1, temperature_k = 3000 }").contains("contradicts it"));
     assert!(emitter("emission = { luminance_cd_m2 = 1, rgb = [0, 0, 0] }").contains("no chromaticity"));
     assert_eq!(emitter("emission = { radiance_w_m2_sr_nm = 1, sides = \"both\" }"), "");
